@@ -13,6 +13,7 @@ mod cameras;
 mod instruments;
 mod leaves;
 mod measured;
+mod objects;
 mod refused;
 mod scatter;
 mod schema;

@@ -58,6 +58,7 @@ pub use self::one_leaf::{LeafFile, LeafNotChosen, load_one_leaf};
 pub use self::pigments::pigments;
 pub use self::plant::{plant, plant_preset, usual_plant};
 pub use self::presets::{colour_preset, leaf_preset};
+pub use self::senescence::DAYS;
 pub use self::solid::{held_contents, solid, usual_solid};
 use crate::document::assets::Assets;
 use crate::document::context::Context;

@@ -14,13 +14,14 @@
 //! - **Always true**: the foot of each petiole lies within its axis; neighbours on an axis are
 //!   different individuals; axes that climb lie on the wall; same plan and seed, same plant, bit for
 //!   bit.
-//! - **Left out**: compound leaves, petioles and what the weather did to a blade are in nobody's way;
+//! - **Left out**: relief of bark is in nobody's way, nor is a wall in its; compound leaves, petioles and what the weather did to a blade are in nobody's way;
 //!   leaves that find no free place cut others; wood does not bend under the weight of leaves.
 //!
 //! The plant's frame: the foot of its main axis is the origin, z is up. Lengths are millimetres.
 
 mod apart;
 mod axis;
+mod bark;
 mod bearing;
 mod check;
 mod climbing;
@@ -37,6 +38,7 @@ mod turned;
 use glam::{DAffine3, DVec3};
 use thiserror::Error;
 
+pub use self::bark::BarkRelief;
 pub use self::climbing::{Climbing, Wall};
 pub use self::flower::FlowerPlan;
 pub use self::foot::{Foot, NotBorne};
@@ -70,6 +72,8 @@ pub struct PlantPlan {
     pub stems: Stems,
     /// Whether axes are green and soft instead of bark.
     pub is_green: bool,
+    /// The relief of its axes; none if they are smooth.
+    pub relief: Option<BarkRelief>,
     /// The flower at the tip of each stem.
     pub flower: Option<FlowerPlan>,
     /// How it climbs; none if its axes stand free.

@@ -8,8 +8,8 @@ use crate::document::value_kind::{
 };
 use crate::plant::presets::PRESETS;
 use crate::plant::{
-    AxisPlan, Branching, Buds, Climbing, FlowerPlan, Phyllotaxis, PlantError, PlantPlan, Posture,
-    PotPlan, Stems,
+    AxisPlan, BarkRelief, Branching, Buds, Climbing, FlowerPlan, Phyllotaxis, PlantError,
+    PlantPlan, Posture, PotPlan, Stems,
 };
 
 const SHARE: Limits = Limits::closed(0.0, 1.0);
@@ -77,6 +77,14 @@ pub fn plant(plan: &mut PlantPlan, keys: &mut Keys<'_>) {
     keys.block("stems", about, |keys| stems(&mut plan.stems, keys));
     let about = "Whether its axes are green and soft instead of bark.";
     keys.key("green", &mut plan.is_green, Flag, about);
+    let about = "The relief of its axes; left out, they are smooth.";
+    keys.optional_block(
+        "relief",
+        &mut plan.relief,
+        || BarkRelief::USUAL,
+        about,
+        relief,
+    );
     let about = "A flower at the tip of each stem.";
     keys.optional_block(
         "flower",
@@ -115,6 +123,42 @@ pub fn plant(plan: &mut PlantPlan, keys: &mut Keys<'_>) {
             | PlantError::NotBorne(_) => (&["nodes"], "choose another"),
         };
         keys.refuse(path, error.to_string(), help);
+    }
+}
+
+fn relief(relief: &mut BarkRelief, keys: &mut Keys<'_>) {
+    let limits = Number(Limits::closed(0.0, 20.0));
+    let about = "Height of the ridges along an axis over the furrows between them.";
+    keys.key("ridges_mm", &mut relief.ridges_mm, limits, about);
+    let limits = Number(Limits::closed(0.1, 100.0));
+    let about = "Distance from ridge to ridge around the thickest part of an axis; they are eight times as long.";
+    keys.key("ridge_width_mm", &mut relief.ridge_width_mm, limits, about);
+    let limits = Number(Limits::closed(0.0, 200.0));
+    let about = "Lenticels, the pores of bark, on a square centimetre.";
+    keys.key(
+        "lenticels_per_cm2",
+        &mut relief.lenticels_per_cm2,
+        limits,
+        about,
+    );
+    let limits = Numbers::<2>(Limits::closed(0.1, 50.0));
+    let about = "Their lengths across and along the axis.";
+    keys.key("lenticel_mm", &mut relief.lenticel_mm, limits, about);
+    let limits = Number(Limits::closed(0.0, 5.0));
+    let about = "Their height.";
+    keys.key(
+        "lenticel_height_mm",
+        &mut relief.lenticel_height_mm,
+        limits,
+        about,
+    );
+    let limits = Number(Limits::closed(0.02, 20.0));
+    let about = "About the longest edge of the mesh along and around an axis.";
+    keys.key("edge_mm", &mut relief.edge_mm, limits, about);
+    if keys.is_sound() && relief.is_crowded() {
+        let problem = "so many of that size would cover all of the bark".to_owned();
+        let help = "use fewer, or smaller ones by `lenticel_mm`";
+        keys.refuse(&["lenticels_per_cm2"], problem, help);
     }
 }
 

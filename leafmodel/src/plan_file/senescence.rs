@@ -9,6 +9,9 @@ use crate::document::keys::Keys;
 use crate::document::limits::Limits;
 use crate::document::value_kind::{Integer, Number, Word};
 
+/// Days for which a leaf may have aged.
+pub const DAYS: Limits = Limits::closed(0.0, Senescence::LATEST_DAY);
+
 /// Width of the transition from living to dead where nothing is said.
 const BLEND: f64 = 0.08;
 /// Days from living to dead where nothing is said.
@@ -82,7 +85,7 @@ fn by_days(value: &mut Senescence, keys: &mut Keys<'_>, has_day: bool) {
         }
     };
     if has_day {
-        let limits = Number(Limits::closed(0.0, 1e4));
+        let limits = Number(DAYS);
         let about = "Since the leaf began to age where it does first; at 0 it has not.";
         keys.required("day", &mut day, limits, about);
     }

@@ -4,6 +4,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::apart::{Standing, Wood, keep_apart};
 use super::axis::{Axis, Node, Start};
+use super::bark::AxisRelief;
 use super::climbing::Wall;
 use super::posture::Stand;
 use super::stems::stem_of;
@@ -115,7 +116,7 @@ impl Builder<'_> {
         };
         self.axes += 1;
         let axis = plan.grown(&start);
-        self.tube(&axis.points, &axis.radii)?;
+        self.wooden(&axis, start.number)?;
         for (ends, radii) in axis.points.windows(2).zip(axis.radii.windows(2)) {
             self.wood.push(Wood {
                 ends: [ends[0], ends[1]],
@@ -392,8 +393,31 @@ impl Builder<'_> {
         self.tube(&points, &radii)
     }
 
+    /// The body of an axis of this number.
+    fn wooden(&mut self, axis: &Axis, number: u64) -> Result<(), PlantError> {
+        let Some(relief) = self.plan.relief else {
+            return self.tube(&axis.points, &axis.radii);
+        };
+        let length: f64 = axis.points.windows(2).map(|p| p[0].distance(p[1])).sum();
+        let widest = axis.radii.iter().copied().fold(0.0, f64::max);
+        let around = std::f64::consts::TAU * widest / relief.edge_mm;
+        // With those of both ends.
+        let vertices = around * (length / relief.edge_mm + 0.5 * around);
+        if vertices > MOST_VERTICES as f64 {
+            return Err(PlantError::TooLarge);
+        }
+        let own = AxisRelief::new(relief, (self.plan.seed, number), (length, widest));
+        let height = |way, turn, radius| own.height(way, turn, radius);
+        let tube = StalkMesh::raised(&axis.points, &axis.radii, relief.edge_mm, height)?;
+        self.add(tube)
+    }
+
     fn tube(&mut self, points: &[DVec3], radii: &[f64]) -> Result<(), PlantError> {
-        self.plant.axes.append(StalkMesh::tube(points, radii)?);
+        self.add(StalkMesh::tube(points, radii)?)
+    }
+
+    fn add(&mut self, tube: StalkMesh) -> Result<(), PlantError> {
+        self.plant.axes.append(tube);
         if self.plant.axes.positions.len() > MOST_VERTICES {
             return Err(PlantError::TooLarge);
         }

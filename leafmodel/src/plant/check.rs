@@ -109,6 +109,26 @@ impl PlantPlan {
                 range,
             })
         };
+        if let Some(relief) = &self.relief {
+            within("relief.ridges_mm", relief.ridges_mm, [0.0, 20.0], "0 to 20")?;
+            let width = relief.ridge_width_mm;
+            within("relief.ridge_width_mm", width, [0.1, 100.0], "0.1 to 100")?;
+            let many = relief.lenticels_per_cm2;
+            within("relief.lenticels_per_cm2", many, [0.0, 200.0], "0 to 200")?;
+            for length in relief.lenticel_mm {
+                within("relief.lenticel_mm", length, [0.1, 50.0], "0.1 to 50")?;
+            }
+            let height = relief.lenticel_height_mm;
+            within("relief.lenticel_height_mm", height, [0.0, 5.0], "0 to 5")?;
+            within("relief.edge_mm", relief.edge_mm, [0.02, 20.0], "0.02 to 20")?;
+            if relief.is_crowded() {
+                return Err(PlantError::OutOfRange {
+                    field: "relief.lenticels_per_cm2",
+                    value: many,
+                    range: "so few that they leave some bark free",
+                });
+            }
+        }
         let stems = &self.stems;
         within(
             "stems.count",

@@ -298,3 +298,29 @@ fn what_no_plant_bears_and_what_has_no_room_is_refused() {
     assert_eq!(Plant::grow(&plan, &feet), Err(PlantError::TooLarge));
     assert_eq!(Plant::grow(&plan, &[]), Err(PlantError::NoLeaf));
 }
+
+#[test]
+fn relief_stands_out_from_closed_axes_and_moves_no_leaf() {
+    for preset in ["birch-twig", "cherry-bough", "poplar-branch", "maple-bough"] {
+        let mut plan = presets::find(preset).expect("a preset").plan();
+        let smooth = grown(&plan);
+        // Without heights the axes are as they were, but for smooth bends.
+        let [flat, rough] = [0.0, 1.0].map(|high| {
+            plan.relief = Some(BarkRelief {
+                ridges_mm: 0.2 * high,
+                lenticel_height_mm: 0.3 * high,
+                edge_mm: 0.5,
+                ..BarkRelief::USUAL
+            });
+            grown(&plan)
+        });
+        for plant in [&flat, &rough] {
+            assert_eq!(plant.axes.validate(), Ok(()), "{preset}");
+            assert_eq!(plant.leaves, smooth.leaves);
+        }
+        let area = |plant: &Plant| plant.axes.area();
+        assert!((area(&flat) / area(&smooth) - 1.0).abs() < 0.02, "{preset}");
+        let more = area(&rough) / area(&flat);
+        assert!((1.02..2.0).contains(&more), "{preset}: {more}");
+    }
+}

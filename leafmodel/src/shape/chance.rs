@@ -38,6 +38,8 @@ pub(crate) enum Use {
     Rootlet = 16,
     /// Turns that a leaf of a plant tries which would cut another.
     Evasion = 17,
+    /// Ridges and lenticels of bark.
+    Bark = 18,
 }
 
 /// A uniform random number in [0, 1), a multiple of 2⁻⁵³.

@@ -251,6 +251,7 @@ fn sections(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
     let new = || Plant {
         plan: plan_file::usual_plant(),
         leaves: Vec::new(),
+        days: None,
         bark: None,
         perianth: [None; 2],
         potting: [None; 2],

@@ -1,6 +1,7 @@
 //! The finished scene, immutable and shared by all threads.
 
 mod bodies;
+mod error;
 mod light_colours;
 mod lights;
 mod materials;
@@ -13,7 +14,6 @@ mod strewing;
 #[cfg(test)]
 mod tests;
 
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -21,9 +21,9 @@ use glam::{DAffine3, DVec3};
 use leafmodel::optics::fluorescence::EXCITED_NM;
 use leafmodel::optics::solid::ReflectanceTable;
 use rayon::prelude::*;
-use thiserror::Error;
 
 use self::bodies::{around, build_media, set_bodies, set_drops};
+pub use self::error::WorldError;
 use self::light_colours::{check_white, light_colours};
 use self::lights::build_lights;
 use self::materials::{Known, build_materials};
@@ -34,10 +34,8 @@ pub use self::strewing::Places;
 use self::strewing::Strewing;
 use crate::camera::Camera;
 use crate::camera::filter::PixelFilter;
-use crate::camera::thin_lens::LensError;
 use crate::camera::view::View;
-use crate::geometry::scatter::{ScatterError, VolumeError};
-use crate::geometry::{Geometry, GeometryError, ImportError, Instance, MeshError, TriangleMesh};
+use crate::geometry::{Geometry, Instance, TriangleMesh};
 use crate::image::light_colour::LightColour;
 use crate::light::Light;
 use crate::light::selection::LightSelection;
@@ -46,10 +44,9 @@ use crate::material::colour_map::ColourMap;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
 use crate::medium::Media;
-use crate::scene::assets::AssetError;
 use crate::scene::description::{self, Description, Named, Object};
 use crate::scene::plant_cache::PlantCache;
-use crate::scene::plants::{self, Piece, PlantError, SolidError};
+use crate::scene::plants::{self, Piece};
 use crate::spectrum::{WavelengthGrid, WavelengthSampler};
 
 /// Everything that paths need.
@@ -111,107 +108,6 @@ pub enum MaterialOwner {
     },
     /// The body of solid tissue with this number.
     Solid(usize),
-}
-
-/// Why a described scene cannot be built.
-#[derive(Debug, Error)]
-pub enum WorldError {
-    /// A mesh of the scene is not valid.
-    #[error("meshes.{name}: {source}")]
-    Mesh {
-        /// Name in the scene.
-        name: String,
-        /// What is wrong with it.
-        source: MeshError,
-    },
-    /// A mesh file cannot be understood.
-    #[error("meshes.{name}: {file}: {source}")]
-    Import {
-        /// Name in the scene.
-        name: String,
-        /// The file.
-        file: PathBuf,
-        /// What is wrong with it.
-        source: ImportError,
-    },
-    /// A file cannot be read or has other contents.
-    #[error("{place}: {source}")]
-    Asset {
-        /// Block of the scene that names it.
-        place: String,
-        /// What is wrong with it.
-        source: AssetError,
-    },
-    /// A leaf cannot be grown.
-    #[error("leaves.{name}: {source}")]
-    Plant {
-        /// Name in the scene.
-        name: String,
-        /// Why.
-        source: Box<PlantError>,
-    },
-    /// A body of solid tissue cannot be grown.
-    #[error("solids.{name}: {source}")]
-    Solid {
-        /// Name in the scene.
-        name: String,
-        /// Why.
-        source: Box<SolidError>,
-    },
-    /// An area light with a pattern shines from a mesh without texture coordinates.
-    #[error(
-        "lights.{name}.area: the mesh of its object has no texture coordinates, over which `edge` \
-         and `picture` are spread: leave them out, or use a mesh with them, such as a rectangle"
-    )]
-    NoTextureCoordinates {
-        /// Name of the light.
-        name: String,
-    },
-    /// The mesh of a body with a medium in it has holes.
-    #[error(
-        "objects.{object}: its mesh does not enclose a body with normals to the outside, and \
-         `interior` of the material `{material}` fills one: use a closed mesh, such as a box, a sphere \
-         or a lump"
-    )]
-    OpenBody {
-        /// Name of the object.
-        object: String,
-        /// Name of its material.
-        material: String,
-    },
-    /// There is no room for what is strewn.
-    #[error("objects.{name}.scatter: {source}")]
-    Scatter {
-        /// Name of the object.
-        name: String,
-        /// Why.
-        source: ScatterError,
-    },
-    /// A box cannot be filled with leaves.
-    #[error("objects.{name}.volume: {source}")]
-    Volume {
-        /// Name of the object.
-        name: String,
-        /// Why.
-        source: VolumeError,
-    },
-    /// The picture cannot be balanced by its light.
-    #[error(
-        "picture.white_light: the light `{name}` {why}: name another one, or write `white` or \
-         `white_object` instead"
-    )]
-    WhiteLight {
-        /// Name of the light.
-        name: String,
-        /// Why not.
-        why: &'static str,
-    },
-    /// The camera cannot be focused on its object.
-    #[error("camera.perspective.focus_object: {0}")]
-    Focus(LensError),
-    /// The geometry as a whole cannot be built.
-    #[error(transparent)]
-    Geometry(#[from] GeometryError),
 }
 
 /// What a world is built with besides its description.

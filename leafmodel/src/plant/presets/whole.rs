@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{croton, ivy};
+use super::shoots::{croton, ivy};
 use crate::plant::{
     AxisPlan, Branching, Climbing, FlowerPlan, Phyllotaxis, PlantPlan, Posture, PotPlan, Stems,
 };

@@ -2,9 +2,11 @@
 
 use leafmodel::document::keys::Keys;
 use leafmodel::document::names::NameIn;
+use leafmodel::document::value_kind::Numbers;
 use leafmodel::plan_file;
 
 use super::name_list::NamesIn;
+use super::scatter::refuse_ages_of_one;
 use crate::scene::description::Plant;
 
 /// The keys of one of `[plants]`.
@@ -15,6 +17,14 @@ pub(super) fn plant(plant: &mut Plant, keys: &mut Keys<'_>) {
     let about = "The leaf that it bears; of a list, those from the foot of each axis to its tip.";
     keys.needed("leaf", &mut leaves, kind, about);
     plant.leaves = leaves.into_iter().map(|(leaf, _)| leaf).collect();
+    let about = "Days of ageing of its youngest and its oldest individuals, the others between; young \
+        and old stand mixed. The leaves need `senescence` by `day`.";
+    keys.optional(
+        "days",
+        &mut plant.days,
+        Numbers::<2>(plan_file::DAYS),
+        about,
+    );
     let kind = NameIn("materials", "the name of a material");
     let about = "What its axes and buds are made of; left out, young brown bark.";
     keys.optional("bark", &mut plant.bark, kind, about);
@@ -36,6 +46,7 @@ pub(super) fn plant(plant: &mut Plant, keys: &mut Keys<'_>) {
     let about = "What the soil in its pot is made of; left out, measured soil of its moisture.";
     keys.optional("soil_material", soil, kind(), about);
     plan_file::plant(&mut plant.plan, keys);
+    refuse_ages_of_one(plant.plan.individuals, plant.days, keys);
     let is_there = |what: &Option<usize>| what.is_some();
     if plant.plan.flower.is_some() && !plant.perianth.iter().all(is_there) {
         let help = "name a leaf as `sepal` and one as `petal`, such as of the presets \

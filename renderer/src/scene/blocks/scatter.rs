@@ -5,6 +5,7 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::names::NameIn;
 use leafmodel::document::value_kind::{Degrees, Flag, Integer, Number, Numbers};
+use leafmodel::plan_file::DAYS;
 
 use super::camera::COORDINATES_M;
 use super::name_list::NamesIn;
@@ -55,7 +56,7 @@ pub(super) fn scatter(object: &mut Object, keys: &mut Keys<'_>) {
                 "individuals"
             };
             let problem = "only leaves are grown apart".to_owned();
-            let help = "take it out; a plant has its own `individuals`";
+            let help = "take it out; a plant has its own `individuals` and `days`";
             keys.refuse(&["scatter", key], problem, help);
         }
         if keys.is_sound() && object.plant.is_some() && is_at_rest(strewn) {
@@ -158,16 +159,20 @@ fn strewn_on(strewn: &mut StrewnOn, keys: &mut Keys<'_>) {
     keys.key("individuals", &mut strewn.individuals, count, about);
     let about = "Days of ageing of the first and the last of them, the others between; the leaves \
         need `senescence` by `day`.";
-    let days = Numbers::<2>(Limits::closed(0.0, 1e4));
-    keys.optional("days", &mut strewn.days, days, about);
-    if strewn.individuals == 1 && strewn.days.is_some_and(|[first, last]| first != last) {
+    keys.optional("days", &mut strewn.days, Numbers::<2>(DAYS), about);
+    refuse_ages_of_one(strewn.individuals, strewn.days, keys);
+    let seed = Integer::within(0, u64::MAX);
+    let about = "Same numbers and seed, same places.";
+    keys.key("seed", &mut strewn.plan.seed, seed, about);
+}
+
+/// Refuses two ages of one individual.
+pub(super) fn refuse_ages_of_one(individuals: u32, days: Option<[f64; 2]>, keys: &mut Keys<'_>) {
+    if individuals == 1 && days.is_some_and(|[first, last]| first != last) {
         let problem = "one individual has one age".to_owned();
         let help = "write `individuals = 5` beside it, or the same day twice";
         keys.refuse(&["days"], problem, help);
     }
-    let seed = Integer::within(0, u64::MAX);
-    let about = "Same numbers and seed, same places.";
-    keys.key("seed", &mut strewn.plan.seed, seed, about);
 }
 
 fn amount(plan: &mut Scatter, keys: &mut Keys<'_>) {

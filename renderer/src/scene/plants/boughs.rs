@@ -14,7 +14,7 @@ use leafmodel::document::names::Named;
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plant::{Crumb, Foot, Organ, Plant as Grown, PlantError, Wall};
 
-use super::individuals::individuals;
+use super::individuals::{age, ageless, individuals, scattered_ranks, users};
 use super::walls;
 use crate::geometry::shapes::Lump;
 use crate::scene::description::{
@@ -76,6 +76,12 @@ pub(in crate::scene) fn place(scene: &mut Description, keys: &Keys<'_>) {
                 } else {
                     name.clone()
                 };
+                if value.days.is_some()
+                    && let Some((problem, help)) = ageless(scene, &value.leaves)
+                {
+                    keys.refuse(&["plants", &name, "days"], problem, help);
+                    return;
+                }
                 match parts(scene, &own, &value, wall.as_ref()) {
                     Ok((parts, crossing)) => {
                         scene.plants[plant].value.crossing = crossing;
@@ -88,6 +94,10 @@ pub(in crate::scene) fn place(scene: &mut Description, keys: &Keys<'_>) {
                             }
                             PlantError::Bent(_) => ("length_mm", "let its axes bend less"),
                             PlantError::NoPot => ("pot", "make the pot wider"),
+                            PlantError::TooLarge if value.plan.relief.is_some() => (
+                                "relief",
+                                "use a longer `edge_mm`, or fewer nodes or branches",
+                            ),
                             PlantError::OutOfRange { .. }
                             | PlantError::NoRoom { .. }
                             | PlantError::TooLarge => ("nodes", "use fewer nodes or branches"),
@@ -138,10 +148,16 @@ fn parts(
     if plant.plan.flower.is_some() {
         kinds.extend(plant.perianth.iter().flatten());
     }
-    let individuals: Vec<Vec<Leaf>> = kinds
+    let mut individuals: Vec<Vec<Leaf>> = kinds
         .iter()
         .map(|&leaf| individuals(&scene.leaves[leaf].value, plant.plan.individuals))
         .collect();
+    if let Some(days) = plant.days {
+        let rank = scattered_ranks(plant.plan.individuals as usize);
+        for leaves in &mut individuals[..plant.leaves.len()] {
+            age(leaves, days, &rank);
+        }
+    }
     let foot = |leaf: &Leaf| Foot::of(&leaf.plan);
     let feet = individuals
         .iter()
@@ -162,7 +178,13 @@ fn parts(
     if let Some(soil) = soil {
         add_crumbs(scene, &mut parts, (name, soil), &grown.crumbs);
     }
-    add_leaves(scene, &mut parts, name, (&kinds, &individuals), &grown);
+    add_leaves(
+        scene,
+        &mut parts,
+        name,
+        (&kinds, plant.leaves.len(), &individuals),
+        &grown,
+    );
     let crossing = grown.crossing.map(|some| [some, grown.leaves.len()]);
     Ok((parts, crossing))
 }
@@ -248,32 +270,36 @@ fn add_crumbs(
     }));
 }
 
-/// Adds the leaves of a plant, each individual once.
+/// Adds the leaves of a plant, each individual once; the first `borne` kinds are no sepals or petals.
 fn add_leaves(
     scene: &mut Description,
     parts: &mut Parts,
     name: &str,
-    (kinds, individuals): (&[usize], &[Vec<Leaf>]),
+    (kinds, borne, individuals): (&[usize], usize, &[Vec<Leaf>]),
     grown: &Grown,
 ) {
-    let mut shapes: BTreeMap<(usize, u32), u32> = BTreeMap::new();
+    let mut shapes: BTreeMap<(usize, bool, u32), u32> = BTreeMap::new();
     for leaf in &grown.leaves {
         let kind = kinds[leaf.kind];
-        let shape = *shapes.entry((kind, leaf.individual)).or_insert_with(|| {
-            // The first individual is the leaf itself.
-            let number = if leaf.individual == 0 {
-                kind
-            } else {
-                let of = &scene.leaves[kind].name;
-                scene.leaves.push(Named {
-                    name: format!("{of}.{name}.{}", leaf.individual + 1),
-                    value: individuals[leaf.kind][leaf.individual as usize].clone(),
-                });
-                scene.leaves.len() - 1
-            };
-            parts.shapes.push(ObjectShape::Leaf { leaf: number });
-            parts.shapes.len() as u32 - 1
-        });
+        let shape = *shapes
+            .entry((kind, leaf.kind < borne, leaf.individual))
+            .or_insert_with(|| {
+                let value = individuals[leaf.kind][leaf.individual as usize].clone();
+                // The first individual is the leaf itself, unless something else shows that at its own age.
+                let own = value.plan.senescence == scene.leaves[kind].value.plan.senescence
+                    || users(scene, kind) == 1;
+                let number = if leaf.individual == 0 && own {
+                    scene.leaves[kind].value = value;
+                    kind
+                } else {
+                    let of = &scene.leaves[kind].name;
+                    let name = format!("{of}.{name}.{}", leaf.individual + 1);
+                    scene.leaves.push(Named { name, value });
+                    scene.leaves.len() - 1
+                };
+                parts.shapes.push(ObjectShape::Leaf { leaf: number });
+                parts.shapes.len() as u32 - 1
+            });
         let to_plant = DAffine3 {
             translation: leaf.to_plant.translation * 1e-3,
             ..leaf.to_plant

@@ -36,16 +36,12 @@ pub(in crate::scene) fn grow_apart(scene: &mut Description, keys: &Keys<'_>) {
                 continue;
             };
             let mut leaves = individuals(&scene.leaves[leaf].value, count);
-            if let Some(days) = days
-                && !age(&mut leaves, days)
-            {
-                let problem = format!(
-                    "the leaf `{}` does not age by days",
-                    scene.leaves[leaf].name
-                );
-                let help = "give it a block `senescence` with a `day`";
-                keys.refuse(&["objects", &name, "scatter", "days"], problem, help);
-                return;
+            if let Some(days) = days {
+                if let Some((problem, help)) = ageless(scene, &[leaf]) {
+                    keys.refuse(&["objects", &name, "scatter", "days"], problem, help);
+                    return;
+                }
+                age(&mut leaves, days, |number| number);
             }
             // The first is the leaf itself, unless another object or place shows it at its own age.
             let own = days.is_none() || users(scene, leaf) == 1;
@@ -67,23 +63,80 @@ pub(in crate::scene) fn grow_apart(scene: &mut Description, keys: &Keys<'_>) {
     }
 }
 
-/// Spreads ages evenly over leaves; false if one of them has none.
-fn age(leaves: &mut [Leaf], [first, last]: [f64; 2]) -> bool {
-    let steps = (leaves.len() - 1).max(1) as f64;
-    leaves.iter_mut().enumerate().all(|(number, leaf)| {
-        let source = leaf.plan.senescence.as_mut().map(|age| &mut age.source);
-        let Some(AgeSource::Day { day, .. }) = source else {
-            return false;
-        };
-        *day = first + (last - first) * number as f64 / steps;
-        true
-    })
+/// Why one of these leaves cannot have days of ageing, and what to do; `None` if all can.
+pub(super) fn ageless(scene: &Description, leaves: &[usize]) -> Option<(String, &'static str)> {
+    let ages = |leaf: &Leaf| {
+        let senescence = leaf.plan.senescence;
+        senescence.is_some_and(|age| matches!(age.source, AgeSource::Day { .. }))
+    };
+    let mut leaves = leaves.iter().map(|&leaf| &scene.leaves[leaf]);
+    let leaf = leaves.find(|leaf| !ages(&leaf.value))?;
+    let problem = format!("the leaf `{}` does not age by days", leaf.name);
+    Some((problem, "give it a block `senescence` with a `day`"))
 }
 
-/// How often a leaf stands in objects and plants.
-fn users(scene: &Description, leaf: usize) -> usize {
+/// Spreads ages evenly over leaves that [`ageless`] lets pass, by the rank of each from 0.
+pub(super) fn age(leaves: &mut [Leaf], [first, last]: [f64; 2], rank: impl Fn(usize) -> usize) {
+    let steps = (leaves.len() - 1).max(1) as f64;
+    for (number, leaf) in leaves.iter_mut().enumerate() {
+        let source = leaf.plan.senescence.as_mut().map(|age| &mut age.source);
+        if let Some(AgeSource::Day { day, .. }) = source {
+            *day = first + (last - first) * rank(number) as f64 / steps;
+        }
+    }
+}
+
+/// Ranks of so many leaves of which one follows the other along an axis, and the first the last, in
+/// which neighbours are far apart, as leaves are by the golden angle; the first has the least.
+pub(super) fn scattered_ranks(count: usize) -> impl Fn(usize) -> usize {
+    // (√5 − 1) / 2 of a turn, or as much the other way round, so that the last is far from the first.
+    let golden = 0.618_033_988_749_894_9;
+    let last = count.saturating_sub(1) as f64 * golden;
+    let step = if last.fract() < 0.5 {
+        1.0 - golden
+    } else {
+        golden
+    };
+    let turn = move |number: usize| (number as f64 * step).fract();
+    move |number| {
+        let before = (0..count).filter(|&other| turn(other) < turn(number));
+        before.count()
+    }
+}
+
+/// How often a leaf stands in objects and in plants that objects are.
+pub(super) fn users(scene: &Description, leaf: usize) -> usize {
     let shape = ObjectShape::Leaf { leaf };
     let objects = scene.objects.iter().flat_map(|object| &object.value.shapes);
-    let borne = scene.plants.iter().flat_map(|plant| &plant.value.leaves);
+    let stands = |plant: usize| {
+        let mut objects = scene.objects.iter();
+        objects.any(|object| object.value.plant == Some(plant))
+    };
+    let plants = scene.plants.iter().enumerate();
+    let plants = plants.filter(|(number, _)| stands(*number));
+    let borne = plants.flat_map(|(_, plant)| {
+        let perianth = plant.value.perianth.iter().flatten();
+        plant.value.leaves.iter().chain(perianth)
+    });
     objects.filter(|own| **own == shape).count() + borne.filter(|own| **own == leaf).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::scattered_ranks;
+
+    #[test]
+    fn neighbours_in_a_ring_of_leaves_are_far_apart_in_rank() {
+        for count in 3..40 {
+            let rank = scattered_ranks(count);
+            let ranks: Vec<usize> = (0..count).map(&rank).collect();
+            let mut sorted = ranks.clone();
+            sorted.sort_unstable();
+            assert!(sorted.into_iter().eq(0..count) && ranks[0] == 0);
+            let next = ranks.iter().cycle().skip(1);
+            let apart = ranks.iter().zip(next).map(|(a, b)| a.abs_diff(*b));
+            let least = apart.min().expect("there are some");
+            assert!(5 * (least + 1) >= count, "{count}: {least}");
+        }
+    }
 }

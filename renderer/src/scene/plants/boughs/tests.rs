@@ -1,6 +1,7 @@
 use std::path::Path;
 
 use glam::{DMat4, DVec3};
+use leafmodel::blade::senescence::AgeSource;
 
 use crate::scene::description::{Description, InstancePlace, Mesh, ObjectShape};
 use crate::scene::load::parse;
@@ -114,4 +115,35 @@ fn two_objects_of_a_plant_share_its_leaves() {
     let scene = scene(objects, Path::new("."));
     assert_eq!((scene.leaves.len(), scene.meshes.len()), (3, 1));
     assert_eq!(scene.objects[0].value.shapes, scene.objects[1].value.shapes);
+}
+
+/// The days of the leaves of an object's shapes.
+fn days(scene: &Description, object: usize) -> Vec<f64> {
+    let shapes = scene.objects[object].value.shapes.iter();
+    let leaves = shapes.filter_map(|shape| match shape {
+        ObjectShape::Leaf { leaf } => Some(&scene.leaves[*leaf].value),
+        ObjectShape::Mesh { .. } | ObjectShape::Solid { .. } => None,
+    });
+    let sources = leaves.map(|leaf| leaf.plan.senescence.expect("it ages").source);
+    let days = sources.map(|source| match source {
+        AgeSource::Day { day, .. } => day,
+        AgeSource::Revenue { .. } => panic!("it ages by days"),
+    });
+    days.collect()
+}
+
+#[test]
+fn individuals_of_a_plant_age_between_its_days_in_mixed_order() {
+    let text = "[leaves.leaf.senescence]\ncourse = \"yellow\"\nday = 7\n\
+                [plants.old]\nleaf = \"leaf\"\nindividuals = 5\nnodes = 7\ndays = [4, 20]\n\
+                [objects.old]\nplant = \"old\"\n";
+    let alone = scene(text, Path::new("."));
+    // In the order in which they follow one another along the axis.
+    assert_eq!(days(&alone, 0), [4.0, 12.0, 20.0, 8.0, 16.0]);
+    assert_eq!(alone.leaves.len(), 5);
+    let shown = format!("{text}[objects.flat]\nleaf = \"leaf\"\n");
+    let beside = scene(&shown, Path::new("."));
+    assert_eq!(days(&beside, 0), days(&alone, 0));
+    assert_eq!(days(&beside, 1), [7.0]);
+    assert_eq!(beside.leaves.len(), 6);
 }

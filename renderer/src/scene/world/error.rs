@@ -1,0 +1,112 @@
+//! Why a scene cannot be built.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::camera::thin_lens::LensError;
+use crate::geometry::scatter::{ScatterError, VolumeError};
+use crate::geometry::{GeometryError, ImportError, MeshError};
+use crate::scene::assets::AssetError;
+use crate::scene::plants::{PlantError, SolidError};
+
+/// Why a described scene cannot be built.
+#[derive(Debug, Error)]
+pub enum WorldError {
+    /// A mesh of the scene is not valid.
+    #[error("meshes.{name}: {source}")]
+    Mesh {
+        /// Name in the scene.
+        name: String,
+        /// What is wrong with it.
+        source: MeshError,
+    },
+    /// A mesh file cannot be understood.
+    #[error("meshes.{name}: {file}: {source}")]
+    Import {
+        /// Name in the scene.
+        name: String,
+        /// The file.
+        file: PathBuf,
+        /// What is wrong with it.
+        source: ImportError,
+    },
+    /// A file cannot be read or has other contents.
+    #[error("{place}: {source}")]
+    Asset {
+        /// Block of the scene that names it.
+        place: String,
+        /// What is wrong with it.
+        source: AssetError,
+    },
+    /// A leaf cannot be grown.
+    #[error("leaves.{name}: {source}")]
+    Plant {
+        /// Name in the scene.
+        name: String,
+        /// Why.
+        source: Box<PlantError>,
+    },
+    /// A body of solid tissue cannot be grown.
+    #[error("solids.{name}: {source}")]
+    Solid {
+        /// Name in the scene.
+        name: String,
+        /// Why.
+        source: Box<SolidError>,
+    },
+    /// An area light with a pattern shines from a mesh without texture coordinates.
+    #[error(
+        "lights.{name}.area: the mesh of its object has no texture coordinates, over which `edge` \
+         and `picture` are spread: leave them out, or use a mesh with them, such as a rectangle"
+    )]
+    NoTextureCoordinates {
+        /// Name of the light.
+        name: String,
+    },
+    /// The mesh of a body with a medium in it has holes.
+    #[error(
+        "objects.{object}: its mesh does not enclose a body with normals to the outside, and \
+         `interior` of the material `{material}` fills one: use a closed mesh, such as a box, a sphere \
+         or a lump"
+    )]
+    OpenBody {
+        /// Name of the object.
+        object: String,
+        /// Name of its material.
+        material: String,
+    },
+    /// There is no room for what is strewn.
+    #[error("objects.{name}.scatter: {source}")]
+    Scatter {
+        /// Name of the object.
+        name: String,
+        /// Why.
+        source: ScatterError,
+    },
+    /// A box cannot be filled with leaves.
+    #[error("objects.{name}.volume: {source}")]
+    Volume {
+        /// Name of the object.
+        name: String,
+        /// Why.
+        source: VolumeError,
+    },
+    /// The picture cannot be balanced by its light.
+    #[error(
+        "picture.white_light: the light `{name}` {why}: name another one, or write `white` or \
+         `white_object` instead"
+    )]
+    WhiteLight {
+        /// Name of the light.
+        name: String,
+        /// Why not.
+        why: &'static str,
+    },
+    /// The camera cannot be focused on its object.
+    #[error("camera.perspective.focus_object: {0}")]
+    Focus(LensError),
+    /// The geometry as a whole cannot be built.
+    #[error(transparent)]
+    Geometry(#[from] GeometryError),
+}

@@ -1,0 +1,95 @@
+//! What objects of valid scenes mean: their places, and the parts of plants.
+
+use glam::DVec3;
+use renderer::scene::description::{Mesh, ObjectShape};
+
+use super::accepted::assert_near;
+use super::{accept, text_of};
+
+#[test]
+fn instances_are_the_rows_of_their_file_in_the_frame_of_their_object() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    assert!(scene.objects[0].value.instances.is_none());
+    let places = scene.objects[9].value.instances.as_ref();
+    let places = places.expect("the object has a file");
+    let shapes: Vec<u32> = places.iter().map(|place| place.shape).collect();
+    assert_eq!(shapes, [0, 1]);
+    // Half as large, x to y, y to −x; one metre higher than the row says.
+    let expected = [0.0, 0.5, 0.0, -0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 1.0, 2.0, 4.0];
+    assert_eq!(places[1].to_world, expected);
+    let moved = accept(
+        &text_of("whole.toml"),
+        "whole.toml",
+        &["objects.row.position_m=[0, 0, -3]"],
+    );
+    let places = moved.description.objects[9].value.instances.clone();
+    assert_eq!(places.expect("it still has them")[1].to_world[11], 0.0);
+}
+
+#[test]
+fn a_spreadsheet_may_put_quotes_around_its_fields() {
+    let places = |file: &str| {
+        let file = format!("objects.row.instances.file='{file}'");
+        let scene = accept(&text_of("whole.toml"), "whole.toml", &[&file]).description;
+        scene.objects[9].value.instances.clone()
+    };
+    assert_eq!(places("quoted.csv"), places("places.csv"));
+}
+
+#[test]
+fn a_plant_is_an_object_with_its_leaves_and_axes_as_instances() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let shoot = &scene.objects[10].value;
+    let plan = &scene.plants[0].value.plan;
+    assert_eq!((plan.seed, plan.individuals, plan.axis.nodes), (3, 2, 5));
+    assert_eq!(
+        (plan.axis.phyllotaxis.per_node, plan.posture.cluster),
+        (2, 3)
+    );
+    assert_near(
+        plan.axis.phyllotaxis.divergence,
+        100.0 * std::f64::consts::PI / 180.0,
+    );
+    let branching = plan.branching.expect("it has branches");
+    assert_eq!((branching.order, branching.share), (2, 0.8));
+    let buds = plan.buds.expect("it has buds");
+    assert_near(buds.length_mm, 3.0);
+    assert_near(plan.posture.light.y, 0.5_f64.sqrt());
+    // The axes of paper, then two individuals of both leaves.
+    assert!(matches!(
+        shoot.shapes[0],
+        ObjectShape::Mesh { mesh, material: 0 } if matches!(scene.meshes[mesh].value, Mesh::Axes(_))
+    ));
+    assert_eq!(shoot.shapes.len(), 5);
+    let names: Vec<&str> = scene.leaves.iter().map(|leaf| leaf.name.as_str()).collect();
+    assert!(
+        names.contains(&"simple.shoot.2") && names.contains(&"beech.shoot.2"),
+        "{names:?}"
+    );
+    let places = shoot.instances.as_ref().expect("it has many places");
+    assert!(places.len() > 30, "{}", places.len());
+    assert!(places.iter().all(|place| (place.shape as usize) < 5));
+}
+
+#[test]
+fn objects_are_scaled_then_turned_about_x_y_z_then_moved() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let panel = scene.objects[0].value.to_world;
+    // Half as large; x = (1, 0, 0) stays under the half turn about x and becomes y about z.
+    assert_eq!(panel.transform_point3(DVec3::X), DVec3::new(0.0, 0.5, 2.0));
+    assert_eq!(panel.transform_point3(DVec3::Z), DVec3::new(0.0, 0.0, 1.5));
+    let bottle = scene.objects[1].value.to_world;
+    assert_eq!(
+        bottle.transform_point3(DVec3::ZERO),
+        DVec3::new(5.0, 6.0, 7.0)
+    );
+    assert_eq!(bottle.transform_vector3(DVec3::Y), DVec3::Z);
+    let turned = accept(
+        &text_of("minimal.toml"),
+        "minimal.toml",
+        &["objects.floor.rotate_deg=[90,90,0]"],
+    );
+    // About x first: z becomes −y, which a turn about y leaves alone.
+    let to_world = turned.description.objects[0].value.to_world;
+    assert_eq!(to_world.transform_vector3(DVec3::Z), DVec3::NEG_Y);
+}
