@@ -592,7 +592,8 @@ BEYOND_A_SCHEMA = """
     mosaic_shares model no_light outline_cubic_crossing outline_curve_crossing outline_curve_end
     outline_growth_crossing outline_growth_crossing_axis outline_specimen_inside
     outline_specimen_nested outline_specimen_notch outline_svg_crossing outline_svg_end outline_svg_parts outline_teeth_crossing outline_transport_cells
-    plant_climbs_on_many plant_flower plant_leaf plant_order plant_pot plant_room plant_shines plant_wall
+    plant_climbs_on_many plant_days plant_flower plant_leaf plant_order plant_pot plant_relief
+    plant_room plant_shines plant_wall
     sensitivities_file white_light
     path_outside picture_infrared senescence_auxin solid_mesh solid_mosaic surface_cells surface_stomata table_file
     scatter_days scatter_effect scatter_order unknown_name unsorted
