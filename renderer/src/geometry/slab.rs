@@ -10,42 +10,8 @@ use glam::Vec3A;
 use super::bounds::Bounds;
 use crate::simd::{Eight, Row};
 
-/// Planes of boxes, by plane (min x, y, z, max x, y, z) and box.
+/// Planes of boxes, by plane (least and greatest x, least and greatest y, then z) and box.
 pub(super) type BoxPlanes = [Row; 6];
-
-/// A row of [`BoxPlanes`]. It is an enum, so that the compiler needs no bounds check.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Plane {
-    MinX,
-    MinY,
-    MinZ,
-    MaxX,
-    MaxY,
-    MaxZ,
-}
-
-/// Lower and upper plane of each axis.
-const PLANES: [[Plane; 2]; 3] = [
-    [Plane::MinX, Plane::MaxX],
-    [Plane::MinY, Plane::MaxY],
-    [Plane::MinZ, Plane::MaxZ],
-];
-
-/// The planes that a ray meets first, indexed by a bit for each axis along which its direction is
-/// negative.
-const NEAR_PLANES: [[Plane; 3]; 8] = {
-    let mut planes = [[Plane::MinX; 3]; 8];
-    let mut down = 0;
-    while down < 8 {
-        let mut axis = 0;
-        while axis < 3 {
-            planes[down][axis] = PLANES[axis][down >> axis & 1];
-            axis += 1;
-        }
-        down += 1;
-    }
-    planes
-};
 
 /// The axis along which a direction is longest, along which the triangle test shears. It is
 /// computed without a branch, which could not be predicted.
@@ -169,13 +135,12 @@ impl SlabRay {
     pub(super) fn eight<E: Eight>(&self, e: E, planes: &BoxPlanes, limit: f32) -> (E::F, u32) {
         let mut enter = e.splat(self.t_min);
         let mut leave = e.splat(limit);
-        let near_planes = &NEAR_PLANES[self.down as usize & 7];
-        let far_planes = &NEAR_PLANES[!self.down as usize & 7];
         for axis in 0..3 {
-            let near = e.load(&planes[near_planes[axis] as usize]);
+            let side = (self.down >> axis & 1) as usize;
+            let near = e.load(&planes[2 * axis + side]);
             let (inverse, offset) = (self.near_inverse[axis], self.near_offset[axis]);
             let near = e.mul_add_roughly(near, e.splat(inverse), e.splat(offset));
-            let far = e.load(&planes[far_planes[axis] as usize]);
+            let far = e.load(&planes[2 * axis + (side ^ 1)]);
             let (inverse, offset) = (self.far_inverse[axis], self.far_offset[axis]);
             let far = e.mul_add_roughly(far, e.splat(inverse), e.splat(offset));
             enter = e.greater(near, enter);
@@ -250,7 +215,7 @@ mod tests {
                 for corner in [Vec3::splat(3.0), Vec3::splat(-3.0)] {
                     let bounds = Bounds::around([corner, corner * 1.1]);
                     let (low, high) = (bounds.min.to_array(), bounds.max.to_array());
-                    let planes = [low[0], low[1], low[2], high[0], high[1], high[2]];
+                    let planes = [low[0], high[0], low[1], high[1], low[2], high[2]];
                     let planes = planes.map(|plane| Row([plane; LANES]));
                     let from = |offset: f32| {
                         let mut origin = corner * offset;
@@ -300,7 +265,7 @@ mod tests {
             tried += 1;
             for bounds in [&inner, &outer] {
                 let (low, high) = (bounds.min.to_array(), bounds.max.to_array());
-                let planes = [low[0], low[1], low[2], high[0], high[1], high[2]];
+                let planes = [low[0], high[0], low[1], high[1], low[2], high[2]];
                 let planes = planes.map(|plane| Row([plane; LANES]));
                 for level in Level::all() {
                     let (enter, bits) = level.run(Quick(&slab, planes, exact));

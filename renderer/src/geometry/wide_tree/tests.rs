@@ -27,11 +27,11 @@ fn check(tree: &WideTree, leaves: &[LeafItems], boxes: &[Bounds]) -> usize {
         let node = &tree.nodes[node as usize];
         for lane in 0..LANES {
             let corner = |first: usize| {
-                Vec3::from_array([0, 1, 2].map(|axis| node.planes[first + axis].0[lane]))
+                Vec3::from_array([0, 1, 2].map(|axis| node.planes[first + 2 * axis].0[lane]))
             };
             let child = Bounds {
                 min: corner(0),
-                max: corner(3),
+                max: corner(1),
             };
             if child.is_empty() {
                 continue;
