@@ -293,6 +293,23 @@ mod tests {
     }
 
     #[test]
+    fn the_preset_of_a_tuft_keeps_its_inner_blades_upright() {
+        let tuft = presets::find("grass-tuft").expect("a preset").plan();
+        let [(kept, _), (turned, _)] =
+            [tuft.evasions, 24].map(|tries| grown("grass-tuft", "grass-blade", tries));
+        // Greatest angle of an inner blade to the vertical.
+        let lean = |plant: &Plant| {
+            let up = |leaf: &BorneLeaf| leaf.to_plant.matrix3.y_axis.normalize().z;
+            let inner = plant.leaves.iter().rev().take(8);
+            libm::acos(inner.map(up).fold(1.0, f64::min)).to_degrees()
+        };
+        let leans = [&kept, &turned].map(lean);
+        assert!(leans[0] < 25.0 && leans[1] > 45.0, "{leans:?}");
+        // And half of them still cut others.
+        assert_eq!((turned.leaves.len(), turned.crossing), (26, Some(14)));
+    }
+
+    #[test]
     fn a_strip_of_wood_cuts_what_it_passes_through_and_not_what_it_bears() {
         let wood = Wood {
             ends: [DVec3::new(0.0, 0.0, -5.0), DVec3::new(0.0, 0.0, 5.0)],

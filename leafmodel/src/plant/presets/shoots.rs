@@ -54,6 +54,8 @@ pub(super) fn grass() -> PlantPlan {
             ..usual.posture
         },
         buds: None,
+        // Blades of a tuft sheathe one another: turned, half still cut, and the inner ones lie down.
+        evasions: 0,
         ..usual
     }
 }
