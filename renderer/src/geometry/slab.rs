@@ -10,8 +10,8 @@ use glam::Vec3A;
 use super::bounds::Bounds;
 use crate::simd::{Eight, Row};
 
-/// Planes of boxes, by plane (least and greatest x, least and greatest y, then z) and box.
-pub(super) type BoxPlanes = [Row; 6];
+/// Planes of boxes, by axis, side (least, greatest) and box.
+pub(super) type BoxPlanes = [[Row; 2]; 3];
 
 /// The axis along which a direction is longest, along which the triangle test shears. It is
 /// computed without a branch, which could not be predicted.
@@ -137,10 +137,10 @@ impl SlabRay {
         let mut leave = e.splat(limit);
         for axis in 0..3 {
             let side = (self.down >> axis & 1) as usize;
-            let near = e.load(&planes[2 * axis + side]);
+            let near = e.load(&planes[axis][side]);
             let (inverse, offset) = (self.near_inverse[axis], self.near_offset[axis]);
             let near = e.mul_add_roughly(near, e.splat(inverse), e.splat(offset));
-            let far = e.load(&planes[2 * axis + (side ^ 1)]);
+            let far = e.load(&planes[axis][side ^ 1]);
             let (inverse, offset) = (self.far_inverse[axis], self.far_offset[axis]);
             let far = e.mul_add_roughly(far, e.splat(inverse), e.splat(offset));
             enter = e.greater(near, enter);
@@ -215,8 +215,8 @@ mod tests {
                 for corner in [Vec3::splat(3.0), Vec3::splat(-3.0)] {
                     let bounds = Bounds::around([corner, corner * 1.1]);
                     let (low, high) = (bounds.min.to_array(), bounds.max.to_array());
-                    let planes = [low[0], high[0], low[1], high[1], low[2], high[2]];
-                    let planes = planes.map(|plane| Row([plane; LANES]));
+                    let planes =
+                        [0, 1, 2].map(|axis| [low, high].map(|side| Row([side[axis]; LANES])));
                     let from = |offset: f32| {
                         let mut origin = corner * offset;
                         origin[axis] = -sign * 50.0;
@@ -265,8 +265,7 @@ mod tests {
             tried += 1;
             for bounds in [&inner, &outer] {
                 let (low, high) = (bounds.min.to_array(), bounds.max.to_array());
-                let planes = [low[0], high[0], low[1], high[1], low[2], high[2]];
-                let planes = planes.map(|plane| Row([plane; LANES]));
+                let planes = [0, 1, 2].map(|axis| [low, high].map(|side| Row([side[axis]; LANES])));
                 for level in Level::all() {
                     let (enter, bits) = level.run(Quick(&slab, planes, exact));
                     assert_eq!(bits, 0xff, "{}: {bounds:?} from {origin}", level.name());

@@ -32,15 +32,15 @@ impl WideNode {
     fn empty() -> Self {
         let (low, high) = (Row([f32::INFINITY; LANES]), Row([f32::NEG_INFINITY; LANES]));
         Self {
-            planes: [low, high, low, high, low, high],
+            planes: [[low, high]; 3],
             children: [LEAF; LANES],
         }
     }
 
     fn set(&mut self, lane: usize, bounds: &Bounds, child: u32) {
         for axis in 0..3 {
-            self.planes[2 * axis].0[lane] = bounds.min[axis];
-            self.planes[2 * axis + 1].0[lane] = bounds.max[axis];
+            self.planes[axis][0].0[lane] = bounds.min[axis];
+            self.planes[axis][1].0[lane] = bounds.max[axis];
         }
         self.children[lane] = child;
     }
@@ -48,9 +48,8 @@ impl WideNode {
     /// Boxes and codes of the existing children.
     fn present(&self) -> impl Iterator<Item = (Bounds, u32)> + '_ {
         let boxes = (0..LANES).map(|lane| {
-            let corner = |first: usize| {
-                Vec3::from_array([0, 1, 2].map(|axis| self.planes[first + 2 * axis].0[lane]))
-            };
+            let corner =
+                |side: usize| Vec3::from_array(self.planes.map(|sides| sides[side].0[lane]));
             Bounds {
                 min: corner(0),
                 max: corner(1),

@@ -26,9 +26,8 @@ fn check(tree: &WideTree, leaves: &[LeafItems], boxes: &[Bounds]) -> usize {
         levels = levels.max(level);
         let node = &tree.nodes[node as usize];
         for lane in 0..LANES {
-            let corner = |first: usize| {
-                Vec3::from_array([0, 1, 2].map(|axis| node.planes[first + 2 * axis].0[lane]))
-            };
+            let corner =
+                |side: usize| Vec3::from_array(node.planes.map(|sides| sides[side].0[lane]));
             let child = Bounds {
                 min: corner(0),
                 max: corner(1),
