@@ -135,12 +135,12 @@ impl SlabRay {
     pub(super) fn eight<E: Eight>(&self, e: E, planes: &BoxPlanes, limit: f32) -> (E::F, u32) {
         let mut enter = e.splat(self.t_min);
         let mut leave = e.splat(limit);
-        for axis in 0..3 {
+        for (axis, sides) in planes.iter().enumerate() {
             let side = (self.down >> axis & 1) as usize;
-            let near = e.load(&planes[axis][side]);
+            let near = e.load(&sides[side]);
             let (inverse, offset) = (self.near_inverse[axis], self.near_offset[axis]);
             let near = e.mul_add_roughly(near, e.splat(inverse), e.splat(offset));
-            let far = e.load(&planes[axis][side ^ 1]);
+            let far = e.load(&sides[side ^ 1]);
             let (inverse, offset) = (self.far_inverse[axis], self.far_offset[axis]);
             let far = e.mul_add_roughly(far, e.splat(inverse), e.splat(offset));
             enter = e.greater(near, enter);
