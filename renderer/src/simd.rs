@@ -1,15 +1,14 @@
-//! Eight `f32` numbers at a time, on whatever vector unit the machine has.
+//! Eight or sixteen `f32` numbers at a time, on whatever vector unit the machine has.
 //!
 //! Kernels are written once over `Eight` and compiled for each instruction set; which one runs is
-//! chosen when the program starts ([`Level::best`]). Operations are those that IEEE 754 rounds
-//! correctly, so that every level gives the same bits; `Eight::mul_add_roughly` is the exception,
-//! for bounds that leave room for either rounding.
+//! chosen when the program starts ([`Level::best`]). Operations on eight numbers are those that
+//! IEEE 754 rounds correctly, so that every level gives the same bits. Those on sixteen
+//! (`Sixteen`) are rough, for bounds that leave room for it.
 //!
-//! - **In**: rows of eight numbers.
-//! - **Out**: rows of eight numbers, or a bit for each lane.
-//! - **Always true**: lane `i` of a result depends on lane `i` of the operands alone, and has the
-//!   same bits at every level, but for the exception.
-//! - **Left out**: wider units. AVX-512 gave no speed-up for trees of eight children.
+//! - **In**: rows of eight numbers, or of sixteen.
+//! - **Out**: rows of as many numbers, or a bit for each lane.
+//! - **Always true**: lane `i` of a result depends on lane `i` of the operands alone; of a row of
+//!   eight it has the same bits at every level.
 //!
 //! ```
 //! use renderer::simd::Level;
@@ -28,11 +27,13 @@
 mod neon;
 mod scalar;
 mod stack;
+mod wide;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 use scalar::Scalar;
 pub(crate) use stack::Stack;
+pub(crate) use wide::{Sixteen, WIDE, WideRow};
 
 /// Number of lanes of a row.
 pub(crate) const LANES: usize = 8;
@@ -62,9 +63,6 @@ pub(crate) trait Eight: Copy {
     fn sub(self, a: Self::F, b: Self::F) -> Self::F;
     /// `a · b`.
     fn mul(self, a: Self::F, b: Self::F) -> Self::F;
-    /// `a · b + c`, rounded once where the level has such an instruction, else twice. What becomes
-    /// a result must not depend on it.
-    fn mul_add_roughly(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
     /// `a / b`.
     fn div(self, a: Self::F, b: Self::F) -> Self::F;
     /// `a` where it is less, else `b`; so `b` where either is NaN.
@@ -86,7 +84,7 @@ pub(crate) trait Task {
 
     /// Runs it. Implementations must be `#[inline(always)]`, and so must all functions that they
     /// call with `eight`.
-    fn run<E: Eight>(self, eight: E) -> Self::Output;
+    fn run<E: Sixteen>(self, eight: E) -> Self::Output;
 }
 
 /// A set of vector instructions that this machine has.
@@ -170,7 +168,7 @@ mod tests {
         type Output = ([Row; 6], [u32; 2]);
 
         #[inline(always)]
-        fn run<E: Eight>(self, eight: E) -> Self::Output {
+        fn run<E: Sixteen>(self, eight: E) -> Self::Output {
             let (a, b) = (eight.load(&self.0), eight.load(&self.1));
             let rows = [
                 eight.add(a, b),
@@ -182,46 +180,6 @@ mod tests {
             ];
             let bits = [eight.at_most(a, b), eight.below(a, b)];
             (rows.map(|row| eight.store(row)), bits)
-        }
-    }
-
-    /// `a · b + c` of three rows.
-    struct Rough(Row, Row, Row);
-
-    impl Task for Rough {
-        type Output = Row;
-
-        #[inline(always)]
-        fn run<E: Eight>(self, eight: E) -> Row {
-            let [a, b, c] = [&self.0, &self.1, &self.2].map(|row| eight.load(row));
-            eight.store(eight.mul_add_roughly(a, b, c))
-        }
-    }
-
-    #[test]
-    fn a_rough_sum_is_off_by_one_rounding_of_product_and_sum_at_most() {
-        let row = |seed: f32| {
-            Row(std::array::from_fn(|i| {
-                libm::sinf(seed * (1 + i) as f32) * 3.0
-            }))
-        };
-        for step in 1..200 {
-            let seed = step as f32 * 0.37;
-            let (a, b, c) = (row(seed), row(seed + 1.1), row(seed + 2.3));
-            for level in Level::all() {
-                let found = level.run(Rough(a, b, c));
-                for lane in 0..LANES {
-                    let [x, y, z] = [a, b, c].map(|row| f64::from(row.0[lane]));
-                    let exact = x * y + z;
-                    let allowed = (x * y).abs().max(exact.abs()) * 2.0 * 2.0_f64.powi(-24);
-                    let off = (f64::from(found.0[lane]) - exact).abs();
-                    assert!(
-                        off <= allowed,
-                        "{}: off by {off:e} of {exact}",
-                        level.name()
-                    );
-                }
-            }
         }
     }
 

@@ -2,16 +2,16 @@
 //! would accept one of its triangles.
 //!
 //! There are two tests. [`SlabRay::one`] is exact to the bit and decides what is hit.
-//! [`SlabRay::eight`] only saves time: it widens boxes by more than its own roundings, so that it
+//! [`SlabRay::sixteen`] only saves time: it widens boxes by more than its own roundings, so that it
 //! never leaves out what `one` accepts, whichever instructions it is compiled for.
 
 use glam::Vec3A;
 
 use super::bounds::Bounds;
-use crate::simd::{Eight, Row};
+use crate::simd::{Sixteen, WideRow};
 
 /// Planes of boxes, by axis, side (least, greatest) and box.
-pub(super) type BoxPlanes = [[Row; 2]; 3];
+pub(super) type BoxPlanes = [[WideRow; 2]; 3];
 
 /// The axis along which a direction is longest, along which the triangle test shears. It is
 /// computed without a branch, which could not be predicted.
@@ -28,8 +28,8 @@ pub(super) fn longest(direction: Vec3A) -> usize {
 /// the shifted origin and of `b − o` below.
 const SHEAR_ERROR: f32 = 8.0 / 16_777_216.0;
 
-/// Bound of what the roundings of [`SlabRay::eight`] add to those of [`SlabRay::one`], relative to
-/// the distances of planes from the origin, and to the origin's own coordinates. In `b · 1/d −
+/// Bound of what the roundings of [`SlabRay::sixteen`] add to those of [`SlabRay::one`], relative
+/// to the distances of planes from the origin, and to the origin's own coordinates. In `b · 1/d −
 /// o · 1/d` products and difference have an error below (2 |b − o| + 3 |o|) · 2⁻²⁴ / |d|, in `one`
 /// the error is below 2 |b − o| · 2⁻²⁴ / |d|. 8 of each is more than twice their sum.
 const ROUGHNESS: f32 = 8.0 / 16_777_216.0;
@@ -99,7 +99,8 @@ impl SlabRay {
         let down = inverse.is_negative_bitmask();
         let shift = error.copysign(inverse);
         let wide = (error + (reach + origin.abs()) * ROUGHNESS).copysign(inverse);
-        let coordinates = (origin.abs() + reach).max_element();
+        // At least 1, so that what it divides stays finite.
+        let coordinates = (origin.abs() + reach).max_element().max(1.0);
         // 1/d along the longest axis.
         let least = inverse.abs().min_element();
         let mut most = MOST_INVERSE * least;
@@ -126,27 +127,28 @@ impl SlabRay {
         }
     }
 
-    /// Distances at which the ray enters eight boxes at the earliest, all at least +0, and a bit for
-    /// each box that it may meet no later than `limit`.
+    /// Distances at which the ray enters sixteen boxes at the earliest, all at least +0, and a bit
+    /// for each box that it may meet no later than `limit`.
     ///
     /// The distance is at most that of [`SlabRay::one`] for any box inside, and the bit is set if
     /// `one` meets any box inside no later than `limit`.
     #[inline(always)]
-    pub(super) fn eight<E: Eight>(&self, e: E, planes: &BoxPlanes, limit: f32) -> (E::F, u32) {
-        let mut enter = e.splat(self.t_min);
-        let mut leave = e.splat(limit);
+    pub(super) fn sixteen<E: Sixteen>(&self, e: E, planes: &BoxPlanes, limit: f32) -> (E::W, u32) {
+        let mut enter = e.splat_wide(self.t_min);
+        // −0 may come before 0 here; as a limit it is 0.
+        let mut leave = e.splat_wide(limit + 0.0);
         for (axis, sides) in planes.iter().enumerate() {
             let side = (self.down >> axis & 1) as usize;
-            let near = e.load(&sides[side]);
+            let near = e.load_wide(&sides[side]);
             let (inverse, offset) = (self.near_inverse[axis], self.near_offset[axis]);
-            let near = e.mul_add_roughly(near, e.splat(inverse), e.splat(offset));
-            let far = e.load(&sides[side ^ 1]);
+            let near = e.mul_add_roughly(near, e.splat_wide(inverse), e.splat_wide(offset));
+            let far = e.load_wide(&sides[side ^ 1]);
             let (inverse, offset) = (self.far_inverse[axis], self.far_offset[axis]);
-            let far = e.mul_add_roughly(far, e.splat(inverse), e.splat(offset));
-            enter = e.greater(near, enter);
-            leave = e.less(far, leave);
+            let far = e.mul_add_roughly(far, e.splat_wide(inverse), e.splat_wide(offset));
+            enter = e.greater_roughly(near, enter);
+            leave = e.less_roughly(far, leave);
         }
-        (enter, e.at_most(enter, leave))
+        (enter, e.at_most_roughly(enter, leave))
     }
 
     /// The distance at which the ray enters a box; `None` if it misses it.
@@ -179,18 +181,18 @@ mod tests {
 
     use super::super::testing::Numbers;
     use super::*;
-    use crate::simd::{LANES, Level, Task};
+    use crate::simd::{Level, Task};
 
     /// The quick test of a box, in all lanes.
     struct Quick<'a>(&'a SlabRay, BoxPlanes, f32);
 
     impl Task for Quick<'_> {
-        type Output = (Row, u32);
+        type Output = (WideRow, u32);
 
         #[inline(always)]
-        fn run<E: Eight>(self, e: E) -> Self::Output {
-            let (enter, met) = self.0.eight(e, &self.1, self.2);
-            (e.store(enter), met)
+        fn run<E: Sixteen>(self, e: E) -> Self::Output {
+            let (enter, met) = self.0.sixteen(e, &self.1, self.2);
+            (e.store_wide(enter), met)
         }
     }
 
@@ -216,7 +218,7 @@ mod tests {
                     let bounds = Bounds::around([corner, corner * 1.1]);
                     let (low, high) = (bounds.min.to_array(), bounds.max.to_array());
                     let planes =
-                        [0, 1, 2].map(|axis| [low, high].map(|side| Row([side[axis]; LANES])));
+                        [0, 1, 2].map(|axis| [low, high].map(|side| WideRow::splat(side[axis])));
                     let from = |offset: f32| {
                         let mut origin = corner * offset;
                         origin[axis] = -sign * 50.0;
@@ -227,7 +229,7 @@ mod tests {
                         (slab.one(&bounds).is_some(), met.collect::<Vec<_>>())
                     };
                     let levels = Level::all().len();
-                    assert_eq!(from(1.05), (true, vec![0xff; levels]));
+                    assert_eq!(from(1.05), (true, vec![0xffff; levels]));
                     assert_eq!(from(1.2), (false, vec![0; levels]));
                     assert_eq!(from(0.9), (false, vec![0; levels]));
                 }
@@ -265,15 +267,16 @@ mod tests {
             tried += 1;
             for bounds in [&inner, &outer] {
                 let (low, high) = (bounds.min.to_array(), bounds.max.to_array());
-                let planes = [0, 1, 2].map(|axis| [low, high].map(|side| Row([side[axis]; LANES])));
+                let planes =
+                    [0, 1, 2].map(|axis| [low, high].map(|side| WideRow::splat(side[axis])));
                 for level in Level::all() {
                     let (enter, bits) = level.run(Quick(&slab, planes, exact));
-                    assert_eq!(bits, 0xff, "{}: {bounds:?} from {origin}", level.name());
+                    assert_eq!(bits, 0xffff, "{}: {bounds:?} from {origin}", level.name());
                     assert!(
-                        enter.0[0] <= exact && enter.0[0].is_sign_positive(),
+                        enter.get(0) <= exact && enter.get(0).is_sign_positive(),
                         "{}: enters {bounds:?} from {origin} at {}, exactly at {exact}",
                         level.name(),
-                        enter.0[0]
+                        enter.get(0)
                     );
                     met += 1;
                 }

@@ -1,10 +1,10 @@
-//! A tree of boxes with eight children per node, and its traversal by a ray.
+//! A tree of boxes with sixteen children per node, and its traversal by a ray.
 
 use glam::Vec3;
 
 use super::bounds::Bounds;
 use super::slab::{BoxPlanes, SlabRay};
-use crate::simd::{Eight, LANES, Row, Stack};
+use crate::simd::{LANES, Sixteen, Stack, WIDE, WideRow};
 
 mod build;
 mod cut;
@@ -13,49 +13,51 @@ mod pack;
 /// Greatest number of levels of nodes; deeper trees are rebuilt by halving.
 const MAX_DEPTH: usize = 18;
 
-/// A node leaves at most seven children on the stack while the walk goes into the eighth.
-const STACK: usize = MAX_DEPTH * (LANES - 1) + 1;
+/// A node leaves all its children but one on the stack while the walk goes into that one.
+const STACK: usize = MAX_DEPTH * (WIDE - 1) + 1;
 
 /// Marks a child that is a leaf; the rest of the number says which.
 const LEAF: u32 = 1 << 31;
 
-/// Eight children: their boxes and codes. Places without a child have an empty box, which no ray
-/// hits.
+/// Sixteen children: their boxes and codes. Places without a child have an empty box, which no
+/// ray hits.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 struct WideNode {
     planes: BoxPlanes,
-    children: [u32; LANES],
+    children: [u32; WIDE],
 }
 
 impl WideNode {
     fn empty() -> Self {
-        let (low, high) = (Row([f32::INFINITY; LANES]), Row([f32::NEG_INFINITY; LANES]));
+        let sides = [f32::INFINITY, f32::NEG_INFINITY];
         Self {
-            planes: [[low, high]; 3],
-            children: [LEAF; LANES],
+            planes: [sides.map(WideRow::splat); 3],
+            children: [LEAF; WIDE],
         }
     }
 
     fn set(&mut self, lane: usize, bounds: &Bounds, child: u32) {
         for axis in 0..3 {
-            self.planes[axis][0].0[lane] = bounds.min[axis];
-            self.planes[axis][1].0[lane] = bounds.max[axis];
+            self.planes[axis][0].set(lane, bounds.min[axis]);
+            self.planes[axis][1].set(lane, bounds.max[axis]);
         }
         self.children[lane] = child;
     }
 
+    /// The box in a lane.
+    fn bounds_of(&self, lane: usize) -> Bounds {
+        let corner = |side: usize| Vec3::from_array(self.planes.map(|sides| sides[side].get(lane)));
+        Bounds {
+            min: corner(0),
+            max: corner(1),
+        }
+    }
+
     /// Boxes and codes of the existing children.
     fn present(&self) -> impl Iterator<Item = (Bounds, u32)> + '_ {
-        let boxes = (0..LANES).map(|lane| {
-            let corner =
-                |side: usize| Vec3::from_array(self.planes.map(|sides| sides[side].0[lane]));
-            Bounds {
-                min: corner(0),
-                max: corner(1),
-            }
-        });
-        boxes
+        (0..WIDE)
+            .map(|lane| self.bounds_of(lane))
             .zip(self.children)
             .filter(|(bounds, _)| !bounds.is_empty())
     }
@@ -153,7 +155,7 @@ impl WideTree {
     ///
     /// Leaves beyond the final limit may be visited or not, so results must not depend on them.
     #[inline(always)]
-    pub(super) fn walk_nearest<E: Eight>(
+    pub(super) fn walk_nearest<E: Sixteen>(
         &self,
         e: E,
         ray: &SlabRay,
@@ -168,18 +170,21 @@ impl WideTree {
         loop {
             if child & LEAF == 0 {
                 let node = &self.nodes[child as usize];
-                let (enters, mut met) = ray.eight(e, &node.planes, limit);
+                // Codes lie in the last line of a node: without this they are waited for only once
+                // it is known which child is met.
+                e.prefetch(&node.children, 0);
+                let (enters, mut met) = ray.sixteen(e, &node.planes, limit);
                 if met != 0 {
                     let one = take_lane(&mut met);
                     child = node.children[one];
                     if met == 0 {
                         continue;
                     }
-                    let enters = e.store(enters);
-                    let mut first = waiting(enters.0[one], child);
+                    let enters = e.store_wide(enters);
+                    let mut first = waiting(enters.get(one), child);
                     self.ask_for(e, child, visitor);
                     let lane = take_lane(&mut met);
-                    let other = waiting(enters.0[lane], node.children[lane]);
+                    let other = waiting(enters.get(lane), node.children[lane]);
                     self.ask_for(e, child_of(other), visitor);
                     let second = first.max(other);
                     first = first.min(other);
@@ -189,7 +194,7 @@ impl WideTree {
                         let base = stack.height();
                         while met != 0 {
                             let lane = take_lane(&mut met);
-                            let other = waiting(enters.0[lane], node.children[lane]);
+                            let other = waiting(enters.get(lane), node.children[lane]);
                             self.ask_for(e, child_of(other), visitor);
                             stack.push_in_order(base, first.max(other));
                             first = first.min(other);
@@ -219,7 +224,7 @@ impl WideTree {
     /// Lets `visitor` visit the leaves whose boxes the ray enters no later than `limit`, in any
     /// order, until it returns −∞.
     #[inline(always)]
-    pub(super) fn walk_any<E: Eight>(
+    pub(super) fn walk_any<E: Sixteen>(
         &self,
         e: E,
         ray: &SlabRay,
@@ -234,7 +239,8 @@ impl WideTree {
         loop {
             if child & LEAF == 0 {
                 let node = &self.nodes[child as usize];
-                let (_, mut met) = ray.eight(e, &node.planes, limit);
+                e.prefetch(&node.children, 0);
+                let (_, mut met) = ray.sixteen(e, &node.planes, limit);
                 if met != 0 {
                     child = node.children[take_lane(&mut met)];
                     if met != 0 {
@@ -257,7 +263,7 @@ impl WideTree {
 
     /// Prefetches the memory of a child that is likely to be visited soon.
     #[inline(always)]
-    fn ask_for<E: Eight>(&self, e: E, child: u32, visitor: &impl Visitor) {
+    fn ask_for<E: Sixteen>(&self, e: E, child: u32, visitor: &impl Visitor) {
         if child & LEAF == 0 {
             e.prefetch(&self.nodes, child as usize);
         } else {
@@ -269,7 +275,7 @@ impl WideTree {
 /// Removes the lowest lane from a mask that is not empty, and returns it.
 #[inline(always)]
 fn take_lane(mask: &mut u32) -> usize {
-    let lane = mask.trailing_zeros() as usize % LANES;
+    let lane = mask.trailing_zeros() as usize % WIDE;
     *mask &= *mask - 1;
     lane
 }

@@ -8,7 +8,7 @@ use std::sync::{Arc, OnceLock};
 use leafmodel::optics::fast::{self, PileLanes};
 use leafmodel::optics::{Coefficients, Interface, Pigments, ProspectD, Texel};
 
-use crate::simd::{Eight, Level, Task};
+use crate::simd::{Level, Sixteen, Task};
 use crate::spectrum::{Lanes, Table, WavelengthGrid, Wavelengths};
 
 /// First and last whole nanometre of PROSPECT's table.
@@ -151,7 +151,7 @@ impl<const N: usize> Task for OfContents<'_, N> {
     type Output = (Lanes<N>, Lanes<N>);
 
     #[inline(always)]
-    fn run<E: Eight>(self, _: E) -> Self::Output {
+    fn run<E: Sixteen>(self, _: E) -> Self::Output {
         let pile = self.palette.lanes(self.wavelengths);
         let (reflectance, transmittance) = pile.reflectance_transmittance(self.contents);
         (Lanes(reflectance), Lanes(transmittance))
@@ -169,7 +169,7 @@ impl<const N: usize> Task for OfEach<'_, N> {
     type Output = Lanes<N>;
 
     #[inline(always)]
-    fn run<E: Eight>(self, _: E) -> Self::Output {
+    fn run<E: Sixteen>(self, _: E) -> Self::Output {
         let pile = self.palette.lanes(self.wavelengths);
         Lanes(pile.transmittance_of_each(self.contents))
     }

@@ -5,15 +5,16 @@ use std::arch::aarch64::{
     vcltq_f32, vdivq_f32, vdupq_n_f32, vld1q_f32, vld1q_u32, vmulq_f32, vst1q_f32, vsubq_f32,
 };
 
+use super::wide::Halves;
 use super::{Eight, LANES, Row};
 
 #[derive(Clone, Copy)]
 pub(super) struct Neon;
 
-type Halves = [float32x4_t; 2];
+type Pair = [float32x4_t; 2];
 
 #[inline(always)]
-fn halves(a: Halves, b: Halves, f: impl Fn(float32x4_t, float32x4_t) -> float32x4_t) -> Halves {
+fn halves(a: Pair, b: Pair, f: impl Fn(float32x4_t, float32x4_t) -> float32x4_t) -> Pair {
     [f(a[0], b[0]), f(a[1], b[1])]
 }
 
@@ -29,21 +30,21 @@ fn bits(masks: [uint32x4_t; 2]) -> u32 {
 // In all of the following:
 // SAFETY: NEON is part of AArch64; rows have the eight numbers that are read and written.
 impl Eight for Neon {
-    type F = Halves;
+    type F = Pair;
 
     #[inline(always)]
-    fn splat(self, value: f32) -> Halves {
+    fn splat(self, value: f32) -> Pair {
         [unsafe { vdupq_n_f32(value) }; 2]
     }
 
     #[inline(always)]
-    fn load(self, row: &Row) -> Halves {
+    fn load(self, row: &Row) -> Pair {
         let (low, high) = row.0.split_at(LANES / 2);
         unsafe { [vld1q_f32(low.as_ptr()), vld1q_f32(high.as_ptr())] }
     }
 
     #[inline(always)]
-    fn store(self, row: Halves) -> Row {
+    fn store(self, row: Pair) -> Row {
         let mut stored = Row([0.0; LANES]);
         let (low, high) = stored.0.split_at_mut(LANES / 2);
         unsafe {
@@ -54,49 +55,44 @@ impl Eight for Neon {
     }
 
     #[inline(always)]
-    fn add(self, a: Halves, b: Halves) -> Halves {
+    fn add(self, a: Pair, b: Pair) -> Pair {
         halves(a, b, |a, b| unsafe { vaddq_f32(a, b) })
     }
 
     #[inline(always)]
-    fn sub(self, a: Halves, b: Halves) -> Halves {
+    fn sub(self, a: Pair, b: Pair) -> Pair {
         halves(a, b, |a, b| unsafe { vsubq_f32(a, b) })
     }
 
     #[inline(always)]
-    fn mul(self, a: Halves, b: Halves) -> Halves {
+    fn mul(self, a: Pair, b: Pair) -> Pair {
         halves(a, b, |a, b| unsafe { vmulq_f32(a, b) })
     }
 
     #[inline(always)]
-    fn mul_add_roughly(self, a: Halves, b: Halves, c: Halves) -> Halves {
-        self.add(self.mul(a, b), c)
-    }
-
-    #[inline(always)]
-    fn div(self, a: Halves, b: Halves) -> Halves {
+    fn div(self, a: Pair, b: Pair) -> Pair {
         halves(a, b, |a, b| unsafe { vdivq_f32(a, b) })
     }
 
     // FMIN and FMAX treat NaN differently from the trait, so values are compared and selected
     // instead.
     #[inline(always)]
-    fn less(self, a: Halves, b: Halves) -> Halves {
+    fn less(self, a: Pair, b: Pair) -> Pair {
         halves(a, b, |a, b| unsafe { vbslq_f32(vcltq_f32(a, b), a, b) })
     }
 
     #[inline(always)]
-    fn greater(self, a: Halves, b: Halves) -> Halves {
+    fn greater(self, a: Pair, b: Pair) -> Pair {
         halves(a, b, |a, b| unsafe { vbslq_f32(vcgtq_f32(a, b), a, b) })
     }
 
     #[inline(always)]
-    fn at_most(self, a: Halves, b: Halves) -> u32 {
+    fn at_most(self, a: Pair, b: Pair) -> u32 {
         bits([0, 1].map(|half| unsafe { vcleq_f32(a[half], b[half]) }))
     }
 
     #[inline(always)]
-    fn below(self, a: Halves, b: Halves) -> u32 {
+    fn below(self, a: Pair, b: Pair) -> u32 {
         bits([0, 1].map(|half| unsafe { vcltq_f32(a[half], b[half]) }))
     }
 
@@ -104,3 +100,5 @@ impl Eight for Neon {
     #[inline(always)]
     fn prefetch<T>(self, _slice: &[T], _place: usize) {}
 }
+
+impl Halves for Neon {}

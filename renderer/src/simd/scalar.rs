@@ -1,5 +1,6 @@
 //! The level without vector instructions, the reference for the others.
 
+use super::wide::Halves;
 use super::{Eight, LANES, Row};
 
 #[derive(Clone, Copy)]
@@ -49,11 +50,6 @@ impl Eight for Scalar {
     }
 
     #[inline(always)]
-    fn mul_add_roughly(self, a: Row, b: Row, c: Row) -> Row {
-        lanes(|i| a.0[i] * b.0[i] + c.0[i])
-    }
-
-    #[inline(always)]
     fn div(self, a: Row, b: Row) -> Row {
         lanes(|i| a.0[i] / b.0[i])
     }
@@ -81,3 +77,5 @@ impl Eight for Scalar {
     #[inline(always)]
     fn prefetch<T>(self, _slice: &[T], _place: usize) {}
 }
+
+impl Halves for Scalar {}

@@ -14,7 +14,7 @@ use super::super::triangle::{Candidates, ShearRay};
 use super::super::wide_tree::Visitor;
 use super::triangle_tree::TriangleTree;
 use super::{Geometry, Hit};
-use crate::simd::{Eight, LANES, Level, Task};
+use crate::simd::{Eight, LANES, Level, Sixteen, Task};
 
 /// What a search is for.
 pub(super) trait Found: Default {
@@ -105,7 +105,7 @@ impl<F: Found> Task for Search<'_, F> {
     type Output = F::Output;
 
     #[inline(always)]
-    fn run<E: Eight>(self, e: E) -> F::Output {
+    fn run<E: Sixteen>(self, e: E) -> F::Output {
         let Self { geometry, ray, .. } = self;
         let mut found = F::default();
         if geometry.carriers.len() == 1 {
@@ -216,7 +216,7 @@ impl<F: Found> Task for InMesh<'_, F> {
     type Output = Option<Hit>;
 
     #[inline(always)]
-    fn run<E: Eight>(self, e: E) -> Option<Hit> {
+    fn run<E: Sixteen>(self, e: E) -> Option<Hit> {
         let (origin, direction, t_min) = (self.origin, self.direction, self.t_min);
         let tree = &self.tree.tree;
         let slab = SlabRay::new(origin, direction, t_min, tree.bounds());
@@ -258,7 +258,7 @@ impl<F: Found> Task for Walls<'_, '_, F> {
     type Output = Option<Hit>;
 
     #[inline(always)]
-    fn run<E: Eight>(self, e: E) -> Option<Hit> {
+    fn run<E: Sixteen>(self, e: E) -> Option<Hit> {
         let Self(search) = self;
         let (origin, direction, t_min) = (search.origin, search.direction, search.t_min);
         let slab = SlabRay::new(origin, direction, t_min, &search.tree.wall_bounds);

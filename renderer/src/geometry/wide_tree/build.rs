@@ -1,11 +1,11 @@
 //! Building a wide tree: neighbouring boxes are packed into leaves, a binary tree is built over the
-//! leaves, and its nodes are combined into nodes of eight.
+//! leaves, and its nodes are combined into nodes of sixteen.
 
 use rayon::prelude::*;
 
 use super::super::bounds::Bounds;
 use super::super::{bvh, median, memory};
-use super::cut::{Cheapest, Cut, ThreeLevels};
+use super::cut::{Cheapest, Cut, FourLevels};
 use super::pack;
 use super::{LEAF, LeafItems, MAX_DEPTH, WideNode, WideTree};
 use crate::geometry::binary_tree::{BinaryNode, upwards};
@@ -48,8 +48,8 @@ impl WideTree {
             .map(|members| members.fold(Bounds::EMPTY, Bounds::union))
             .collect();
         let (tree, order) = Self::over_leaves::<Cheapest>(&bvh::binary_tree(&bounds), &bounds)
-            .or_else(|| Self::over_leaves::<ThreeLevels>(&median::binary_tree(&bounds), &bounds))
-            .expect("halving gives at most 30 binary levels, three of which make one level here");
+            .or_else(|| Self::over_leaves::<FourLevels>(&median::binary_tree(&bounds), &bounds))
+            .expect("halving gives at most 30 binary levels, four of which make one level here");
         let leaves = order.into_iter().map(|leaf| packed[leaf as usize]);
         (tree, leaves.collect())
     }

@@ -2,12 +2,12 @@
 
 use super::super::bounds::Bounds;
 use crate::geometry::binary_tree::{BinaryNode, upwards};
-use crate::simd::{LANES, Stack};
+use crate::simd::{Stack, WIDE};
 
-/// At most eight binary nodes.
+/// At most sixteen binary nodes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Children {
-    nodes: [u32; LANES],
+    nodes: [u32; WIDE],
     count: usize,
 }
 
@@ -41,15 +41,15 @@ pub(super) trait Cut {
 pub(super) struct Cheapest {
     /// For each node and each `i`: how many of `i + 1` children its left side gets; 0 if the node
     /// stays whole. The last entry is for the node as a wide node, which is always opened.
-    left: Vec<[u8; LANES]>,
+    left: Vec<[u8; WIDE]>,
 }
 
 impl Cut for Cheapest {
     fn new(binary: &[BinaryNode], bounds: &[Bounds]) -> Self {
-        let mut left = vec![[0; LANES]; binary.len()];
+        let mut left = vec![[0; WIDE]; binary.len()];
         // Sum of the areas of wide nodes in a subtree that is represented by at most i + 1
         // children.
-        let mut cost = vec![[0.0_f32; LANES]; binary.len()];
+        let mut cost = vec![[0.0_f32; WIDE]; binary.len()];
         for node in upwards(binary) {
             let node = node as usize;
             let BinaryNode::Inner([l, r]) = binary[node] else {
@@ -57,8 +57,8 @@ impl Cut for Cheapest {
             };
             let (of_left, of_right) = (cost[l as usize], cost[r as usize]);
             // Where sums of areas overflow, any choice will do.
-            let (mut least, mut share) = ([f32::INFINITY; LANES], [1; LANES]);
-            for most in 1..LANES {
+            let (mut least, mut share) = ([f32::INFINITY; WIDE], [1; WIDE]);
+            for most in 1..WIDE {
                 for left in 0..most {
                     let sum = of_left[left] + of_right[most - 1 - left];
                     if sum < least[most] {
@@ -66,9 +66,9 @@ impl Cut for Cheapest {
                     }
                 }
             }
-            let whole = least[LANES - 1] + bounds[node].half_area();
+            let whole = least[WIDE - 1] + bounds[node].half_area();
             (least[0], share[0]) = (whole, 0);
-            for most in 1..LANES - 1 {
+            for most in 1..WIDE - 1 {
                 if whole < least[most] {
                     (least[most], share[most]) = (whole, 0);
                 }
@@ -80,12 +80,12 @@ impl Cut for Cheapest {
 
     fn children(&self, binary: &[BinaryNode], root: u32) -> Children {
         let mut children = Children {
-            nodes: [0; LANES],
+            nodes: [0; WIDE],
             count: 0,
         };
         // (node, children it may take)
-        let mut open = Stack::<(u32, usize), LANES>::new();
-        open.push((root, LANES));
+        let mut open = Stack::<(u32, usize), WIDE>::new();
+        open.push((root, WIDE));
         while let Some((node, most)) = open.pop() {
             let left = usize::from(self.left[node as usize][most - 1]);
             match binary[node as usize] {
@@ -100,20 +100,20 @@ impl Cut for Cheapest {
     }
 }
 
-/// Combines three levels of the binary tree into one, which gives the least depth for any boxes.
-pub(super) struct ThreeLevels;
+/// Combines four levels of the binary tree into one, which gives the least depth for any boxes.
+pub(super) struct FourLevels;
 
-impl Cut for ThreeLevels {
+impl Cut for FourLevels {
     fn new(_: &[BinaryNode], _: &[Bounds]) -> Self {
         Self
     }
 
     fn children(&self, binary: &[BinaryNode], root: u32) -> Children {
         let mut level = Children {
-            nodes: [root; LANES],
+            nodes: [root; WIDE],
             count: 1,
         };
-        for _ in 0..LANES.ilog2() {
+        for _ in 0..WIDE.ilog2() {
             let mut below = Children { count: 0, ..level };
             for &node in level.as_slice() {
                 match binary[node as usize] {

@@ -1,9 +1,8 @@
 use crate::geometry::binary_tree::BinaryNode;
-use glam::Vec3;
 
 use super::super::testing::Numbers;
 use super::super::{bvh, median};
-use super::cut::{Cheapest, ThreeLevels};
+use super::cut::{Cheapest, FourLevels};
 use super::*;
 
 fn boxes(count: usize) -> Vec<Bounds> {
@@ -25,13 +24,8 @@ fn check(tree: &WideTree, leaves: &[LeafItems], boxes: &[Bounds]) -> usize {
     while let Some((node, bounds, level)) = open.pop() {
         levels = levels.max(level);
         let node = &tree.nodes[node as usize];
-        for lane in 0..LANES {
-            let corner =
-                |side: usize| Vec3::from_array(node.planes.map(|sides| sides[side].0[lane]));
-            let child = Bounds {
-                min: corner(0),
-                max: corner(1),
-            };
+        for lane in 0..WIDE {
+            let child = node.bounds_of(lane);
             if child.is_empty() {
                 continue;
             }
@@ -93,10 +87,10 @@ fn a_tree_too_deep_for_the_stack_is_not_taken_and_halving_is_shallow() {
     assert!(WideTree::over_leaves::<Cheapest>(&chain, &boxes).is_none());
     let binary = median::binary_tree(&boxes);
     let (tree, order) =
-        WideTree::over_leaves::<ThreeLevels>(&binary, &boxes).expect("halves are shallow");
+        WideTree::over_leaves::<FourLevels>(&binary, &boxes).expect("halves are shallow");
     assert!(
-        check(&tree, &alone(order), &boxes) <= 5,
-        "5000 boxes, one a leaf, 8 a node"
+        check(&tree, &alone(order), &boxes) <= 4,
+        "5000 boxes, one a leaf, 16 a node"
     );
 }
 
@@ -110,7 +104,7 @@ fn alone(order: Vec<u32>) -> Vec<LeafItems> {
 }
 
 #[test]
-fn the_cheapest_cut_has_less_area_and_fewer_nodes_than_one_of_three_levels() {
+fn the_cheapest_cut_has_less_area_and_fewer_nodes_than_one_of_four_levels() {
     let boxes = boxes(5000);
     let binary = bvh::binary_tree(&boxes);
     let area = |tree: &WideTree| -> f32 {
@@ -122,9 +116,9 @@ fn the_cheapest_cut_has_less_area_and_fewer_nodes_than_one_of_three_levels() {
     };
     let (cheapest, order) = WideTree::over_leaves::<Cheapest>(&binary, &boxes).expect("shallow");
     check(&cheapest, &alone(order), &boxes);
-    let (even, _) = WideTree::over_leaves::<ThreeLevels>(&binary, &boxes).expect("shallow");
+    let (even, _) = WideTree::over_leaves::<FourLevels>(&binary, &boxes).expect("shallow");
     let ratio = area(&cheapest) / area(&even);
-    assert!(ratio < 0.96, "area {ratio} of that of three levels a node");
+    assert!(ratio < 0.96, "area {ratio} of that of four levels a node");
     let ratio = cheapest.nodes.len() as f64 / even.nodes.len() as f64;
     assert!(ratio < 0.9, "{ratio} of the nodes");
 }
