@@ -136,8 +136,15 @@ def time_scene(folder: Path, options: argparse.Namespace, work: Path) -> str:
 
 
 def main() -> int:
-    """Compares every scene; 0 if all checks hold."""
+    """Compares every scene; 0 if all checks hold, 2 if there is no program."""
     options = arguments()
+    if not options.lamina.is_file():
+        print(
+            f"reference/compare: there is no program {options.lamina}: "
+            "build it with cargo build --release, or name it by --lamina or LAMINA",
+            file=sys.stderr,
+        )
+        return 2
     options.variant = variant.choose(options.variant)
     from . import report
 
