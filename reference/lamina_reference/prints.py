@@ -54,6 +54,8 @@ BEFORE = 0.5
 # Errors of blocks are known from few twins, so that some are larger than they seem: what is aimed
 # at is this share of the error that is asked for.
 MARGIN = 0.85
+# The member of the file of errors that tells of which pictures they are.
+WRITTEN = "written"
 HEADER = (
     "| scene | size | samples | seconds | memory, GB | as traced: within 1 %, 95 % within | "
     "as shown: within 1 %, 95 % within | bias |\n|---|---|---|---|---|---|---|---|"
@@ -112,18 +114,27 @@ def remember(options: argparse.Namespace, twins: Sequence[Twin]) -> None:
 
 def remembered_mean(options: argparse.Namespace, twins: Sequence[Twin]) -> Shown | None:
     """The mean of an earlier print, unless one of its twins has gone on since."""
-    file, picture = errors_of(options), options.out / f"{name_of(options.scene)}.exr"
+    picture = options.out / f"{name_of(options.scene)}.exr"
     try:
-        at = file.stat().st_mtime_ns
-        if not picture.exists() or any(twin.picture.stat().st_mtime_ns > at for twin in twins):
-            return None
-        with np.load(file) as told:
-            errors = [told[name] for name in told.files]
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error):
+        with np.load(errors_of(options)) as told:
+            as_written = np.array_equal(told[WRITTEN], written(twins))
+            errors = [told[name] for name in told.files if name != WRITTEN]
+    except (OSError, KeyError, ValueError, EOFError, zipfile.BadZipFile, zlib.error):
         return None
-    if len(errors) != len(twins):
+    if not as_written or not picture.exists() or len(errors) != len(twins):
         return None
     return Shown(picture, errors)
+
+
+def remember_mean(options: argparse.Namespace, twins: Sequence[Twin], shown: Shown) -> None:
+    """Writes how the mean errs, and of which pictures it is the mean."""
+    np.savez_compressed(errors_of(options), *shown.errors, **{WRITTEN: written(twins)})
+
+
+def written(twins: Sequence[Twin]) -> Array:
+    """When the picture of each twin was last written, in nanoseconds."""
+    # Compared as equal, never as earlier: a clock may stand still for some milliseconds.
+    return np.array([twin.picture.stat().st_mtime_ns for twin in twins])
 
 
 def remembered(options: argparse.Namespace) -> list[Twin]:
@@ -410,7 +421,7 @@ def run(options: argparse.Namespace) -> None:
         shown = mean_of(options, twins)
     if options.keep or options.resume:
         remember(options, twins)
-        np.savez_compressed(errors_of(options), *shown.errors)
+        remember_mean(options, twins, shown)
     else:
         for twin in twins:
             twin.checkpoint.unlink(missing_ok=True)
