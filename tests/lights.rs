@@ -307,9 +307,40 @@ fn a_floor_in_daylight_gets_the_irradiance_of_sun_and_sky_beside_other_lights_to
         let row = row.expect("it is one of the rows of SPCTRL2");
         let up = elevation.to_radians().sin();
         let irradiance = row.direct * up + row.diffuse + beside;
-        let found = mean_and_error(&floor_under(&day, 256), 0, 8);
-        // The lamp hides less than a thousandth of the sky.
-        assert_agrees(&day, found, 0.5 / PI * irradiance, 1e-3);
+        for sampled in ["", "[integrator]\nsample_skies = false\n"] {
+            let day = format!("{day}{sampled}");
+            let found = mean_and_error(&floor_under(&day, 256), 0, 8);
+            // The lamp hides less than a thousandth of the sky.
+            assert_agrees(&day, found, 0.5 / PI * irradiance, 1e-3);
+        }
+    }
+}
+
+#[test]
+fn only_skies_without_bright_spots_may_be_left_to_bounces() {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let day = "[lights.day.daylight]\nelevation_deg = 30\nazimuth_deg = 70\n";
+    let picture = |path: &str| format!("[lights.sky.environment]\npath = \"{path}\"\n");
+    for (blocks, may_be) in [
+        (picture("first-leaf/evening.png"), true),
+        (day.to_owned(), true),
+        // Gaps between leaves send most of its light.
+        (picture("gallery/forest.hdr"), false),
+        // Its sun was taken down.
+        (picture("gallery/sunrise.hdr"), true),
+        (
+            "[lights.sky.constant]\nradiance_w_m2_sr_nm = 1\n".to_owned(),
+            false,
+        ),
+    ] {
+        let loaded = parse(&floor_under(&blocks, 16), "test.toml", &scenes, &[]);
+        let description = loaded.map_err(|errors| errors.to_string());
+        let description = description
+            .expect("the test's own scene is right")
+            .description;
+        let world = World::build(&description).expect("the test's own scene can be built");
+        assert_eq!(world.selections.have_even_skies(), may_be, "{blocks}");
+        assert!(world.selections.of(false).is_empty(), "{blocks}");
     }
 }
 
@@ -349,6 +380,7 @@ fn lamps_and_a_picture_of_the_sky_add_up() {
     for samples in [
         "[integrator]\nlight_samples = 1\n",
         "[integrator]\nlight_samples = 6\n",
+        "[integrator]\nlight_samples = 6\nsample_skies = false\n",
     ] {
         let both = mean_and_error(&[lamp, lit, sky, samples].concat());
         let error = (alone.1 * alone.1 + with_dark.1 * with_dark.1 + both.1 * both.1).sqrt();

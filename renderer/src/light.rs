@@ -39,6 +39,7 @@ pub mod tree;
 
 use std::f32::consts::PI;
 
+use crate::sampling::distribution::Piecewise2d;
 use crate::spectrum::{Lanes, Spectrum, WavelengthGrid, Wavelengths};
 use area::AreaLight;
 use daylight::sky::SkyLight;
@@ -104,6 +105,9 @@ pub enum Sampled {
     Around {
         /// Rough irradiance on a surface that sees half of the surroundings, W m⁻² nm⁻¹.
         irradiance: f32,
+        /// Mean square of its radiance over all directions, relative to the square of the mean: 1
+        /// if it is even, the inverse of its share of the sphere if all comes from one part.
+        unevenness: f64,
     },
     /// By parts, each with a probability according to the light that it may send to the point.
     ByParts(Vec<Emitter>),
@@ -119,10 +123,12 @@ impl Light {
                 let radiance = light.mean_brightness() * light.white().mean_over(range_nm);
                 Sampled::Around {
                     irradiance: PI * radiance,
+                    unevenness: light.unevenness(),
                 }
             }
             Self::Sky(light) => Sampled::Around {
                 irradiance: light.diffuse().mean_over(range_nm),
+                unevenness: light.unevenness(),
             },
             Self::Area(light) => Sampled::ByParts(light.emitters(range_nm).collect()),
             Self::Spot(light) => {
@@ -194,6 +200,40 @@ impl Light {
             Self::Area(_) | Self::Spot(_) => None,
         }
     }
+
+    /// Radiance from infinity as by [`Light::at_infinity`], without the density, which takes time.
+    pub fn radiance_at_infinity<const N: usize>(
+        &self,
+        wi: Vec3,
+        wavelengths: &Wavelengths<N>,
+    ) -> Option<Lanes<N>> {
+        match self {
+            Self::Environment(light) => Some(light.seen_towards(wi, wavelengths)),
+            Self::Sky(light) => Some(light.seen_towards(wi, wavelengths)),
+            Self::Distant(_) | Self::Constant(_) | Self::Sun(_) | Self::Area(_) | Self::Spot(_) => {
+                let found = self.at_infinity(wi, wavelengths);
+                found.map(|(radiance, _)| radiance)
+            }
+        }
+    }
+}
+
+/// Mean square of radiance over all directions, relative to the square of the mean, of a light whose
+/// directions are drawn by `distribution`: in proportion to radiance, columns by azimuth, rows from
+/// the zenith to the nadir.
+fn unevenness(distribution: &Piecewise2d) -> f64 {
+    let [width, height] = distribution.size();
+    let from_zenith = |row: usize| std::f64::consts::PI * row as f64 / height as f64;
+    let of_row = |row: usize| {
+        let [upper, lower] = [row, row + 1].map(|row| libm::cos(from_zenith(row)));
+        let share_of_sphere = 0.5 * (upper - lower) / width as f64;
+        let squares = (0..width).map(|column| {
+            let probability = f64::from(distribution.probability(column, row));
+            probability * probability / share_of_sphere
+        });
+        squares.sum::<f64>()
+    };
+    (0..height).map(of_row).sum()
 }
 
 /// Angle between unit vectors, rad, accurate for small angles too.

@@ -105,6 +105,7 @@ fn film_and_camera_are_in_si_units() {
     );
     assert_eq!(scene.integrator.branches, Some(3));
     assert_eq!(scene.integrator.light_samples, Some(5));
+    assert_eq!(scene.integrator.sample_skies, Some(false));
 }
 
 #[test]

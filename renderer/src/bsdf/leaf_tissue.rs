@@ -21,7 +21,7 @@ pub struct Tissue<const N: usize> {
 /// 1 for tissue that absorbs nothing, as 0.97 is measured at 800 nm; for green leaves within 5 % of
 /// the means that Noda et al. measured at 450, 550, 680 and 800 nm. The abaxial face absorbs at
 /// least 0.63 of what the adaxial one does, whatever `R` and `T`.
-#[inline]
+#[inline(always)]
 pub fn usual_abaxial_ratio<const N: usize>(
     reflectance: Lanes<N>,
     transmittance: Lanes<N>,
@@ -41,6 +41,7 @@ const MOST_THROUGH: f32 = 0.999;
 impl<const N: usize> Tissue<N> {
     /// The tissue of a leaf, from its reflectance `R` and transmittance `T` at normal incidence on
     /// the adaxial face and the ratio `ratio` of abaxial to adaxial reflectance.
+    #[inline(always)]
     pub fn new(
         coats: &[Coat; 2],
         reflectance: Lanes<N>,
@@ -85,7 +86,7 @@ impl<const N: usize> Tissue<N> {
     /// The same reflectances with the transmittance of light that entered elsewhere. Where both
     /// faces could not send back what they do and let so much through, they let less through.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn passing(mut self, coats: &[Coat; 2], transmittance: Lanes<N>) -> Self {
         let into = 1.0 / (1.0 - coats[0].albedo.normal());
         let back = coats[0].passed_mean() / coats[1].passed_mean();

@@ -2,33 +2,30 @@
 
 use glam::Vec2;
 
-use crate::sampling::distribution::Piecewise1d;
-
 /// A separable filter. All samples have equal weight, so that pixels stay independent of each
 /// other.
 #[derive(Clone, Debug)]
 pub struct PixelFilter {
-    radius: f32,
-    /// `None` for the box of one pixel.
-    gaussian: Option<Piecewise1d>,
+    /// Distances from the middle of the pixel, in pixels, that divide the Gaussian into equal
+    /// shares; `None` for the box of one pixel.
+    gaussian: Option<Box<[f32; STEPS + 1]>>,
 }
 
-const STEPS: usize = 256;
+/// Number of shares, within each of which the density is even.
+const STEPS: usize = 1024;
 /// The Gaussian is cut off at this many standard deviations.
-const CUT: f32 = 3.0;
+const CUT: f64 = 3.0;
 
 impl PixelFilter {
     /// A Gaussian cut off at `radius` pixels (three standard deviations), or a box of one pixel for
     /// 0.
     pub fn new(radius: f32) -> Self {
-        let density = |i: usize| {
-            let x = CUT * (2.0 * (i as f32 + 0.5) / STEPS as f32 - 1.0);
-            libm::expf(-0.5 * x * x)
+        let border = |i: usize| {
+            let share = 2.0 * i as f64 / STEPS as f64 - 1.0;
+            (f64::from(radius) / CUT * deviations(share)) as f32
         };
-        let weights: Vec<f32> = (0..STEPS).map(density).collect();
         Self {
-            radius,
-            gaussian: (radius > 0.0).then(|| Piecewise1d::new(&weights)),
+            gaussian: (radius > 0.0).then(|| Box::new(std::array::from_fn(border))),
         }
     }
 
@@ -38,11 +35,31 @@ impl PixelFilter {
             return u;
         };
         let along = |u: f32| {
-            let (step, within) = gaussian.sample(u);
-            self.radius * (2.0 * (step as f32 + within) / STEPS as f32 - 1.0)
+            let place = u * STEPS as f32;
+            let step = (place as usize).min(STEPS - 1);
+            let [low, high] = [gaussian[step], gaussian[step + 1]];
+            low + (high - low) * (place - step as f32)
         };
         Vec2::new(0.5 + along(u.x), 0.5 + along(u.y))
     }
+}
+
+/// The number of standard deviations on both sides of the middle that hold a share, −1 to 1, of the
+/// Gaussian that is cut off at [`CUT`]; negative for a negative share.
+fn deviations(share: f64) -> f64 {
+    let held = |x: f64| libm::erf(x * std::f64::consts::FRAC_1_SQRT_2);
+    let of = share * held(CUT);
+    // By halving, as often as there are digits.
+    let (mut low, mut high) = (-CUT, CUT);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if held(middle) < of {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
 }
 
 #[cfg(test)]

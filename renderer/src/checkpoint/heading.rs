@@ -116,10 +116,12 @@ impl Heading {
             roulette_below,
             branches,
             light_samples,
+            sample_skies,
         } = progress.effort;
         for word in [roulette_below.to_bits(), branches, light_samples] {
             out.word(word);
         }
+        out.flag(sample_skies);
         for word in [progress.first, progress.drawn[0], progress.drawn[1]] {
             out.word(word);
         }
@@ -195,6 +197,7 @@ impl Heading {
             roulette_below: f32::from_bits(rest.word()?),
             branches: rest.word()?,
             light_samples: rest.word()?,
+            sample_skies: rest.flag()?,
         };
         let (first, drawn) = (rest.word()?, [rest.word()?, rest.word()?]);
         let (rays, seconds) = (rest.long()?, rest.double()?);

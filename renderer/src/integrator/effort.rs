@@ -9,4 +9,7 @@ pub struct Effort {
     pub branches: u32,
     /// Number of light samples at the first vertex, besides those of suns, ≥ 1.
     pub light_samples: u32,
+    /// Whether skies and environment pictures are among what is sampled, at every vertex; if not,
+    /// bounces find them.
+    pub sample_skies: bool,
 }

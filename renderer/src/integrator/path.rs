@@ -23,6 +23,7 @@ use crate::integrator::cone::Cone;
 use crate::integrator::effort::Effort;
 use crate::integrator::encounter::Encounter;
 use crate::light::Receiver;
+use crate::light::selection::LightSelection;
 use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
@@ -136,6 +137,7 @@ impl<const N: usize> Paths<'_, N> {
         result: &mut PathResult<N>,
     ) {
         let (world, wavelengths) = (self.world, self.wavelengths);
+        let lights = (&world.lights[..], self.selection());
         for depth in from..MOST_EVENTS {
             let met = self.meet(&mut leg, &mut passage, depth == 0, stream, result);
             let is_last = world.integrator.max_depth.is_some_and(|most| depth >= most);
@@ -144,7 +146,7 @@ impl<const N: usize> Paths<'_, N> {
                 Met::Nothing => {
                     let way = leg.ray.direction;
                     result.radiance +=
-                        leg.throughput * from_infinity(world, way, &leg.bounce, wavelengths);
+                        leg.throughput * from_infinity(lights, way, &leg.bounce, wavelengths);
                     return;
                 }
                 Met::Medium(collision) => {
@@ -179,7 +181,7 @@ impl<const N: usize> Paths<'_, N> {
             let (surface, frame, bsdf) = (&encounter.surface, &encounter.frame, &encounter.bsdf);
             let (wo, width) = (encounter.wo, encounter.width);
             if let Some(number) = world.objects[surface.instance as usize].light {
-                let found = emission(world, number, ray, surface, bounce, wavelengths);
+                let found = emission(lights, number, ray, surface, bounce, wavelengths);
                 result.radiance += *throughput * found;
             }
             if depth == 0 && result.first.is_none() {
@@ -299,7 +301,7 @@ impl<const N: usize> Paths<'_, N> {
         let mut gathered = vertex.gathered;
         if vertex.is_lit {
             let [_, mut x, mut y, _] = numbers;
-            if depth == 0 && self.effort.branches > 1 && !self.world.selection.always.is_empty() {
+            if depth == 0 && self.effort.branches > 1 && !self.selection().always.is_empty() {
                 // Whether the path branches depends on the suns. If they shared the numbers of the
                 // bounce, those of a lit vertex would be a choice among all, and the mean wrong in
                 // penumbras.
@@ -325,6 +327,11 @@ impl<const N: usize> Paths<'_, N> {
             return None;
         }
         vertex.bounce(numbers, 1.0, self.effort.roulette_below)
+    }
+
+    /// The lights that are sampled.
+    pub(super) fn selection(&self) -> &LightSelection {
+        self.world.selections.of(self.effort.sample_skies)
     }
 
     /// How much of a throughput counts: as the film sees it, or of light that excites, the brightest

@@ -4,8 +4,8 @@
 //! leaves causes most of the noise. Under a lamp among ten thousand leaves it causes almost none
 //! but takes most of the time; there shadows cause most of the noise. So a few candidates are tried
 //! on a sample of the pixels, before and apart from the picture, and the one with the least error ×
-//! work is chosen: first among the numbers of light samples, then, with that number, among the
-//! other settings.
+//! work is chosen: first among the numbers of light samples, with skies among them or left to
+//! bounces, then, with that number, among the other settings.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -18,7 +18,8 @@ use crate::integrator::path::{self, PathResult};
 use crate::sampling::stream::{Pixel, Stream};
 use crate::scene::world::World;
 
-/// Numbers of light samples that are tried, each with the pair of `WITHOUT_TRIAL`.
+/// Numbers of light samples that are tried, each with the pair of `WITHOUT_TRIAL`, with skies and
+/// without.
 const LIGHT_SAMPLES: [u32; 4] = [1, 2, 4, 8];
 
 /// Pairs of roulette threshold and number of branches that are tried, from most to least work.
@@ -29,6 +30,7 @@ pub(super) const WITHOUT_TRIAL: Effort = Effort {
     roulette_below: 0.1,
     branches: 2,
     light_samples: 2,
+    sample_skies: true,
 };
 
 /// Samples per pixel of a trial: enough for their stratification to have an effect.
@@ -61,6 +63,7 @@ pub(super) fn choose(world: &World, job: &Job, layout: Layout, stop: &AtomicBool
                 .map_or(candidate.roulette_below, |given| given as f32),
             branches: integrator.branches.unwrap_or(candidate.branches),
             light_samples: integrator.light_samples.unwrap_or(candidate.light_samples),
+            sample_skies: integrator.sample_skies.unwrap_or(candidate.sample_skies),
         }
     };
     let without_trial = given(WITHOUT_TRIAL);
@@ -69,15 +72,7 @@ pub(super) fn choose(world: &World, job: &Job, layout: Layout, stop: &AtomicBool
         candidates.dedup();
         candidates
     };
-    let by_light_samples = if world.selection.is_empty() {
-        vec![without_trial]
-    } else {
-        let of = |&light_samples| Effort {
-            light_samples,
-            ..WITHOUT_TRIAL
-        };
-        choices(LIGHT_SAMPLES.iter().map(of).collect())
-    };
+    let by_light_samples = choices(light_samples(world));
     let by_pair = |best: Effort| {
         let of = |&(roulette_below, branches)| Effort {
             roulette_below,
@@ -105,6 +100,28 @@ pub(super) fn choose(world: &World, job: &Job, layout: Layout, stop: &AtomicBool
         .best(&by_light_samples)
         .and_then(|best| trial.best(&by_pair(best)))
         .unwrap_or(without_trial)
+}
+
+/// The numbers of light samples that can differ, with skies among the lights and without.
+fn light_samples(world: &World) -> Vec<Effort> {
+    let with_skies: &[bool] = match world.integrator.sample_skies {
+        Some(false) => &[false],
+        None if world.selections.have_even_skies() => &[true, false],
+        Some(true) | None => &[true],
+    };
+    let of = |&sample_skies: &bool| {
+        let numbers = if world.selections.of(sample_skies).is_empty() {
+            &LIGHT_SAMPLES[..1]
+        } else {
+            &LIGHT_SAMPLES[..]
+        };
+        numbers.iter().map(move |&light_samples| Effort {
+            light_samples,
+            sample_skies,
+            ..WITHOUT_TRIAL
+        })
+    };
+    with_skies.iter().flat_map(of).collect()
 }
 
 /// The result of one candidate in one pixel.

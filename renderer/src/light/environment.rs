@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 
 use super::radiance_table::RadianceTable;
 use super::texels::{Beyond, Texels};
-use crate::light::LightSample;
+use crate::light::{LightSample, unevenness};
 use crate::sampling::distribution::Piecewise2d;
 use crate::spectrum::rgb::Primaries;
 use crate::spectrum::{Curve, Lanes, WavelengthGrid, Wavelengths};
@@ -64,6 +64,11 @@ impl EnvironmentLight {
             weight += sin;
         }
         sum / weight
+    }
+
+    /// Mean square of its radiance over all directions, relative to the square of the mean.
+    pub fn unevenness(&self) -> f64 {
+        unevenness(&self.distribution)
     }
 
     /// Mean of the texels over the sphere, linear sRGB, to be multiplied by `white`.
@@ -139,6 +144,11 @@ impl EnvironmentLight {
             pdf: density / (2.0 * PI * PI * sin_theta),
             is_point: false,
         })
+    }
+
+    /// Radiance along `wi`.
+    pub fn seen_towards<const N: usize>(&self, wi: Vec3, wavelengths: &Wavelengths<N>) -> Lanes<N> {
+        self.radiance(self.uv_of(wi), wavelengths)
     }
 
     /// Radiance and density along `wi`.
@@ -256,11 +266,48 @@ mod tests {
                 .sample(&wavelengths(), u)
                 .expect("the sky is bright everywhere");
             let (radiance, pdf) = light.towards(sample.wi, &wavelengths());
+            assert_eq!(radiance, light.seen_towards(sample.wi, &wavelengths()));
             across_a_border += usize::from((pdf / sample.pdf - 1.0).abs() > 1e-3);
             assert!((radiance.0[3] / sample.radiance.0[3] - 1.0).abs() < 1e-2);
         }
         // Rounding may carry a direction at the edge of a cell into the next one.
         assert!(across_a_border <= 4, "{across_a_border} densities differ");
+    }
+
+    #[test]
+    fn unevenness_is_1_of_an_even_sky_and_the_inverse_share_of_a_single_part() {
+        let white = Curve::Constant(1.0);
+        let even = EnvironmentLight::new(vec![[0.7; 3]; 64 * 32], 64, white.clone(), 0.0);
+        assert!(
+            (even.unevenness() - 1.0).abs() < 1e-3,
+            "{}",
+            even.unevenness()
+        );
+        // The upper half, an eighth around: its border is half a texel wide on each side.
+        let (width, height) = (512, 256);
+        let lit = |i: usize| (i % width) < width / 8 && i / width < height / 2;
+        let texels = (0..width * height).map(|i| if lit(i) { [2.0; 3] } else { [0.0; 3] });
+        let part = EnvironmentLight::new(texels.collect(), width, white, 0.0);
+        assert!(
+            (part.unevenness() / 16.0 - 1.0).abs() < 0.03,
+            "{}",
+            part.unevenness()
+        );
+        let directions = 40_000;
+        let light = smooth_sky();
+        let (mut mean, mut square) = (0.0_f64, 0.0_f64);
+        for i in 0..directions {
+            let z = 1.0 - 2.0 * (i as f32 + 0.5) / directions as f32;
+            let (sin, cos) = libm::sincosf(2.0 * PI * (i as f32 * 0.618_034).fract());
+            let radius = (1.0 - z * z).sqrt();
+            let wi = Vec3::new(radius * cos, radius * sin, z);
+            let colour = light.picture.at(light.uv_of(wi), Beyond::Opposite);
+            let brightness = f64::from(colour.iter().sum::<f32>());
+            mean += brightness / f64::from(directions);
+            square += brightness * brightness / f64::from(directions);
+        }
+        let expected = square / (mean * mean);
+        assert!((light.unevenness() - expected).abs() < 0.01 * (expected - 1.0) + 2e-3);
     }
 
     #[test]

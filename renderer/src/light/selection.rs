@@ -1,5 +1,7 @@
 //! Selection of the lights that are sampled at a point.
 
+use std::sync::Arc;
+
 use crate::light::tree::LightTree;
 use crate::light::{Light, Receiver, Sampled};
 use crate::sampling::distribution::Piecewise1d;
@@ -8,7 +10,8 @@ use crate::sampling::distribution::Piecewise1d;
 ///
 /// Suns are small and strong, so each is sampled at every vertex. Of the other lights, except
 /// constant skies, one is chosen by the light that it may send to the vertex. A constant sky is
-/// left to the bounces, which find it best.
+/// left to the bounces, which find it best; so are all other skies and environment pictures in a
+/// selection without them ([`Selections`]).
 #[derive(Clone, Debug)]
 pub struct LightSelection {
     /// Lights sampled at every vertex.
@@ -16,10 +19,10 @@ pub struct LightSelection {
     /// Lights that are found by rays that hit nothing.
     pub at_infinity: Box<[usize]>,
     pictures: Option<Pictures>,
-    patches: Option<Patches>,
+    patches: Option<Arc<Patches>>,
 }
 
-/// Environment pictures, of which one is chosen by its brightness.
+/// Skies and environment pictures, of which one is chosen by its brightness.
 #[derive(Clone, Debug)]
 struct Pictures {
     lights: Box<[usize]>,
@@ -27,6 +30,8 @@ struct Pictures {
     /// Irradiance of all these pictures on a surface that sees half of the surroundings: a rough
     /// value, W m⁻² nm⁻¹.
     irradiance: f32,
+    /// The greatest of their unevennesses.
+    unevenness: f64,
 }
 
 /// Patches of area lights, and spotlights, of which the tree chooses one.
@@ -38,6 +43,47 @@ struct Patches {
     first_leaf: Box<[u32]>,
     tree: LightTree,
 }
+
+/// The lights to sample for paths that sample skies and environment pictures, and for those that
+/// leave them to bounces.
+#[derive(Clone, Debug)]
+pub struct Selections {
+    with_skies: LightSelection,
+    without_skies: LightSelection,
+}
+
+impl Selections {
+    /// The selections for a scene's lights and a film with the given range of wavelengths.
+    pub fn new(lights: &[Light], range_nm: [f64; 2]) -> Self {
+        let with_skies = LightSelection::new(lights, range_nm);
+        Self {
+            without_skies: with_skies.without_skies(),
+            with_skies,
+        }
+    }
+
+    /// The selection with skies and environment pictures, or without.
+    #[inline]
+    pub fn of(&self, with_skies: bool) -> &LightSelection {
+        if with_skies {
+            &self.with_skies
+        } else {
+            &self.without_skies
+        }
+    }
+
+    /// Whether there are skies or environment pictures to sample that bounces could find as well,
+    /// since none of their light comes from a small part of them.
+    pub fn have_even_skies(&self) -> bool {
+        let pictures = self.with_skies.pictures.as_ref();
+        pictures.is_some_and(|pictures| pictures.unevenness <= EVEN)
+    }
+}
+
+/// Unevenness of a sky up to which bounces may do without samples of it. Of one that is less
+/// uneven, a part that sends a tenth of the light is an eight-hundredth of the sphere or more: some
+/// of a few thousand bounces meet it, so that a trial tells what they miss.
+const EVEN: f64 = 8.0;
 
 /// A light that is to be sampled.
 #[derive(Clone, Copy, Debug)]
@@ -67,6 +113,7 @@ impl LightSelection {
     pub fn new(lights: &[Light], range_nm: [f64; 2]) -> Self {
         let (mut always, mut at_infinity) = (Vec::new(), Vec::new());
         let (mut pictures, mut irradiances) = (Vec::new(), Vec::new());
+        let mut greatest = 1.0_f64;
         let (mut emitters, mut parts) = (Vec::new(), Vec::new());
         let mut first_leaf = vec![0; lights.len()];
         for (number, light) in lights.iter().enumerate() {
@@ -76,9 +123,13 @@ impl LightSelection {
             match light.sampled(range_nm) {
                 Sampled::Never => {}
                 Sampled::Always => always.push(number),
-                Sampled::Around { irradiance } => {
+                Sampled::Around {
+                    irradiance,
+                    unevenness,
+                } => {
                     pictures.push(number);
                     irradiances.push(irradiance);
+                    greatest = greatest.max(unevenness);
                 }
                 Sampled::ByParts(own) => {
                     first_leaf[number] = parts.len() as u32;
@@ -94,12 +145,23 @@ impl LightSelection {
                 lights: pictures.into(),
                 by_irradiance: Piecewise1d::new(&irradiances),
                 irradiance: irradiances.iter().sum(),
+                unevenness: greatest,
             }),
-            patches: (!emitters.is_empty()).then(|| Patches {
-                parts: parts.into(),
-                first_leaf: first_leaf.into(),
-                tree: LightTree::new(&emitters),
+            patches: (!emitters.is_empty()).then(|| {
+                Arc::new(Patches {
+                    parts: parts.into(),
+                    first_leaf: first_leaf.into(),
+                    tree: LightTree::new(&emitters),
+                })
             }),
+        }
+    }
+
+    /// The same lights, of which skies and environment pictures are never sampled.
+    fn without_skies(&self) -> Self {
+        Self {
+            pictures: None,
+            ..self.clone()
         }
     }
 

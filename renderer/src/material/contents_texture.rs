@@ -52,7 +52,7 @@ impl ContentsTexture {
     }
 
     /// Contents at `uv`.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, uv: Vec2) -> Texel {
         let x = (uv.x * self.width as f32 - 0.5).clamp(0.0, (self.width - 1) as f32);
         let y = (uv.y * self.height as f32 - 0.5).clamp(0.0, (self.height - 1) as f32);
@@ -71,7 +71,7 @@ impl ContentsTexture {
 
     /// One of the four texels around `uv`, drawn by the numbers `within` in [0, 1) with the weights
     /// of [`ContentsTexture::at`].
-    #[inline]
+    #[inline(always)]
     pub fn drawn(&self, uv: Vec2, within: Vec2) -> &Texel {
         // A float below 0 becomes the index 0.
         let x = (uv.x * self.width as f32 - 0.5 + within.x) as usize;

@@ -12,7 +12,8 @@ use crate::material::leaf_layers::LeafLayers;
 use crate::material::light_spread::LightSpread;
 use crate::material::palette::Palette;
 use crate::material::relief::{Relief, ReliefMap};
-use crate::spectrum::{Curve, Spectrum, Table, WavelengthGrid, Wavelengths};
+use crate::simd::{Sixteen, Task};
+use crate::spectrum::{Curve, Lanes, Spectrum, Table, WavelengthGrid, Wavelengths};
 
 /// A leaf's material.
 #[derive(Clone, Debug)]
@@ -216,34 +217,67 @@ impl LeafMaterial {
         LeafBsdf::new(self.outer_coats(), tissue)
     }
 
+    #[inline]
     pub(super) fn tissue_at<const N: usize>(
         &self,
         uv: Vec2,
         wavelengths: &Wavelengths<N>,
     ) -> Tissue<N> {
-        let (reflectance, transmittance) = match &self.tissue {
+        self.palette.level().run(TissueAt {
+            leaf: self,
+            uv,
+            wavelengths,
+        })
+    }
+}
+
+/// The tissue of a leaf at texture coordinates.
+struct TissueAt<'a, const N: usize> {
+    leaf: &'a LeafMaterial,
+    uv: Vec2,
+    wavelengths: &'a Wavelengths<N>,
+}
+
+impl<const N: usize> Task for TissueAt<'_, N> {
+    type Output = Tissue<N>;
+
+    #[inline(always)]
+    fn run<E: Sixteen>(self, _: E) -> Tissue<N> {
+        let Self {
+            leaf,
+            uv,
+            wavelengths,
+        } = self;
+        let ([reflectance, transmittance], through) = match &leaf.tissue {
             LeafTissue::Held(held) => {
-                (self.palette).reflectance_transmittance(wavelengths, &held.at(uv))
+                let pile = leaf.palette.lanes(wavelengths);
+                if let (Some(spread), Held::Map(map)) = (&leaf.spread, held) {
+                    let entered = spread.entered(map, uv, wavelengths);
+                    let ((r, t), through) = pile.with_each(&map.at(uv), &entered);
+                    ([Lanes(r), Lanes(t)], Some(Lanes(through)))
+                } else {
+                    let (r, t) = pile.reflectance_transmittance(&held.at(uv));
+                    ([Lanes(r), Lanes(t)], None)
+                }
             }
             LeafTissue::Measured {
                 reflectance,
                 transmittance,
-            } => (
-                reflectance.lanes(wavelengths),
-                transmittance.lanes(wavelengths),
-            ),
+            } => {
+                let measured = [reflectance, transmittance].map(|curve| curve.lanes(wavelengths));
+                (measured, None)
+            }
         };
-        let ratio = match &self.abaxial_ratio {
+        let ratio = match &leaf.abaxial_ratio {
             Some(ratio) => ratio.lanes(wavelengths),
             None => usual_abaxial_ratio(reflectance, transmittance),
         };
-        let mut tissue = Tissue::new(&self.coats, reflectance, transmittance, ratio);
-        if let (Some(spread), LeafTissue::Held(Held::Map(map))) = (&self.spread, &self.tissue) {
-            let through = spread.transmittance(map, &self.palette, uv, wavelengths);
-            tissue = tissue.passing(&self.coats, through);
+        let mut tissue = Tissue::new(&leaf.coats, reflectance, transmittance, ratio);
+        if let Some(through) = through {
+            tissue = tissue.passing(&leaf.coats, through);
         }
-        match &self.half {
-            Some(half) => tissue.half(&self.coats, half.face),
+        match &leaf.half {
+            Some(half) => tissue.half(&leaf.coats, half.face),
             None => tissue,
         }
     }

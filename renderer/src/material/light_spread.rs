@@ -10,7 +10,7 @@ use leafmodel::optics::{Constituent, Contents, Texel};
 
 use super::contents_texture::ContentsTexture;
 use super::palette::Palette;
-use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthGrid, Wavelengths};
+use crate::spectrum::{Curve, Spectrum, WavelengthGrid, Wavelengths};
 
 /// Range over which lengths are tabulated, nm; the end values hold outside, as PROSPECT's do.
 const RANGE_NM: [f64; 2] = [400.0, 2500.0];
@@ -63,19 +63,18 @@ impl LightSpread {
         self.thickness_uv
     }
 
-    /// The transmittance of a point from which light at `uv` comes, with the length of each
-    /// wavelength. The point depends on `uv` and the wavelengths alone, like a random number.
+    /// What the blade holds where light entered that leaves at `uv`, with the length of each
+    /// wavelength. The place depends on `uv` and the wavelengths alone, like a random number.
     ///
     /// Around a point the texel is drawn by the weights of bilinear interpolation. Where the kernel
     /// meets texels outside the blade it is turned round.
-    #[inline]
-    pub fn transmittance<const N: usize>(
+    #[inline(always)]
+    pub fn entered<'m, const N: usize>(
         &self,
-        map: &ContentsTexture,
-        palette: &Palette,
+        map: &'m ContentsTexture,
         uv: Vec2,
         wavelengths: &Wavelengths<N>,
-    ) -> Lanes<N> {
+    ) -> [&'m Texel; N] {
         let [u1, u2, turn, within_x, within_y] = numbers(uv, wavelengths.nm[0]);
         let radius = -libm::logf((1.0 - u1) * (1.0 - u2));
         let (sin, cos) = libm::sincosf(TAU * turn);
@@ -83,13 +82,19 @@ impl LightSpread {
         let within = Vec2::new(within_x, within_y);
         let here = map.drawn(uv, within);
         let lengths = self.length.lanes(wavelengths);
-        let entered: [&Texel; N] = std::array::from_fn(|lane| {
-            let away = offset * lengths.0[lane];
-            let places = [uv + away, uv - away].into_iter();
-            let mut texels = places.map(|place| map.drawn(place, within));
-            texels.find(|texel| is_tissue(texel)).unwrap_or(here)
-        });
-        palette.transmittance_of_each(wavelengths, &entered)
+        // No closure: it would be compiled without the vector instructions of its caller.
+        let mut entered = [here; N];
+        for (entered, length) in entered.iter_mut().zip(lengths.0) {
+            let away = offset * length;
+            for place in [uv + away, uv - away] {
+                let texel = map.drawn(place, within);
+                if is_tissue(texel) {
+                    *entered = texel;
+                    break;
+                }
+            }
+        }
+        entered
     }
 }
 

@@ -89,18 +89,15 @@ impl Palette {
         })
     }
 
-    /// `T` of a leaf with its own contents at each of a path's wavelengths.
-    #[inline]
-    pub fn transmittance_of_each<const N: usize>(
-        &self,
-        wavelengths: &Wavelengths<N>,
-        contents: &[&Texel; N],
-    ) -> Lanes<N> {
-        self.level.run(OfEach {
-            palette: self,
-            wavelengths,
-            contents,
-        })
+    /// The vector instructions with which R and T are computed.
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
+    /// The same palette, of which R and T are computed with these vector instructions.
+    #[must_use]
+    pub fn at_level(self, level: Level) -> Self {
+        Self { level, ..self }
     }
 
     /// Its number among the palettes of the scene; 0 is PROSPECT-D's own.
@@ -155,23 +152,6 @@ impl<const N: usize> Task for OfContents<'_, N> {
         let pile = self.palette.lanes(self.wavelengths);
         let (reflectance, transmittance) = pile.reflectance_transmittance(self.contents);
         (Lanes(reflectance), Lanes(transmittance))
-    }
-}
-
-/// T of other contents at each wavelength.
-struct OfEach<'a, const N: usize> {
-    palette: &'a Palette,
-    wavelengths: &'a Wavelengths<N>,
-    contents: &'a [&'a Texel; N],
-}
-
-impl<const N: usize> Task for OfEach<'_, N> {
-    type Output = Lanes<N>;
-
-    #[inline(always)]
-    fn run<E: Sixteen>(self, _: E) -> Self::Output {
-        let pile = self.palette.lanes(self.wavelengths);
-        Lanes(pile.transmittance_of_each(self.contents))
     }
 }
 
@@ -272,27 +252,17 @@ mod tests {
             ])
         });
         let of = |level| {
-            let palette = Palette {
-                level,
-                ..palette.clone()
-            };
-            let one = leaves.each_ref().map(|leaf| {
+            let palette = palette.clone().at_level(level);
+            leaves.each_ref().map(|leaf| {
                 let (r, t) = palette.reflectance_transmittance(&wavelengths, leaf);
                 [r.0.map(f32::to_bits), t.0.map(f32::to_bits)]
-            });
-            let each = palette.transmittance_of_each(&wavelengths, &leaves.each_ref());
-            (one, each.0.map(f32::to_bits))
+            })
         };
         let [first, others @ ..] = &Level::all()[..] else {
             panic!("one level runs everywhere");
         };
         for level in others {
             assert_eq!(of(*level), of(*first), "{}", level.name());
-        }
-        // Each lane of the second is what the first gives there for its leaf.
-        let (one, each) = of(*first);
-        for lane in 0..8 {
-            assert_eq!(each[lane], one[lane][1][lane], "lane {lane}");
         }
     }
 

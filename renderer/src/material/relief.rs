@@ -149,7 +149,9 @@ impl Relief {
         let texel = metres_per_v / self.moments.size()[1] as f32;
         let level = (footprint / texel).log2();
         let moments = self.moments.at(uv, level);
-        let cover = self.cover.as_ref().map(|cover| cover.at(uv, level));
+        // Of a clean leaf it tells of veins alone, which stomata ask for themselves.
+        let cover = self.cover.as_ref().filter(|_| self.grains.is_some());
+        let cover = cover.map(|cover| cover.at(uv, level));
         let width = footprint / metres_per_v;
         let cells = self.cells.as_ref();
         let cells = cells.and_then(|cells| cells.at(uv, width));

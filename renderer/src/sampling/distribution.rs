@@ -136,12 +136,19 @@ impl Piecewise2d {
         self.density_of(column, row)
     }
 
+    /// Columns and rows.
+    pub fn size(&self) -> [usize; 2] {
+        [self.columns[0].cumulative.len() - 1, self.columns.len()]
+    }
+
+    /// Probability of a cell.
+    pub fn probability(&self, column: usize, row: usize) -> f32 {
+        self.rows.probability(row) * self.columns[row].probability(column)
+    }
+
     fn density_of(&self, column: usize, row: usize) -> f32 {
-        let width = (self.columns[row].cumulative.len() - 1) as f32;
-        self.rows.probability(row)
-            * self.columns[row].probability(column)
-            * width
-            * self.columns.len() as f32
+        let [width, height] = self.size().map(|cells| cells as f32);
+        self.rows.probability(row) * self.columns[row].probability(column) * width * height
     }
 }
 

@@ -146,6 +146,9 @@ pub struct Integrator {
     pub branches: Option<u32>,
     /// Number of light samples at the first vertex; `None` leaves it to a trial.
     pub light_samples: Option<u32>,
+    /// Whether skies and environment pictures are sampled as lamps are, or left to bounces; `None`
+    /// leaves it to a trial.
+    pub sample_skies: Option<bool>,
 }
 
 /// A shape.

@@ -38,7 +38,7 @@ use crate::camera::view::View;
 use crate::geometry::{Geometry, Instance, TriangleMesh};
 use crate::image::light_colour::LightColour;
 use crate::light::Light;
-use crate::light::selection::LightSelection;
+use crate::light::selection::Selections;
 use crate::material::Material;
 use crate::material::colour_map::ColourMap;
 use crate::material::palette::{Palette, Palettes};
@@ -76,7 +76,7 @@ pub struct World {
     /// The colours of the lights' spectra on the film; none without a film.
     pub light_colours: Vec<LightColour>,
     /// The selection of lights for sampling.
-    pub selection: LightSelection,
+    pub selections: Selections,
     /// The camera.
     pub camera: Camera,
     /// Its view, in the scene's own coordinates and focused.
@@ -254,7 +254,7 @@ impl World {
             media,
             owners,
             palettes: known.palettes,
-            selection: LightSelection::new(&lights, lit_range(range_nm, fluoresces)),
+            selections: Selections::new(&lights, lit_range(range_nm, fluoresces)),
             lights,
             light_colours,
             camera: Camera::new(&view, scene.film.width, scene.film.height),

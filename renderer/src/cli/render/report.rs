@@ -50,6 +50,7 @@ pub(super) fn report(traced: &Traced<'_>, rendered: &Rendered, times: &Times) ->
         "roulette_below": rendered.effort.roulette_below,
         "branches": rendered.effort.branches,
         "light_samples": rendered.effort.light_samples,
+        "sample_skies": rendered.effort.sample_skies,
         "paths": film.drawn(),
         "mrays_per_s": times.millions_per_second(rendered.rays - rays_before),
         "mpaths_per_s": times.millions_per_second(film.drawn() - paths_before),

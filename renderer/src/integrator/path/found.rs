@@ -7,25 +7,31 @@ use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
 use crate::integrator::mis;
 use crate::light::Light;
-use crate::scene::world::World;
+use crate::light::selection::LightSelection;
 use crate::spectrum::{Lanes, Wavelengths};
 
 /// Light from infinity that a bounce or the camera ray found.
 pub(super) fn from_infinity<const N: usize>(
-    world: &World,
+    (lights, selection): (&[Light], &LightSelection),
     direction: Vec3,
     bounce: &Bounce,
     wavelengths: &Wavelengths<N>,
 ) -> Lanes<N> {
     let mut sum = Lanes::ZERO;
-    for &number in &world.selection.at_infinity {
-        let light = &world.lights[number];
-        if let Some((radiance, pdf)) = light.at_infinity(direction, wavelengths) {
+    for &number in &selection.at_infinity {
+        let light = &lights[number];
+        let samples = if bounce.pdf.is_infinite() {
+            0.0
+        } else {
             let chosen = bounce.light_samples as f32;
-            let samples = world
-                .selection
-                .samples_of_infinite(number, &bounce.from, chosen);
-            sum += radiance * mis::power(bounce.pdf, pdf * samples);
+            selection.samples_of_infinite(number, &bounce.from, chosen)
+        };
+        if samples > 0.0 {
+            if let Some((radiance, pdf)) = light.at_infinity(direction, wavelengths) {
+                sum += radiance * mis::power(bounce.pdf, pdf * samples);
+            }
+        } else if let Some(radiance) = light.radiance_at_infinity(direction, wavelengths) {
+            sum += radiance;
         }
     }
     sum
@@ -33,14 +39,14 @@ pub(super) fn from_infinity<const N: usize>(
 
 /// Light of an emitting surface that a bounce or the camera ray hit.
 pub(super) fn emission<const N: usize>(
-    world: &World,
+    (lights, selection): (&[Light], &LightSelection),
     number: usize,
     ray: &Ray,
     surface: &SurfacePoint,
     bounce: &Bounce,
     wavelengths: &Wavelengths<N>,
 ) -> Lanes<N> {
-    let Light::Area(light) = &world.lights[number] else {
+    let Light::Area(light) = &lights[number] else {
         return Lanes::ZERO;
     };
     let normal = surface.geometric_normal;
@@ -53,9 +59,7 @@ pub(super) fn emission<const N: usize>(
     }
     let light_pdf = light.patch_of(surface.triangle).map_or(0.0, |part| {
         bounce.light_samples as f32
-            * world
-                .selection
-                .probability_of_part(number, part, &bounce.from)
+            * selection.probability_of_part(number, part, &bounce.from)
             * light.pdf(part, &bounce.from, surface.position)
     });
     radiance * mis::power(bounce.pdf, light_pdf)

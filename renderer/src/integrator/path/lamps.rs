@@ -21,7 +21,8 @@ pub(in crate::integrator) fn sampled_light<const N: usize>(
     stream: &Stream,
 ) -> (Lanes<N>, u32) {
     let (mut sum, mut rays) = (Lanes::ZERO, 0);
-    for &number in &world.selection.always {
+    let selection = vertex.paths.selection();
+    for &number in &selection.always {
         let choice = Choice::certain(number);
         // A sun shares the random numbers of the bounce, where paths do not branch. Both
         // contributions are added, so only their covariance matters, and that is small for a disc
@@ -30,10 +31,10 @@ pub(in crate::integrator) fn sampled_light<const N: usize>(
         sum += light;
         rays += traced;
     }
-    if !world.selection.is_empty() {
+    if !selection.is_empty() {
         for number in 0..vertex.light_samples {
             let [which, x, y, coin] = stream.part(number, vertex.light_samples).next4();
-            if let Some(choice) = world.selection.choose(&vertex.receiver, which) {
+            if let Some(choice) = selection.choose(&vertex.receiver, which) {
                 let choice = Choice {
                     expected: choice.expected * vertex.light_samples as f32,
                     ..choice

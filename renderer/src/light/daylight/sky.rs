@@ -9,8 +9,8 @@ use super::forest::{self, Forest};
 use super::sky_shape::{SkyShape, daylight_basis};
 use super::spctrl2::Irradiance;
 use super::{Daylight, curve};
-use crate::light::LightSample;
 use crate::light::radiance_table::RadianceTable;
+use crate::light::{LightSample, unevenness};
 use crate::sampling::distribution::Piecewise2d;
 use crate::spectrum::{Curve, Lanes, Table, WavelengthGrid, Wavelengths, cie};
 
@@ -164,6 +164,11 @@ impl SkyLight {
         }
     }
 
+    /// Mean square of its radiance over all directions, relative to the square of the mean.
+    pub fn unevenness(&self) -> f64 {
+        unevenness(&self.distribution)
+    }
+
     /// Irradiance on a horizontal surface from above, W m⁻² nm⁻¹.
     pub fn diffuse(&self) -> &Curve {
         &self.diffuse
@@ -211,17 +216,19 @@ impl SkyLight {
         })
     }
 
+    /// Radiance along `wi`.
+    pub fn seen_towards<const N: usize>(&self, wi: Vec3, wavelengths: &Wavelengths<N>) -> Lanes<N> {
+        let (uv, _) = place_of(wi);
+        self.radiance(uv, wavelengths)
+    }
+
     /// Radiance and density along `wi`.
     pub fn towards<const N: usize>(
         &self,
         wi: Vec3,
         wavelengths: &Wavelengths<N>,
     ) -> (Lanes<N>, f32) {
-        let turns = libm::atan2f(wi.y, wi.x) / (2.0 * PI);
-        let sin_theta = (wi.x * wi.x + wi.y * wi.y).sqrt();
-        // acos is inaccurate near the poles; atan2 is not.
-        let down = libm::atan2f(sin_theta, wi.z) / PI;
-        let uv = [turns - turns.floor(), down.min(1.0 - f32::EPSILON)];
+        let (uv, sin_theta) = place_of(wi);
         let pdf = if sin_theta > 0.0 {
             self.distribution.density(uv) / (2.0 * PI * PI * sin_theta)
         } else {
@@ -229,6 +236,16 @@ impl SkyLight {
         };
         (self.radiance(uv, wavelengths), pdf)
     }
+}
+
+/// The point of the table in a unit direction, and the sine of its angle from the zenith.
+fn place_of(wi: Vec3) -> ([f32; 2], f32) {
+    let turns = libm::atan2f(wi.y, wi.x) / (2.0 * PI);
+    let sin_theta = (wi.x * wi.x + wi.y * wi.y).sqrt();
+    // acos is inaccurate near the poles; atan2 is not.
+    let down = libm::atan2f(sin_theta, wi.z) / PI;
+    let uv = [turns - turns.floor(), down.min(1.0 - f32::EPSILON)];
+    (uv, sin_theta)
 }
 
 /// Unit direction of a point of the table.

@@ -157,6 +157,7 @@ fn a_direction_to_the_sun_or_sky_has_the_density_and_radiance_that_are_told_of_i
             .sample(&wavelengths, u)
             .expect("all directions are bright");
         let (radiance, pdf) = sky.towards(sample.wi, &wavelengths);
+        assert_eq!(radiance, sky.seen_towards(sample.wi, &wavelengths));
         let same = (pdf / sample.pdf - 1.0).abs() < 1e-3
             && (radiance.0[3] / sample.radiance.0[3] - 1.0).abs() < 1e-2;
         across_a_border += usize::from(!same);

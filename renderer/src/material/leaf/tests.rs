@@ -6,6 +6,7 @@ use super::*;
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::palette::Palettes;
 use crate::scene::description::FilmKind;
+use crate::simd::Level;
 use crate::spectrum::Lanes;
 use crate::spectrum::WavelengthSampler;
 use glam::Vec3;
@@ -30,6 +31,42 @@ fn palettes() -> [Pigments; 6] {
             ..Pigments::default()
         },
     })
+}
+
+#[test]
+fn tissue_has_the_same_bits_at_every_level_of_instructions() {
+    let green = presets::by_name("sun-green").expect("a preset").contents;
+    let texels = (0..32 * 32).map(|i| {
+        let share = (i * 7 % 32) as f32 / 31.0;
+        green.to_texel().map(|held| held * (0.7 + 0.3 * share))
+    });
+    let map = ContentsTexture::new(32, 32, texels.collect());
+    let coats = [Coat::new(1.45, 0.3, 0.3), Coat::new(1.38, 0.5, 0.4)];
+    let sampler = WavelengthSampler::new(&FilmKind::Rgb {
+        range_nm: [400.0, 2500.0],
+        observer: crate::spectrum::observer::Observer::Cie1931,
+    });
+    let wavelengths = sampler.draw::<8>(0.3);
+    let of = |level: Level| {
+        let mut palettes = Palettes::on(sampler.grid());
+        let palette = palettes.of(&Pigments::default()).at_level(level);
+        let tissue = LeafTissue::Held(Held::Map(map.clone()));
+        let mut leaf =
+            LeafMaterial::new(tissue, palette, None, coats.clone()).spreading(Vec2::splat(0.05));
+        leaf.tabulate(sampler.grid());
+        let at = |i: usize| {
+            let uv = Vec2::new(0.618_034 * i as f32, 0.414_214 * i as f32).fract();
+            let lanes = leaf.tissue_at(uv, &wavelengths).to_lanes();
+            lanes.map(|lanes| lanes.0.map(f32::to_bits))
+        };
+        (0..200).map(at).collect::<Vec<_>>()
+    };
+    let levels = Level::all();
+    let first = of(levels[0]);
+    assert!(first.iter().any(|tissue| *tissue != first[0]));
+    for level in &levels[1..] {
+        assert_eq!(of(*level), first, "{}", level.name());
+    }
 }
 
 #[test]

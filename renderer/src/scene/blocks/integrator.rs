@@ -2,7 +2,7 @@
 
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
-use leafmodel::document::value_kind::{Integer, Number};
+use leafmodel::document::value_kind::{Flag, Integer, Number};
 
 use crate::scene::description::Integrator;
 
@@ -30,4 +30,8 @@ pub(super) fn integrator(integrator: &mut Integrator, keys: &mut Keys<'_>) {
     let about = "Samples of lamps and sky pictures at what the camera sees first; suns have one \
         each. More is slower and less noisy where lamps cast soft shadows.";
     keys.optional("light_samples", &mut integrator.light_samples, count, about);
+    let about = "Whether skies and environment pictures are sampled as lamps are; if not, paths find \
+        them where they leave the scene. Without is faster, and noisier where little of a sky \
+        sends much of its light.";
+    keys.optional("sample_skies", &mut integrator.sample_skies, Flag, about);
 }
