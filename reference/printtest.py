@@ -29,14 +29,8 @@ from lamina_reference.allotment import (
 )
 from lamina_reference.denoise import NOTE
 from lamina_reference.exr import Array, read_channels, write_channels
-from lamina_reference.prints import (
-    arguments,
-    between,
-    errors_of,
-    noise,
-    remembered,
-    remembered_mean,
-)
+from lamina_reference.kept_print import errors_of, remembered, remembered_mean
+from lamina_reference.prints import arguments, between, noise
 from lamina_reference.prints import main as print_scene
 from lamina_reference.testing import run_tests, without_denoiser
 from lamina_reference.twins import Pixels, left_noise, noise_told_by_others
