@@ -148,7 +148,7 @@ impl Piecewise2d {
 
     fn density_of(&self, column: usize, row: usize) -> f32 {
         let [width, height] = self.size().map(|cells| cells as f32);
-        self.rows.probability(row) * self.columns[row].probability(column) * width * height
+        self.probability(column, row) * width * height
     }
 }
 
