@@ -37,7 +37,6 @@ mod error;
 mod hilbert;
 mod hit;
 mod median;
-mod memory;
 mod scramble;
 mod slab;
 mod triangle;

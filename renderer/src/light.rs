@@ -201,6 +201,20 @@ impl Light {
         }
     }
 
+    /// Prefetches what [`Light::radiance_at_infinity`] will look up for a ray that is to be traced.
+    #[inline]
+    pub fn prefetch(&self, wi: Vec3) {
+        match self {
+            Self::Environment(light) => light.prefetch(wi),
+            Self::Sky(_)
+            | Self::Distant(_)
+            | Self::Constant(_)
+            | Self::Sun(_)
+            | Self::Area(_)
+            | Self::Spot(_) => {}
+        }
+    }
+
     /// Radiance from infinity as by [`Light::at_infinity`], without the density, which takes time.
     pub fn radiance_at_infinity<const N: usize>(
         &self,

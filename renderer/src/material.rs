@@ -34,7 +34,7 @@ use crate::spectrum::{WavelengthGrid, Wavelengths};
 use colour_map::ColourMap;
 use contents_texture::ContentsTexture;
 use held::Held;
-use leaf::{Inside, LeafMaterial, LeafTissue};
+use leaf::{Inside, LeafMaterial, LeafTissue, Site};
 use palette::Palette;
 use plastic::PlasticMaterial;
 use reflectance::Reflectance;
@@ -172,15 +172,37 @@ impl Material {
         }
     }
 
+    /// Where it is looked up at texture coordinates `uv`; what a leaf holds there is on its way from
+    /// memory.
+    #[inline]
+    pub fn site<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Site<N> {
+        match self {
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Solid(_) => {
+                Site::of(uv)
+            }
+            Self::Leaf(leaf) => leaf.site(uv, wavelengths),
+        }
+    }
+
     /// The BSDF at texture coordinates `uv`, at a path's wavelengths.
     #[inline]
     pub fn bsdf<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Bsdf<'_, N> {
+        self.bsdf_at(&self.site(uv, wavelengths), wavelengths)
+    }
+
+    /// The BSDF at a site, at the same wavelengths.
+    #[inline]
+    pub fn bsdf_at<const N: usize>(
+        &self,
+        site: &Site<N>,
+        wavelengths: &Wavelengths<N>,
+    ) -> Bsdf<'_, N> {
         match self {
-            Self::Diffuse(reflectance) => Bsdf::Diffuse(reflectance.at(uv, wavelengths)),
+            Self::Diffuse(reflectance) => Bsdf::Diffuse(reflectance.at(site.uv, wavelengths)),
             Self::Dielectric(dielectric) => Bsdf::Dielectric(*dielectric),
-            Self::Plastic(plastic) => Bsdf::Leaf(plastic.bsdf(uv, wavelengths)),
-            Self::Leaf(leaf) => Bsdf::Leaf(leaf.bsdf(uv, wavelengths)),
-            Self::Solid(solid) => Bsdf::Leaf(solid.bsdf(uv, wavelengths)),
+            Self::Plastic(plastic) => Bsdf::Leaf(plastic.bsdf(site.uv, wavelengths)),
+            Self::Leaf(leaf) => Bsdf::Leaf(leaf.bsdf(site, wavelengths)),
+            Self::Solid(solid) => Bsdf::Leaf(solid.bsdf(site.uv, wavelengths)),
         }
     }
 }

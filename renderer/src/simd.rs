@@ -27,12 +27,14 @@
 mod neon;
 mod scalar;
 mod stack;
+mod whole;
 mod wide;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 use scalar::Scalar;
 pub(crate) use stack::Stack;
+pub(crate) use whole::whole;
 pub(crate) use wide::{Sixteen, WIDE, WideRow};
 
 /// Number of lanes of a row.
@@ -73,8 +75,18 @@ pub(crate) trait Eight: Copy {
     fn at_most(self, a: Self::F, b: Self::F) -> u32;
     /// Bit `i` is set where `a < b` in lane `i`.
     fn below(self, a: Self::F, b: Self::F) -> u32;
-    /// Prefetches the memory of an element; places outside the slice do no harm.
-    fn prefetch<T>(self, slice: &[T], place: usize);
+}
+
+/// Prefetches the memory of an element; places outside the slice do no harm. Only x86-64 has it in
+/// stable Rust.
+#[inline(always)]
+#[cfg_attr(
+    not(target_arch = "x86_64"),
+    allow(unused_variables, reason = "nothing is prefetched there")
+)]
+pub(crate) fn prefetch<T>(slice: &[T], place: usize) {
+    #[cfg(target_arch = "x86_64")]
+    x86::prefetch(slice, place);
 }
 
 /// A computation that can be run at any level.

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::bounds::Bounds;
 use super::slab::{BoxPlanes, SlabRay};
-use crate::simd::{LANES, Sixteen, Stack, WIDE, WideRow};
+use crate::simd::{self, LANES, Sixteen, Stack, WIDE, WideRow};
 
 mod build;
 mod cut;
@@ -172,7 +172,7 @@ impl WideTree {
                 let node = &self.nodes[child as usize];
                 // Codes lie in the last line of a node: without this they are waited for only once
                 // it is known which child is met.
-                e.prefetch(&node.children, 0);
+                simd::prefetch(&node.children, 0);
                 let (enters, mut met) = ray.sixteen(e, &node.planes, limit);
                 if met != 0 {
                     let one = take_lane(&mut met);
@@ -182,10 +182,10 @@ impl WideTree {
                     }
                     let enters = e.store_wide(enters);
                     let mut first = waiting(enters.get(one), child);
-                    self.ask_for(e, child, visitor);
+                    self.ask_for(child, visitor);
                     let lane = take_lane(&mut met);
                     let other = waiting(enters.get(lane), node.children[lane]);
-                    self.ask_for(e, child_of(other), visitor);
+                    self.ask_for(child_of(other), visitor);
                     let second = first.max(other);
                     first = first.min(other);
                     if met == 0 {
@@ -195,7 +195,7 @@ impl WideTree {
                         while met != 0 {
                             let lane = take_lane(&mut met);
                             let other = waiting(enters.get(lane), node.children[lane]);
-                            self.ask_for(e, child_of(other), visitor);
+                            self.ask_for(child_of(other), visitor);
                             stack.push_in_order(base, first.max(other));
                             first = first.min(other);
                         }
@@ -239,16 +239,16 @@ impl WideTree {
         loop {
             if child & LEAF == 0 {
                 let node = &self.nodes[child as usize];
-                e.prefetch(&node.children, 0);
+                simd::prefetch(&node.children, 0);
                 let (_, mut met) = ray.sixteen(e, &node.planes, limit);
                 if met != 0 {
                     child = node.children[take_lane(&mut met)];
                     if met != 0 {
-                        self.ask_for(e, child, visitor);
+                        self.ask_for(child, visitor);
                     }
                     while met != 0 {
                         let other = node.children[take_lane(&mut met)];
-                        self.ask_for(e, other, visitor);
+                        self.ask_for(other, visitor);
                         stack.push(other);
                     }
                     continue;
@@ -263,9 +263,9 @@ impl WideTree {
 
     /// Prefetches the memory of a child that is likely to be visited soon.
     #[inline(always)]
-    fn ask_for<E: Sixteen>(&self, e: E, child: u32, visitor: &impl Visitor) {
+    fn ask_for(&self, child: u32, visitor: &impl Visitor) {
         if child & LEAF == 0 {
-            e.prefetch(&self.nodes, child as usize);
+            simd::prefetch(&self.nodes, child as usize);
         } else {
             visitor.fetch(child & !LEAF);
         }

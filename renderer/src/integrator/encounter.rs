@@ -40,26 +40,28 @@ impl<'m, const N: usize> Encounter<'m, N> {
     ) -> Self {
         let surface = geometry.surface(ray, hit);
         let frame = surface.frame();
-        let relief = material.relief();
         let width = cone.width_at(hit.t);
-        // Made where it stays: a BSDF is large.
-        let mut encounter = Self {
-            bsdf: material.bsdf(surface.uv, wavelengths),
-            wo: frame.to_local(-ray.direction),
-            width,
-            has_relief: relief.is_some(),
-            frame,
-            surface,
-        };
-        if let Some(relief) = relief {
-            let surface = &encounter.surface;
+        // What maps hold is asked for first and used last: it is on its way from memory meanwhile.
+        let relief = material.relief().map(|relief| {
             let scale = geometry.texture_scale(hit);
             let facing = ray.direction.dot(surface.shading_normal);
             let footprint = cone::footprint(width, facing);
-            let faces = relief.at(surface.uv, scale, footprint);
-            encounter.bsdf = encounter
-                .bsdf
-                .with_relief(faces, relief.grains(wavelengths));
+            (relief, relief.seen(surface.uv, scale, footprint))
+        });
+        let site = material.site(surface.uv, wavelengths);
+        let relieved =
+            relief.map(|(relief, seen)| (relief.faces(&seen), relief.grains(wavelengths)));
+        // Made where it stays: a BSDF is large.
+        let mut encounter = Self {
+            bsdf: material.bsdf_at(&site, wavelengths),
+            wo: frame.to_local(-ray.direction),
+            width,
+            has_relief: relieved.is_some(),
+            frame,
+            surface,
+        };
+        if let Some((faces, grains)) = relieved {
+            encounter.bsdf = encounter.bsdf.with_relief(faces, grains);
         }
         encounter
     }

@@ -245,6 +245,11 @@ impl<const N: usize> Paths<'_, N> {
             return self.advance(leg, passage, is_first, stream, result);
         }
         result.rays += 1;
+        if !is_first {
+            for &number in &self.selection().at_infinity {
+                self.world.lights[number].prefetch(leg.ray.direction);
+            }
+        }
         let hit = self.world.geometry.intersect(&leg.ray);
         hit.map_or(Met::Nothing, Met::Surface)
     }

@@ -128,6 +128,14 @@ impl EnvironmentLight {
         [azimuth - azimuth.floor(), polar.min(1.0 - f32::EPSILON)]
     }
 
+    /// Prefetches what [`EnvironmentLight::seen_towards`] will look up.
+    #[inline]
+    pub fn prefetch(&self, wi: Vec3) {
+        let azimuth = (rough_atan2(wi.y, wi.x) - self.rotation) / (2.0 * PI);
+        let polar = rough_atan2((wi.x * wi.x + wi.y * wi.y).sqrt(), wi.z) / PI;
+        self.picture.prefetch([azimuth - azimuth.floor(), polar]);
+    }
+
     /// Samples a direction with a density roughly proportional to its brightness.
     pub fn sample<const N: usize>(
         &self,
@@ -166,6 +174,23 @@ impl EnvironmentLight {
         };
         (self.radiance(uv, wavelengths), pdf)
     }
+}
+
+/// `atan2` within 0.005 rad, for a prefetch: of a picture of 512 columns half a texel.
+///
+/// The arctangent of a slope up to 1 is the polynomial of least error with these two powers.
+#[inline]
+fn rough_atan2(y: f32, x: f32) -> f32 {
+    let (least, most) = (x.abs().min(y.abs()), x.abs().max(y.abs()));
+    let slope = least / most;
+    let mut angle = slope * (0.9724 - 0.1919 * slope * slope);
+    if y.abs() > x.abs() {
+        angle = 0.5 * PI - angle;
+    }
+    if x < 0.0 {
+        angle = PI - angle;
+    }
+    angle.copysign(y)
 }
 
 /// Greatest relative increase of the mean square of light over density by cells that are larger

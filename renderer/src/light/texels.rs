@@ -1,5 +1,7 @@
 //! Pictures that shine, read by linear interpolation.
 
+use crate::simd;
+
 /// Linear sRGB, row by row from the top.
 #[derive(Clone, Debug)]
 pub struct Texels {
@@ -38,6 +40,16 @@ impl Texels {
     /// The texels, row by row from the top.
     pub fn texels(&self) -> &[[f32; 3]] {
         &self.colours
+    }
+
+    /// Prefetches the texels around a place that is roughly this.
+    #[inline]
+    pub fn prefetch(&self, [across, down]: [f32; 2]) {
+        let column = (across * self.width as f32 - 0.5) as usize;
+        let row = (down * self.height as f32 - 0.5) as usize;
+        for row in [row, row + 1] {
+            simd::prefetch(&self.colours, row * self.width + column);
+        }
     }
 
     /// The colour at a share of the width from the left and a share of the height from the top. A

@@ -7,9 +7,10 @@ use leafmodel::optics::ProspectD;
 
 use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue, usual_abaxial_ratio};
 use crate::material::coarse;
+use crate::material::contents_texture::{Around, ContentsTexture};
 use crate::material::held::Held;
 use crate::material::leaf_layers::LeafLayers;
-use crate::material::light_spread::LightSpread;
+use crate::material::light_spread::{Entry, LightSpread};
 use crate::material::palette::Palette;
 use crate::material::relief::{Relief, ReliefMap};
 use crate::simd::{Sixteen, Task};
@@ -206,35 +207,107 @@ impl LeafMaterial {
         }
     }
 
-    /// The BSDF at texture coordinates `uv`.
+    /// Where the leaf is looked up at texture coordinates `uv`; what it holds there is on its way
+    /// from memory, since a map is larger than the caches.
     #[inline]
-    pub fn bsdf<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> LeafBsdf<'_, N> {
+    pub fn site<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Site<N> {
+        let spreading = match (&self.spread, &self.tissue) {
+            (Some(spread), LeafTissue::Held(Held::Map(map))) => {
+                let approach = Approach {
+                    spread,
+                    map,
+                    uv,
+                    wavelengths,
+                };
+                Some(self.palette.level().run(approach))
+            }
+            (None, _) | (Some(_), LeafTissue::Held(_) | LeafTissue::Measured { .. }) => None,
+        };
+        Site { uv, spreading }
+    }
+
+    /// The BSDF at a site.
+    #[inline]
+    pub fn bsdf<const N: usize>(
+        &self,
+        site: &Site<N>,
+        wavelengths: &Wavelengths<N>,
+    ) -> LeafBsdf<'_, N> {
         let row = self
             .uniform
             .as_ref()
             .and_then(|table| table.row(wavelengths));
-        let tissue = row.map_or_else(|| self.tissue_at(uv, wavelengths), Tissue::from_lanes);
+        let tissue = row.map_or_else(|| self.tissue_of(site, wavelengths), Tissue::from_lanes);
         LeafBsdf::new(self.outer_coats(), tissue)
     }
 
-    #[inline]
     pub(super) fn tissue_at<const N: usize>(
         &self,
         uv: Vec2,
         wavelengths: &Wavelengths<N>,
     ) -> Tissue<N> {
+        self.tissue_of(&self.site(uv, wavelengths), wavelengths)
+    }
+
+    #[inline]
+    fn tissue_of<const N: usize>(&self, site: &Site<N>, wavelengths: &Wavelengths<N>) -> Tissue<N> {
         self.palette.level().run(TissueAt {
             leaf: self,
-            uv,
+            site,
             wavelengths,
         })
     }
 }
 
-/// The tissue of a leaf at texture coordinates.
+/// Where a leaf is looked up.
+#[derive(Clone, Copy, Debug)]
+pub struct Site<const N: usize> {
+    /// Texture coordinates.
+    pub uv: Vec2,
+    /// Of a leaf with a map in which light spreads, where that entered which leaves there, and the
+    /// texels around.
+    spreading: Option<(Entry<N>, Around)>,
+}
+
+impl<const N: usize> Site<N> {
+    /// A place without light that entered elsewhere.
+    pub fn of(uv: Vec2) -> Self {
+        Self {
+            uv,
+            spreading: None,
+        }
+    }
+}
+
+/// The way to what a leaf holds at texture coordinates.
+struct Approach<'a, const N: usize> {
+    spread: &'a LightSpread,
+    map: &'a ContentsTexture,
+    uv: Vec2,
+    wavelengths: &'a Wavelengths<N>,
+}
+
+impl<const N: usize> Task for Approach<'_, N> {
+    type Output = (Entry<N>, Around);
+
+    #[inline(always)]
+    fn run<E: Sixteen>(self, _: E) -> Self::Output {
+        let around = self.map.around(self.uv);
+        for texel in around.texels {
+            self.map.prefetch(texel);
+        }
+        let entry = self.spread.entry(self.map, self.uv, self.wavelengths);
+        for texel in entry.texels {
+            self.map.prefetch(texel);
+        }
+        (entry, around)
+    }
+}
+
+/// The tissue of a leaf at a site.
 struct TissueAt<'a, const N: usize> {
     leaf: &'a LeafMaterial,
-    uv: Vec2,
+    site: &'a Site<N>,
     wavelengths: &'a Wavelengths<N>,
 }
 
@@ -245,18 +318,21 @@ impl<const N: usize> Task for TissueAt<'_, N> {
     fn run<E: Sixteen>(self, _: E) -> Tissue<N> {
         let Self {
             leaf,
-            uv,
+            site: Site { uv, spreading },
             wavelengths,
         } = self;
         let ([reflectance, transmittance], through) = match &leaf.tissue {
             LeafTissue::Held(held) => {
                 let pile = leaf.palette.lanes(wavelengths);
-                if let (Some(spread), Held::Map(map)) = (&leaf.spread, held) {
-                    let entered = spread.entered(map, uv, wavelengths);
-                    let ((r, t), through) = pile.with_each(&map.at(uv), &entered);
+                if let (Some(spread), Some(spreading), Held::Map(map)) =
+                    (&leaf.spread, spreading, held)
+                {
+                    let (entry, around) = spreading;
+                    let entered = spread.entered(map, entry, wavelengths);
+                    let ((r, t), through) = pile.with_each(&map.between(around), &entered);
                     ([Lanes(r), Lanes(t)], Some(Lanes(through)))
                 } else {
-                    let (r, t) = pile.reflectance_transmittance(&held.at(uv));
+                    let (r, t) = pile.reflectance_transmittance(&held.at(*uv));
                     ([Lanes(r), Lanes(t)], None)
                 }
             }

@@ -63,38 +63,76 @@ impl LightSpread {
         self.thickness_uv
     }
 
-    /// What the blade holds where light entered that leaves at `uv`, with the length of each
-    /// wavelength. The place depends on `uv` and the wavelengths alone, like a random number.
+    /// Where light entered that leaves at `uv`, with the length of each wavelength. The place
+    /// depends on `uv` and the wavelengths alone, like a random number.
     ///
     /// Around a point the texel is drawn by the weights of bilinear interpolation. Where the kernel
     /// meets texels outside the blade it is turned round.
     #[inline(always)]
-    pub fn entered<'m, const N: usize>(
+    pub fn entry<const N: usize>(
         &self,
-        map: &'m ContentsTexture,
+        map: &ContentsTexture,
         uv: Vec2,
         wavelengths: &Wavelengths<N>,
-    ) -> [&'m Texel; N] {
+    ) -> Entry<N> {
         let [u1, u2, turn, within_x, within_y] = numbers(uv, wavelengths.nm[0]);
         let radius = -libm::logf((1.0 - u1) * (1.0 - u2));
         let (sin, cos) = libm::sincosf(TAU * turn);
         let offset = self.thickness_uv * Vec2::new(cos, sin) * radius;
         let within = Vec2::new(within_x, within_y);
-        let here = map.drawn(uv, within);
         let lengths = self.length.lanes(wavelengths);
         // No closure: it would be compiled without the vector instructions of its caller.
-        let mut entered = [here; N];
-        for (entered, length) in entered.iter_mut().zip(lengths.0) {
-            let away = offset * length;
-            for place in [uv + away, uv - away] {
-                let texel = map.drawn(place, within);
-                if is_tissue(texel) {
-                    *entered = texel;
-                    break;
-                }
+        let mut texels = [0; N];
+        for (texel, length) in texels.iter_mut().zip(lengths.0) {
+            *texel = map.drawn(uv + offset * length, within);
+        }
+        Entry {
+            texels,
+            uv,
+            offset,
+            within,
+        }
+    }
+
+    /// What the blade holds where light entered.
+    #[inline(always)]
+    pub fn entered<'m, const N: usize>(
+        &self,
+        map: &'m ContentsTexture,
+        entry: &Entry<N>,
+        wavelengths: &Wavelengths<N>,
+    ) -> [&'m Texel; N] {
+        let mut entered = entry.texels.map(|texel| map.texel(texel));
+        for (lane, entered) in entered.iter_mut().enumerate() {
+            if !is_tissue(entered) {
+                let length = self.length.lanes(wavelengths).0[lane];
+                *entered = entry.turned_round(map, length);
             }
         }
         entered
+    }
+}
+
+/// Where light entered that leaves at a point, for each of a path's wavelengths.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry<const N: usize> {
+    /// Numbers of the texels of a map.
+    pub texels: [u32; N],
+    /// Where it leaves.
+    uv: Vec2,
+    /// The way from there for a length of 1, in texture coordinates.
+    offset: Vec2,
+    /// The numbers that choose between the four texels around a place.
+    within: Vec2,
+}
+
+impl<const N: usize> Entry<N> {
+    /// What is held at the opposite place, or, outside the blade, where the light leaves.
+    #[cold]
+    fn turned_round<'m>(&self, map: &'m ContentsTexture, length: f32) -> &'m Texel {
+        let [opposite, here] = [self.uv - self.offset * length, self.uv]
+            .map(|place| map.texel(map.drawn(place, self.within)));
+        if is_tissue(opposite) { opposite } else { here }
     }
 }
 

@@ -51,6 +51,17 @@ pub struct Relief {
     cut: Option<usize>,
 }
 
+/// How a ray sees the faces at a point.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    uv: Vec2,
+    /// Level of the map.
+    level: f32,
+    /// Width of the ray in units of v.
+    width: f32,
+    is_mirrored: bool,
+}
+
 /// The coat of a face where it is smooth.
 #[derive(Clone, Debug)]
 struct FaceCoat {
@@ -143,19 +154,35 @@ impl Relief {
         grains.map_or(Lanes::ZERO, |grains| grains.lanes(wavelengths))
     }
 
-    /// The adaxial and the abaxial face at `uv`, seen by a ray of this width on the surface, m.
-    pub fn at(&self, uv: Vec2, scale: Option<TextureScale>, footprint: f32) -> [ReliefFace<'_>; 2] {
+    /// The faces at `uv` as a ray of this width on the surface, m, sees them; their slopes are on
+    /// their way from memory.
+    pub fn seen(&self, uv: Vec2, scale: Option<TextureScale>, footprint: f32) -> Seen {
         let metres_per_v = scale.map_or(1.0, |scale| scale.metres_per_v);
         let texel = metres_per_v / self.moments.size()[1] as f32;
         let level = (footprint / texel).log2();
+        self.moments.prefetch(uv, level);
+        Seen {
+            uv,
+            level,
+            width: footprint / metres_per_v,
+            is_mirrored: scale.is_some_and(|scale| scale.is_mirrored),
+        }
+    }
+
+    /// The adaxial and the abaxial face as they are seen.
+    pub fn faces(&self, seen: &Seen) -> [ReliefFace<'_>; 2] {
+        let Seen {
+            uv,
+            level,
+            width,
+            is_mirrored,
+        } = *seen;
         let moments = self.moments.at(uv, level);
         // Of a clean leaf it tells of veins alone, which stomata ask for themselves.
         let cover = self.cover.as_ref().filter(|_| self.grains.is_some());
         let cover = cover.map(|cover| cover.at(uv, level));
-        let width = footprint / metres_per_v;
         let cells = self.cells.as_ref();
         let cells = cells.and_then(|cells| cells.at(uv, width));
-        let mirrored = scale.is_some_and(|scale| scale.is_mirrored);
         let face = |side: usize| {
             let [x, y, xx, yy] = [0, 1, 2, 3].map(|i| moments[4 * side + i]);
             let coat = &self.faces[side];
@@ -188,7 +215,7 @@ impl Relief {
                     *square -= pit.resolved[axis];
                 }
             }
-            if mirrored {
+            if is_mirrored {
                 slope.x = -slope.x;
             }
             let alphas = squares.map(|square| square.max(0.0).sqrt());

@@ -95,10 +95,6 @@ impl Eight for Neon {
     fn below(self, a: Pair, b: Pair) -> u32 {
         bits([0, 1].map(|half| unsafe { vcltq_f32(a[half], b[half]) }))
     }
-
-    // Stable Rust has no prefetch on this architecture.
-    #[inline(always)]
-    fn prefetch<T>(self, _slice: &[T], _place: usize) {}
 }
 
 impl Halves for Neon {}

@@ -73,9 +73,6 @@ impl Eight for Scalar {
     fn below(self, a: Row, b: Row) -> u32 {
         bits(|i| a.0[i] < b.0[i])
     }
-
-    #[inline(always)]
-    fn prefetch<T>(self, _slice: &[T], _place: usize) {}
 }
 
 impl Halves for Scalar {}

@@ -42,8 +42,9 @@ pub(super) fn has_avx2() -> bool {
         && std::arch::is_x86_feature_detected!("bmi2")
 }
 
+/// See [`super::prefetch`].
 #[inline(always)]
-fn prefetch<T>(slice: &[T], place: usize) {
+pub(super) fn prefetch<T>(slice: &[T], place: usize) {
     let start = slice.as_ptr().wrapping_add(place).cast::<i8>();
     let mut at = 0;
     while at < size_of::<T>() {
@@ -114,11 +115,6 @@ impl Eight for Avx2 {
     #[inline(always)]
     fn below(self, a: __m256, b: __m256) -> u32 {
         unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b)) as u32 }
-    }
-
-    #[inline(always)]
-    fn prefetch<T>(self, slice: &[T], place: usize) {
-        prefetch(slice, place);
     }
 }
 
@@ -256,11 +252,6 @@ impl Eight for Sse2 {
     #[inline(always)]
     fn below(self, a: Self::F, b: Self::F) -> u32 {
         bits(halves(a, b, |a, b| unsafe { _mm_cmplt_ps(a, b) }))
-    }
-
-    #[inline(always)]
-    fn prefetch<T>(self, slice: &[T], place: usize) {
-        prefetch(slice, place);
     }
 }
 

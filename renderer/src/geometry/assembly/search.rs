@@ -14,7 +14,7 @@ use super::super::triangle::{Candidates, ShearRay};
 use super::super::wide_tree::Visitor;
 use super::triangle_tree::TriangleTree;
 use super::{Geometry, Hit};
-use crate::simd::{Eight, LANES, Level, Sixteen, Task};
+use crate::simd::{self, Eight, LANES, Level, Sixteen, Task};
 
 /// What a search is for.
 pub(super) trait Found: Default {
@@ -121,7 +121,6 @@ impl<F: Found> Task for Search<'_, F> {
             let bounds = geometry.tree.bounds();
             let slab = SlabRay::new(ray.origin.into(), ray.direction.into(), ray.t_min, bounds);
             let mut instances = Instances {
-                e,
                 geometry,
                 ray,
                 slab: &slab,
@@ -138,18 +137,17 @@ impl<F: Found> Task for Search<'_, F> {
 }
 
 /// Visitor of the leaves of the upper tree: traverses the tree of the instance's mesh.
-struct Instances<'a, E, F> {
-    e: E,
+struct Instances<'a, F> {
     geometry: &'a Geometry,
     ray: &'a Ray,
     slab: &'a SlabRay,
     found: &'a mut F,
 }
 
-impl<E: Eight, F: Found> Visitor for Instances<'_, E, F> {
+impl<F: Found> Visitor for Instances<'_, F> {
     #[inline(always)]
     fn fetch(&self, leaf: u32) {
-        self.e.prefetch(&self.geometry.carriers, leaf as usize);
+        simd::prefetch(&self.geometry.carriers, leaf as usize);
     }
 
     #[inline(always)]
@@ -344,7 +342,7 @@ impl<E: Eight, F: Found> Triangles<'_, E, F> {
 impl<E: Eight, F: Found> Visitor for Triangles<'_, E, F> {
     #[inline(always)]
     fn fetch(&self, leaf: u32) {
-        self.e.prefetch(&self.tree.blocks, leaf as usize);
+        simd::prefetch(&self.tree.blocks, leaf as usize);
     }
 
     #[inline(always)]

@@ -6,12 +6,12 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::super::bounds::Bounds;
-use super::super::memory;
 use super::super::mesh::TriangleMesh;
 use super::super::placement::Placement;
 use super::super::triangle::TriangleBlock;
 use super::super::wide_tree::{LeafItems, WideTree};
 use super::joining::Joined;
+use crate::memory;
 use crate::simd::LANES;
 
 /// Number of boxes that represent a mesh when the box of an instance is computed. For 10,000

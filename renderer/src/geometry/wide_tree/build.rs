@@ -4,11 +4,12 @@
 use rayon::prelude::*;
 
 use super::super::bounds::Bounds;
-use super::super::{bvh, median, memory};
+use super::super::{bvh, median};
 use super::cut::{Cheapest, Cut, FourLevels};
 use super::pack;
 use super::{LEAF, LeafItems, MAX_DEPTH, WideNode, WideTree};
 use crate::geometry::binary_tree::{BinaryNode, upwards};
+use crate::memory;
 
 impl WideTree {
     /// Builds the tree over `boxes`, and returns for each leaf the numbers of its boxes.

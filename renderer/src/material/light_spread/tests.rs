@@ -38,7 +38,8 @@ fn through(
     nm: f32,
 ) -> f32 {
     let wavelengths = at(nm);
-    let entered = spread.entered(map, uv, &wavelengths);
+    let entry = spread.entry(map, uv, &wavelengths);
+    let entered = spread.entered(map, &entry, &wavelengths);
     let pile = palette.lanes(&wavelengths);
     let (_, through) = pile.with_each(&map.at(uv), &entered);
     through[0]

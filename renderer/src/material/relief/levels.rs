@@ -2,6 +2,8 @@
 
 use glam::Vec2;
 
+use crate::{memory, simd};
+
 /// Maps of `K` numbers a texel, from the finest to one texel; each level averages the one before.
 #[derive(Clone, Debug)]
 pub(super) struct Levels<const K: usize>(Vec<Level<K>>);
@@ -19,7 +21,7 @@ impl<const K: usize> Levels<K> {
         let mut levels = vec![Level {
             width,
             height,
-            texels: texels.into(),
+            texels: memory::settled(texels),
         }];
         while let Some(next) = levels.last().and_then(Level::half) {
             levels.push(next);
@@ -40,6 +42,24 @@ impl<const K: usize> Levels<K> {
     /// The numbers at `uv`, linear between levels; level 0 is the finest, and that of a ray without
     /// width.
     pub(super) fn at(&self, uv: Vec2, level: f32) -> [f32; K] {
+        let (low, high, share) = self.between(level);
+        let fine = low.at(uv);
+        if share == 0.0 {
+            return fine;
+        }
+        mix(&fine, &high.at(uv), share)
+    }
+
+    /// Prefetches them.
+    pub(super) fn prefetch(&self, uv: Vec2, level: f32) {
+        let (low, high, _) = self.between(level);
+        low.prefetch(uv);
+        high.prefetch(uv);
+    }
+
+    /// The levels below and above one, and the share of the upper.
+    #[inline]
+    fn between(&self, level: f32) -> (&Level<K>, &Level<K>, f32) {
         let last = self.0.len() - 1;
         // Not a number, of a ray without width, is the finest level.
         let level = if level > 0.0 {
@@ -48,12 +68,8 @@ impl<const K: usize> Levels<K> {
             0.0
         };
         let low = level as usize;
-        let share = level - low as f32;
-        let fine = self.0[low].at(uv);
-        if share == 0.0 {
-            return fine;
-        }
-        mix(&fine, &self.0[(low + 1).min(last)].at(uv), share)
+        let high = (low + 1).min(last);
+        (&self.0[low], &self.0[high], level - low as f32)
     }
 }
 
@@ -84,22 +100,34 @@ impl<const K: usize> Level<K> {
         Some(Self {
             width,
             height,
-            texels: texels.into(),
+            texels: memory::settled(texels),
         })
+    }
+
+    /// Prefetches the texels around a place, without the right ones, which mostly lie beside them.
+    fn prefetch(&self, uv: Vec2) {
+        let (x0, _, _) = neighbours(uv.x, self.width);
+        let (y0, y1, _) = neighbours(uv.y, self.height);
+        simd::prefetch(&self.texels, y0 * self.width + x0);
+        simd::prefetch(&self.texels, y1 * self.width + x0);
     }
 
     /// Bilinear between texel centres, clamped at the border.
     fn at(&self, uv: Vec2) -> [f32; K] {
-        let place = |share: f32, count: usize| {
-            let at = (share * count as f32 - 0.5).clamp(0.0, (count - 1) as f32);
-            let low = at as usize;
-            (low, (low + 1).min(count - 1), at - low as f32)
-        };
-        let (x0, x1, share_x) = place(uv.x, self.width);
-        let (y0, y1, share_y) = place(uv.y, self.height);
+        let (x0, x1, share_x) = neighbours(uv.x, self.width);
+        let (y0, y1, share_y) = neighbours(uv.y, self.height);
         let texel = |x: usize, y: usize| &self.texels[y * self.width + x];
         let below = mix(texel(x0, y0), texel(x1, y0), share_x);
         let above = mix(texel(x0, y1), texel(x1, y1), share_x);
         mix(&below, &above, share_y)
     }
+}
+
+/// The texels on both sides of a place along one axis, and the share of the second.
+#[inline]
+fn neighbours(share: f32, count: usize) -> (usize, usize, f32) {
+    let last = count as u32 - 1;
+    let at = (share * count as f32 - 0.5).clamp(0.0, last as f32);
+    let low = simd::whole(at, last);
+    (low as usize, (low + 1).min(last) as usize, at - low as f32)
 }

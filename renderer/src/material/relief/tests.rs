@@ -43,10 +43,10 @@ fn scale(is_mirrored: bool) -> TextureScale {
 fn what_a_level_does_not_resolve_is_roughness() {
     let relief = Relief::new(waves(0.2), &coats());
     let texel = 0.02 / SIZE as f32;
-    let near = relief.at(Vec2::splat(0.5), Some(scale(false)), 0.1 * texel);
+    let near = relief.faces(&relief.seen(Vec2::splat(0.5), Some(scale(false)), 0.1 * texel));
     let [x, y] = near.each_ref().map(|face| face.coat.ggx);
     assert!((x.alpha_x - 0.3).abs() < 0.05 && (y.alpha_x - 0.45).abs() < 0.05);
-    let far = relief.at(Vec2::splat(0.5), Some(scale(false)), 64.0 * texel);
+    let far = relief.faces(&relief.seen(Vec2::splat(0.5), Some(scale(false)), 64.0 * texel));
     assert!(far[0].slope.length() < 1e-6);
     // The mean square of a sine is half that of its height.
     let expected = (0.3_f32 * 0.3 + 3.0 * 0.5 * 0.2 * 0.2).sqrt();
@@ -57,8 +57,8 @@ fn what_a_level_does_not_resolve_is_roughness() {
 fn a_mirrored_leaf_has_mirrored_slopes() {
     let relief = Relief::new(waves(0.2), &coats());
     let uv = Vec2::new(0.26, 0.4);
-    let [own, _] = relief.at(uv, Some(scale(false)), 0.0);
-    let [mirrored, _] = relief.at(uv, Some(scale(true)), 0.0);
+    let [own, _] = relief.faces(&relief.seen(uv, Some(scale(false)), 0.0));
+    let [mirrored, _] = relief.faces(&relief.seen(uv, Some(scale(true)), 0.0));
     assert_eq!(mirrored.slope, own.slope * Vec2::new(-1.0, 1.0));
 }
 
@@ -73,7 +73,7 @@ fn mean(relief: &Relief, wo: Vec3, wi: Vec3, width: f32) -> f32 {
         let at = Vec2::new((i % SIZE) as f32 + 0.5, (i / SIZE) as f32 + 0.5) / SIZE as f32;
         let bsdf = ReliefBsdf {
             leaf: LeafBsdf::new(&coats, tissue),
-            faces: relief.at(at, Some(scale(false)), width * texel),
+            faces: relief.faces(&relief.seen(at, Some(scale(false)), width * texel)),
             grains: Lanes::ZERO,
         };
         let view = bsdf.seen_from(wo).expect("it is seen");

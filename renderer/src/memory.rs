@@ -5,15 +5,24 @@
 )]
 
 /// An empty vector with this capacity, in pages of 2 MiB if the system has them. With small pages
-/// most accesses to a large tree also cost a page-table walk.
-pub(super) fn room_for<T>(count: usize) -> Vec<T> {
+/// most accesses to a large tree or map also cost a page-table walk.
+pub(crate) fn room_for<T>(count: usize) -> Vec<T> {
     let room = Vec::with_capacity(count);
     ask_for_huge_pages(&room);
     room
 }
 
+/// The same elements in such memory, if they fill more than one of these pages.
+pub(crate) fn settled<T: Copy>(elements: Vec<T>) -> Box<[T]> {
+    if size_of_val(&elements[..]) < 2 * HUGE_PAGE {
+        return elements.into();
+    }
+    let mut room = room_for(elements.len());
+    room.extend_from_slice(&elements);
+    room.into()
+}
+
 /// Bytes of a huge page.
-#[cfg(target_os = "linux")]
 const HUGE_PAGE: usize = 1 << 21;
 
 #[cfg(target_os = "linux")]
@@ -43,6 +52,7 @@ mod tests {
             assert!(room.is_empty() && room.capacity() >= count as usize);
             room.extend(0..count);
             assert!(room.iter().copied().eq(0..count));
+            assert_eq!(settled(room.clone())[..], room[..]);
         }
     }
 }
