@@ -5,8 +5,10 @@
 //! but takes most of the time; there shadows cause most of the noise. So a few candidates are tried
 //! on a sample of the pixels, before and apart from the picture, and the one with the least error ×
 //! work is chosen: first among the numbers of light samples, with skies among them or left to
-//! bounces, then, with that number, among the other settings.
+//! bounces, then, with that number, among the other settings. Those that are much worse than the
+//! best after some of the pixels are tried no further.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
@@ -39,9 +41,13 @@ const SAMPLES: u32 = 16;
 /// Number of independent estimates of a pixel, whose difference gives the error.
 const ESTIMATES: u64 = 2;
 
-/// A trial takes so many paths for each pixel of the picture, whatever the number of samples: a
-/// render that goes on to more, or a part of a picture, must choose alike.
+/// A trial takes at most so many paths for each pixel of the picture, whatever the number of
+/// samples: a render that goes on to more, or a part of a picture, must choose alike.
 const SHARE: u64 = 2;
+
+/// After this share of a trial's pixels, and at least this number, candidates of more than so many
+/// times the least cost are left out.
+const PREVIEW: (f64, u32, f64) = (0.25, 96, 1.5);
 
 /// Pictures with fewer pixels get no trial, which would take longer than many of them.
 const FEWEST_PIXELS: u64 = 64 * 64;
@@ -125,6 +131,7 @@ fn light_samples(world: &World) -> Vec<Effort> {
 }
 
 /// The result of one candidate in one pixel.
+#[derive(Clone)]
 struct Outcome {
     /// Means of the channels, by estimate.
     means: [Vec<f64>; ESTIMATES as usize],
@@ -146,13 +153,26 @@ impl Trial<'_> {
         if let [only] = candidates {
             return Some(*only);
         }
-        let tried: Option<Vec<_>> = (0..self.pixels)
-            .into_par_iter()
-            .map(|number| {
-                (!self.stop.load(Ordering::Relaxed)).then(|| self.pixel(number, candidates))
-            })
-            .collect();
-        Some(candidates[least(&costs(&tried?, candidates.len()))])
+        let (share, fewest, most) = PREVIEW;
+        let preview = ((share * f64::from(self.pixels)) as u32).max(fewest);
+        let preview = preview.min(self.pixels);
+        let mut tried = self.pixels(0..preview, candidates)?;
+        let kept = not_much_worse(&costs(&tried, candidates.len()), most);
+        let candidates: Vec<_> = kept.iter().map(|&place| candidates[place]).collect();
+        for outcomes in &mut tried {
+            *outcomes = kept.iter().map(|&place| outcomes[place].clone()).collect();
+        }
+        if candidates.len() > 1 {
+            tried.extend(self.pixels(preview..self.pixels, &candidates)?);
+        }
+        Some(candidates[least(&costs(&tried, candidates.len()))])
+    }
+
+    /// The results of all candidates in some pixels; `None` if the trial was interrupted.
+    fn pixels(&self, numbers: Range<u32>, candidates: &[Effort]) -> Option<Vec<Vec<Outcome>>> {
+        let of =
+            |number| (!self.stop.load(Ordering::Relaxed)).then(|| self.pixel(number, candidates));
+        numbers.into_par_iter().map(of).collect()
     }
 
     /// The results of all candidates in one pixel, given by its number. All use the same random
@@ -238,6 +258,14 @@ fn costs(tried: &[Vec<Outcome>], candidates: usize) -> Vec<f64> {
         .collect()
 }
 
+/// The indices of the numbers of at most so many times the least.
+fn not_much_worse(numbers: &[f64], most: f64) -> Vec<usize> {
+    let bound = most * numbers[least(numbers)];
+    (0..numbers.len())
+        .filter(|&place| numbers[place] <= bound)
+        .collect()
+}
+
 /// The index of the least number; of equal ones the first, which has more work.
 fn least(numbers: &[f64]) -> usize {
     let mut best = 0;
@@ -284,6 +312,12 @@ mod tests {
             assert!((cost / expected - 1.0).abs() < 1e-12, "{costs:?}");
         }
         assert_eq!(least(&costs), 1);
+    }
+
+    #[test]
+    fn what_is_much_worse_than_the_best_is_left_out() {
+        assert_eq!(not_much_worse(&[3.0, 2.0, 3.1, 2.5], 1.5), [0, 1, 3]);
+        assert_eq!(not_much_worse(&[0.0, 0.0], 1.5), [0, 1]);
     }
 
     #[test]
