@@ -266,6 +266,18 @@ mod tests {
         assert_eq!(coarsened(&[0.0; 16], 4).1, 1);
     }
 
+    #[test]
+    fn the_rough_angle_is_within_five_thousandths() {
+        for step in 0..720 {
+            let angle = PI * (step as f32 - 359.5) / 360.0;
+            for length in [1e-3, 1.0] {
+                let (sin, cos) = libm::sincosf(angle);
+                let rough = rough_atan2(length * sin, length * cos);
+                assert!((rough - angle).abs() < 0.005, "{rough} {angle}");
+            }
+        }
+    }
+
     fn sky() -> EnvironmentLight {
         let (width, height) = (32, 16);
         let texels = (0..width * height)
