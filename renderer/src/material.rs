@@ -201,7 +201,7 @@ impl Material {
             Self::Diffuse(reflectance) => Bsdf::Diffuse(reflectance.at(site.uv, wavelengths)),
             Self::Dielectric(dielectric) => Bsdf::Dielectric(*dielectric),
             Self::Plastic(plastic) => Bsdf::Leaf(plastic.bsdf(site.uv, wavelengths)),
-            Self::Leaf(leaf) => Bsdf::Leaf(leaf.bsdf(site, wavelengths)),
+            Self::Leaf(leaf) => Bsdf::Leaf(leaf.bsdf_at(site, wavelengths)),
             Self::Solid(solid) => Bsdf::Leaf(solid.bsdf(site.uv, wavelengths)),
         }
     }

@@ -12,7 +12,7 @@ pub(crate) fn room_for<T>(count: usize) -> Vec<T> {
     room
 }
 
-/// The same elements in such memory, if they fill more than one of these pages.
+/// The same elements in such memory, if they fill two of these pages.
 pub(crate) fn settled<T: Copy>(elements: Vec<T>) -> Box<[T]> {
     if size_of_val(&elements[..]) < 2 * HUGE_PAGE {
         return elements.into();

@@ -45,15 +45,17 @@ const ESTIMATES: u64 = 2;
 /// samples: a render that goes on to more, or a part of a picture, must choose alike.
 const SHARE: u64 = 2;
 
-/// After this share of a trial's pixels, and at least this number, candidates of more than so many
-/// times the least cost are left out.
-const PREVIEW: (f64, u32, f64) = (0.25, 96, 1.5);
-
 /// Pictures with fewer pixels get no trial, which would take longer than many of them.
 const FEWEST_PIXELS: u64 = 64 * 64;
 
 /// Number of pixels of a trial; fewer cannot distinguish the candidates, more are not needed.
 const PIXELS: std::ops::RangeInclusive<u64> = 96..=2048;
+
+/// Share of a trial's pixels, if that is not too few, after which candidates are left out.
+const PREVIEW: f64 = 0.25;
+
+/// Factor on the least cost above which a candidate is left out then.
+const MUCH_WORSE: f64 = 1.5;
 
 /// Work of a path besides its rays (camera, film), in rays; estimated, not measured.
 const WORK_OF_A_PATH: f64 = 1.0;
@@ -153,11 +155,10 @@ impl Trial<'_> {
         if let [only] = candidates {
             return Some(*only);
         }
-        let (share, fewest, most) = PREVIEW;
-        let preview = ((share * f64::from(self.pixels)) as u32).max(fewest);
-        let preview = preview.min(self.pixels);
+        let preview = (PREVIEW * f64::from(self.pixels)) as u32;
+        let preview = preview.max(*PIXELS.start() as u32).min(self.pixels);
         let mut tried = self.pixels(0..preview, candidates)?;
-        let kept = not_much_worse(&costs(&tried, candidates.len()), most);
+        let kept = not_much_worse(&costs(&tried, candidates.len()));
         let candidates: Vec<_> = kept.iter().map(|&place| candidates[place]).collect();
         for outcomes in &mut tried {
             *outcomes = kept.iter().map(|&place| outcomes[place].clone()).collect();
@@ -258,9 +259,9 @@ fn costs(tried: &[Vec<Outcome>], candidates: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The indices of the numbers of at most so many times the least.
-fn not_much_worse(numbers: &[f64], most: f64) -> Vec<usize> {
-    let bound = most * numbers[least(numbers)];
+/// The indices of the numbers that are not much greater than the least.
+fn not_much_worse(numbers: &[f64]) -> Vec<usize> {
+    let bound = MUCH_WORSE * numbers[least(numbers)];
     (0..numbers.len())
         .filter(|&place| numbers[place] <= bound)
         .collect()
@@ -316,8 +317,8 @@ mod tests {
 
     #[test]
     fn what_is_much_worse_than_the_best_is_left_out() {
-        assert_eq!(not_much_worse(&[3.0, 2.0, 3.1, 2.5], 1.5), [0, 1, 3]);
-        assert_eq!(not_much_worse(&[0.0, 0.0], 1.5), [0, 1]);
+        assert_eq!(not_much_worse(&[3.0, 2.0, 3.1, 2.5]), [0, 1, 3]);
+        assert_eq!(not_much_worse(&[0.0, 0.0]), [0, 1]);
     }
 
     #[test]

@@ -228,7 +228,7 @@ impl LeafMaterial {
 
     /// The BSDF at a site.
     #[inline]
-    pub fn bsdf<const N: usize>(
+    pub fn bsdf_at<const N: usize>(
         &self,
         site: &Site<N>,
         wavelengths: &Wavelengths<N>,

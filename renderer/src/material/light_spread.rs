@@ -66,8 +66,7 @@ impl LightSpread {
     /// Where light entered that leaves at `uv`, with the length of each wavelength. The place
     /// depends on `uv` and the wavelengths alone, like a random number.
     ///
-    /// Around a point the texel is drawn by the weights of bilinear interpolation. Where the kernel
-    /// meets texels outside the blade it is turned round.
+    /// Around a point the texel is drawn by the weights of bilinear interpolation.
     #[inline(always)]
     pub fn entry<const N: usize>(
         &self,
@@ -94,7 +93,8 @@ impl LightSpread {
         }
     }
 
-    /// What the blade holds where light entered.
+    /// What the blade holds where light entered, at the same wavelengths. Where the kernel meets
+    /// texels outside the blade it is turned round.
     #[inline(always)]
     pub fn entered<'m, const N: usize>(
         &self,

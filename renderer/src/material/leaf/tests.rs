@@ -119,8 +119,8 @@ fn tabulated_leaves_are_what_they_are_at_any_wavelength() {
                 let free = Wavelengths::new(drawn.nm);
                 let (wo, wi) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, 0.6, -0.8));
                 for wi in [wi, -wi] {
-                    let got = leaf.bsdf(&Site::of(Vec2::ZERO), &drawn).eval(wo, wi);
-                    let expected = leaf.bsdf(&Site::of(Vec2::ZERO), &free).eval(wo, wi);
+                    let got = leaf.bsdf_at(&Site::of(Vec2::ZERO), &drawn).eval(wo, wi);
+                    let expected = leaf.bsdf_at(&Site::of(Vec2::ZERO), &free).eval(wo, wi);
                     for lane in 0..8 {
                         let error = (got.0[lane] - expected.0[lane]).abs();
                         assert!(error <= 1e-7, "{} nm: {error}", drawn.nm[lane]);
@@ -226,7 +226,7 @@ fn the_albedo_is_that_of_the_face_seen() {
         None,
         [Coat::new(1.0, 0.3, 0.3), Coat::new(1.0, 0.3, 0.3)],
     );
-    let bsdf = leaf.bsdf(&Site::of(Vec2::ZERO), &at(550.0));
+    let bsdf = leaf.bsdf_at(&Site::of(Vec2::ZERO), &at(550.0));
     // A = 0.8: ρ = 1.6272.
     let [above, below] = [Vec3::Z, -Vec3::Z].map(|wo| bsdf.albedo(wo).0[0]);
     assert!((above - 0.2).abs() < 1e-6, "{above}");
