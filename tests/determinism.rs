@@ -116,14 +116,16 @@ fn the_effort_is_tried_out_alike_on_any_number_of_threads_and_samples_and_a_give
         );
     }
     let text = SCENE.to_owned()
-        + "[integrator]\nroulette_below = 0.3\nbranches = 7\nlight_samples = 3\nsample_skies = false\n";
+        + "[integrator]\nroulette_below = 0.3\nbranches = 7\nlit_branches = 2\nlight_samples = 3\nsample_skies = false\n";
     let Effort {
         roulette_below,
         branches,
+        lit_branches,
         light_samples,
         sample_skies,
     } = of(2, 600, &text);
-    assert_eq!((roulette_below, branches, light_samples), (0.3, 7, 3));
+    assert_eq!(roulette_below, 0.3);
+    assert_eq!((branches, lit_branches, light_samples), (7, 2, 3));
     assert!(!sample_skies);
 }
 

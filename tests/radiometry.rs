@@ -112,7 +112,11 @@ radiance_w_m2_sr_nm = 3
     let root = (1.0 + a * a).sqrt();
     let quarter = 1.0 / (2.0 * PI) * 2.0 * (a / root) * (a / root).atan();
     let irradiance = PI * 3.0 * 4.0 * quarter;
-    for samples in ["light_samples = 1", "light_samples = 5"] {
+    for samples in [
+        "light_samples = 1",
+        "light_samples = 5",
+        "light_samples = 1\nlit_branches = 3",
+    ] {
         let text = scene(camera, samples, &blocks);
         let found = mean_and_error(&text, 0, 16);
         assert_agrees(samples, found, 0.25 / PI * irradiance);
@@ -143,7 +147,7 @@ fn roulette_leaves_the_mean_as_it_is() {
 }
 
 /// Half of a wide sun is hidden by an upright edge, and a wall beside shines by it: which half
-/// decides whether paths branch must not decide where the others go.
+/// decides how many paths go on must not decide where they go.
 #[test]
 fn branches_leave_the_mean_of_a_penumbra_as_it_is() {
     let blocks = "
@@ -178,18 +182,22 @@ azimuth_deg = 90
 angular_diameter_deg = 20
 ";
     let camera = "position_m = [0.3, -0.2, 1]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 2";
-    let found = |branches: u32| {
-        let integrator = format!("branches = {branches}\nroulette_below = 0.1");
+    let found = |in_shade: u32, lit: u32| {
+        let integrator =
+            format!("branches = {in_shade}\nlit_branches = {lit}\nroulette_below = 0.1");
         mean_and_error(&scene(camera, &integrator, blocks), 0, 32)
     };
-    let (one, four) = (found(1), found(4));
-    let error = one.1.hypot(four.1);
-    eprintln!("{one:?} {four:?}");
-    assert!(error < 1e-3 * one.0, "the error {error} hides what is seen");
-    assert!(
-        (one.0 - four.0).abs() < 4.0 * error,
-        "{four:?} is not {one:?}"
-    );
+    let one = found(1, 1);
+    for (in_shade, lit) in [(4, 1), (1, 3), (4, 2)] {
+        let several = found(in_shade, lit);
+        let error = one.1.hypot(several.1);
+        eprintln!("{in_shade} in shade, {lit} in light: {several:?}, one: {one:?}");
+        assert!(error < 1e-3 * one.0, "the error {error} hides what is seen");
+        assert!(
+            (one.0 - several.0).abs() < 4.0 * error,
+            "{several:?} is not {one:?}"
+        );
+    }
 }
 
 #[test]

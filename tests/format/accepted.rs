@@ -104,6 +104,7 @@ fn film_and_camera_are_in_si_units() {
         (Some(12), Some(0.0))
     );
     assert_eq!(scene.integrator.branches, Some(3));
+    assert_eq!(scene.integrator.lit_branches, Some(2));
     assert_eq!(scene.integrator.light_samples, Some(5));
     assert_eq!(scene.integrator.sample_skies, Some(false));
 }

@@ -115,10 +115,16 @@ impl Heading {
         let Effort {
             roulette_below,
             branches,
+            lit_branches,
             light_samples,
             sample_skies,
         } = progress.effort;
-        for word in [roulette_below.to_bits(), branches, light_samples] {
+        for word in [
+            roulette_below.to_bits(),
+            branches,
+            lit_branches,
+            light_samples,
+        ] {
             out.word(word);
         }
         out.flag(sample_skies);
@@ -196,6 +202,7 @@ impl Heading {
         let effort = Effort {
             roulette_below: f32::from_bits(rest.word()?),
             branches: rest.word()?,
+            lit_branches: rest.word()?,
             light_samples: rest.word()?,
             sample_skies: rest.flag()?,
         };
@@ -270,6 +277,7 @@ impl Heading {
         let is_sound = rest.0.is_empty()
             && effort.roulette_below.is_finite()
             && effort.branches > 0
+            && effort.lit_branches > 0
             && effort.light_samples > 0
             && first <= spp
             && drawn[0] <= drawn[1]

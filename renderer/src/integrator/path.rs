@@ -73,8 +73,8 @@ pub fn of_pixel<const N: usize>(
 /// power heuristic; at the first vertex the number of other lights is set by the effort. Russian
 /// roulette is applied only below the effort's threshold and leaves the mean unchanged; the
 /// survival probability is the throughput over that threshold. If none of the sampled lights
-/// reaches the first vertex, its light comes by the bounce; then several paths continue from there,
-/// as many as the effort sets.
+/// reaches the first vertex, its light comes by the bounce. So the effort sets how many paths
+/// continue from there, apart for a first vertex that is lit and for one that is not.
 pub fn trace<const N: usize>(
     world: &World,
     effort: Effort,
@@ -288,8 +288,8 @@ impl<const N: usize> Paths<'_, N> {
         self.scatter(&vertex, passage, depth, stream, result)
     }
 
-    /// Adds the light of lamps at a vertex, and that of several paths from the first one if no lamp
-    /// shines there; the leg by which the path goes on, if it does.
+    /// Adds the light of lamps at a vertex, and that of the paths that go on from the first one if
+    /// they are several; the leg by which the path goes on otherwise, if it does.
     #[inline(always)]
     fn scatter(
         &self,
@@ -306,8 +306,8 @@ impl<const N: usize> Paths<'_, N> {
         let mut gathered = vertex.gathered;
         if vertex.is_lit {
             let [_, mut x, mut y, _] = numbers;
-            if depth == 0 && self.effort.branches > 1 && !self.selection().always.is_empty() {
-                // Whether the path branches depends on the suns. If they shared the numbers of the
+            if depth == 0 && self.effort.may_branch() && !self.selection().always.is_empty() {
+                // How many paths go on depends on the suns. If they shared the numbers of the
                 // bounce, those of a lit vertex would be a choice among all, and the mean wrong in
                 // penumbras.
                 let mut first = stream.clone();
@@ -319,11 +319,16 @@ impl<const N: usize> Paths<'_, N> {
             result.radiance += light;
             result.rays += rays;
         }
-        if depth == 0 && self.effort.branches > 1 && vertex.is_lit && gathered.is_zero() {
-            for number in 0..self.effort.branches {
-                let mut stream = stream.part(number, self.effort.branches);
+        let branches = match (depth == 0 && vertex.is_lit, gathered.is_zero()) {
+            (true, true) => self.effort.branches,
+            (true, false) => self.effort.lit_branches,
+            (false, _) => 1,
+        };
+        if branches > 1 {
+            for number in 0..branches {
+                let mut stream = stream.part(number, branches);
                 stream.seek(set);
-                let share = 1.0 / self.effort.branches as f32;
+                let share = 1.0 / branches as f32;
                 if let Some(leg) = vertex.bounce(stream.next4(), share, 0.0) {
                     let passage = vertex.passage_towards(passage, leg.ray.direction);
                     self.follow(leg, passage, 1, &mut stream, result);

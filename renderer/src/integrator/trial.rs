@@ -5,8 +5,9 @@
 //! but takes most of the time; there shadows cause most of the noise. So a few candidates are tried
 //! on a sample of the pixels, before and apart from the picture, and the one with the least error ×
 //! work is chosen: first among the numbers of light samples, with skies among them or left to
-//! bounces, then, with that number, among the other settings. Those that are much worse than the
-//! best after some of the pixels are tried no further.
+//! bounces, then, with that number, among pairs of threshold and branches, then among the numbers of
+//! lit branches. Those that are much worse than the best after some of the pixels are tried no
+//! further.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,12 +26,24 @@ use crate::scene::world::World;
 const LIGHT_SAMPLES: [u32; 4] = [1, 2, 4, 8];
 
 /// Pairs of roulette threshold and number of branches that are tried, from most to least work.
-const PAIRS: [(f32, u32); 6] = [(0.03, 4), (0.06, 3), (0.1, 2), (0.2, 1), (0.4, 1), (1.0, 1)];
+const PAIRS: [(f32, u32); 7] = [
+    (0.01, 4),
+    (0.03, 4),
+    (0.06, 3),
+    (0.1, 2),
+    (0.2, 1),
+    (0.4, 1),
+    (1.0, 1),
+];
+
+/// Numbers of branches at lit first vertices that are tried, each with the best pair.
+const LIT_BRANCHES: [u32; 2] = [2, 1];
 
 /// The effort for pictures too small for a trial.
 pub(super) const WITHOUT_TRIAL: Effort = Effort {
     roulette_below: 0.1,
     branches: 2,
+    lit_branches: 1,
     light_samples: 2,
     sample_skies: true,
 };
@@ -70,6 +83,7 @@ pub(super) fn choose(world: &World, job: &Job, layout: Layout, stop: &AtomicBool
                 .roulette_below
                 .map_or(candidate.roulette_below, |given| given as f32),
             branches: integrator.branches.unwrap_or(candidate.branches),
+            lit_branches: integrator.lit_branches.unwrap_or(candidate.lit_branches),
             light_samples: integrator.light_samples.unwrap_or(candidate.light_samples),
             sample_skies: integrator.sample_skies.unwrap_or(candidate.sample_skies),
         }
@@ -89,7 +103,23 @@ pub(super) fn choose(world: &World, job: &Job, layout: Layout, stop: &AtomicBool
         };
         choices(PAIRS.iter().map(of).collect())
     };
-    let tried = by_light_samples.len() + by_pair(without_trial).len();
+    let by_lit_branches = |best: Effort| {
+        let of = |&lit_branches| Effort {
+            lit_branches,
+            ..best
+        };
+        let selection = world.selections.of(best.sample_skies);
+        // Where nothing is sampled, nothing is lit.
+        let numbers = if selection.always.is_empty() && selection.is_empty() {
+            &[1][..]
+        } else {
+            &LIT_BRANCHES[..]
+        };
+        choices(numbers.iter().map(of).collect())
+    };
+    let tried = by_light_samples.len()
+        + by_pair(without_trial).len()
+        + by_lit_branches(without_trial).len();
     let pixels = u64::from(job.width) * u64::from(job.height);
     if pixels < FEWEST_PIXELS {
         return without_trial;
@@ -107,6 +137,7 @@ pub(super) fn choose(world: &World, job: &Job, layout: Layout, stop: &AtomicBool
     trial
         .best(&by_light_samples)
         .and_then(|best| trial.best(&by_pair(best)))
+        .and_then(|best| trial.best(&by_lit_branches(best)))
         .unwrap_or(without_trial)
 }
 

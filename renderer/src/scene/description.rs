@@ -144,6 +144,9 @@ pub struct Integrator {
     /// Number of paths that continue from the first vertex if no sampled light reaches it; `None`
     /// leaves it to a trial.
     pub branches: Option<u32>,
+    /// Number of paths that continue from the first vertex if a sampled light reaches it; `None`
+    /// leaves it to a trial.
+    pub lit_branches: Option<u32>,
     /// Number of light samples at the first vertex; `None` leaves it to a trial.
     pub light_samples: Option<u32>,
     /// Whether skies and environment pictures are sampled as lamps are, or left to bounces; `None`

@@ -49,6 +49,7 @@ pub(super) fn report(traced: &Traced<'_>, rendered: &Rendered, times: &Times) ->
         "rays": rendered.rays,
         "roulette_below": rendered.effort.roulette_below,
         "branches": rendered.effort.branches,
+        "lit_branches": rendered.effort.lit_branches,
         "light_samples": rendered.effort.light_samples,
         "sample_skies": rendered.effort.sample_skies,
         "paths": film.drawn(),

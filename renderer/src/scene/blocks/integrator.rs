@@ -27,6 +27,9 @@ pub(super) fn integrator(integrator: &mut Integrator, keys: &mut Keys<'_>) {
         are sampled (suns, lamps, sky pictures) reaches it. More is slower and less noisy, in \
         shade.";
     keys.optional("branches", &mut integrator.branches, count, about);
+    let about = "Paths that go on from there where such a light reaches it. More is slower and \
+        less noisy, above all close to leaves in the sun.";
+    keys.optional("lit_branches", &mut integrator.lit_branches, count, about);
     let about = "Samples of lamps and sky pictures at what the camera sees first; suns have one \
         each. More is slower and less noisy where lamps cast soft shadows.";
     keys.optional("light_samples", &mut integrator.light_samples, count, about);
