@@ -129,6 +129,30 @@ fn the_effort_is_tried_out_alike_on_any_number_of_threads_and_samples_and_a_give
     assert!(!sample_skies);
 }
 
+#[test]
+fn two_paths_go_on_from_a_leaf_in_the_sun_and_one_where_nothing_is_lit() {
+    let lit_branches = |text: &str| {
+        let (_, world) = world_of(text);
+        let job = Job {
+            width: 80,
+            height: 60,
+            spp: 64,
+            seed: 5,
+        };
+        let begun = begin(&world, &job, None, &AtomicBool::new(false)).expect("it fits");
+        begun.effort.lit_branches
+    };
+    // A leaf that fills the picture, close above what shines through it.
+    let close = SCENE
+        .replace("vertical_fov_deg = 30", "vertical_fov_deg = 10")
+        .replace("mesh = \"ball\"", "mesh = \"floor\"")
+        .replace("aperture_diameter_mm = 5\n", "");
+    assert_eq!(lit_branches(&close), 2);
+    let (in_shade, _) = close.split_once("[lights.sun.distant]").expect("a sun");
+    let sky = "[lights.sky.constant]\nradiance_w_m2_sr_nm = 1\n";
+    assert_eq!(lit_branches(&[in_shade, sky].concat()), 1);
+}
+
 /// What the light of the scene adds up to, bit for bit. It changes when random numbers, estimators
 /// or spectra do; then the test prints the new one, and the commit says why.
 const LIGHT: u64 = 0xc16c_f972_0a31_c542;
