@@ -53,6 +53,16 @@ azimuth_deg = 100
 radiance_w_m2_sr_nm = { d65 = 0.05 }
 ";
 
+/// A picture of so many pixels across and down.
+fn job([width, height]: [u32; 2], spp: u32) -> Job {
+    Job {
+        width,
+        height,
+        spp,
+        seed: 5,
+    }
+}
+
 /// A picture of the scene on so many threads, and its file.
 fn rendered(threads: usize, spp: u32, halt: Halt) -> (Rendered, Vec<u8>) {
     let pool = rayon::ThreadPoolBuilder::new()
@@ -61,12 +71,7 @@ fn rendered(threads: usize, spp: u32, halt: Halt) -> (Rendered, Vec<u8>) {
         .expect("threads");
     pool.install(|| {
         let (scene, world) = world_of(SCENE);
-        let job = Job {
-            width: 40,
-            height: 30,
-            spp,
-            seed: 5,
-        };
+        let job = job([40, 30], spp);
         let go_on = AtomicBool::new(false);
         let rendered = render_until(&world, &job, &halt, &go_on, &|_| ()).expect("it fits");
         let folder = tempfile::tempdir().expect("a place for temporary files");
@@ -96,12 +101,7 @@ fn the_effort_is_tried_out_alike_on_any_number_of_threads_and_samples_and_a_give
             .build()
             .expect("threads");
         let (_, world) = world_of(text);
-        let job = Job {
-            width: 80,
-            height: 60,
-            spp,
-            seed: 5,
-        };
+        let job = job([80, 60], spp);
         let go_on = AtomicBool::new(false);
         pool.install(|| begin(&world, &job, None, &go_on))
             .expect("it fits")
@@ -133,12 +133,7 @@ fn the_effort_is_tried_out_alike_on_any_number_of_threads_and_samples_and_a_give
 fn two_paths_go_on_from_a_leaf_in_the_sun_and_one_where_nothing_is_lit() {
     let lit_branches = |text: &str| {
         let (_, world) = world_of(text);
-        let job = Job {
-            width: 80,
-            height: 60,
-            spp: 64,
-            seed: 5,
-        };
+        let job = job([80, 60], 64);
         let begun = begin(&world, &job, None, &AtomicBool::new(false)).expect("it fits");
         begun.effort.lit_branches
     };
@@ -162,12 +157,7 @@ fn every_level_of_instructions_gives_the_same_committed_light() {
     for level in Level::all() {
         let (_, mut world) = world_of(SCENE);
         world.geometry = world.geometry.at_level(level);
-        let job = Job {
-            width: 40,
-            height: 30,
-            spp: 20,
-            seed: 5,
-        };
+        let job = job([40, 30], 20);
         let go_on = AtomicBool::new(false);
         let rendered =
             render_until(&world, &job, &Halt::default(), &go_on, &|_| ()).expect("it fits");
@@ -236,12 +226,7 @@ fn rendered_by(map: &SampleMap, threads: usize, aim: Option<f64>) -> Rendered {
         .expect("threads");
     pool.install(|| {
         let (_, world) = world_of(SCENE);
-        let job = Job {
-            width: 40,
-            height: 30,
-            spp: 60,
-            seed: 5,
-        };
+        let job = job([40, 30], 60);
         let contact = Contact {
             stop: &AtomicBool::new(false),
             progress: &|_| (),
