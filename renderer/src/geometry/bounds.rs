@@ -1,6 +1,10 @@
 //! Axis-aligned boxes.
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3, Vec3A};
+
+/// Bound of the error of a hit's place, relative to the greatest distance of a corner of its box: a
+/// hundred roundings, where the triangle test has some ten.
+const BEYOND_ERROR: f32 = 128.0 / 16_777_216.0;
 
 /// An axis-aligned box, `min ≤ max`, or [`Bounds::EMPTY`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +44,28 @@ impl Bounds {
     pub(super) fn half_area(self) -> f32 {
         let d = self.max - self.min;
         d.x * d.y + d.y * d.z + d.z * d.x
+    }
+
+    /// Whether a ray leads away from the box or past it along one of the axes, so that all of it lies
+    /// behind or beside the ray. Without rounding; always so for [`Bounds::EMPTY`].
+    #[inline(always)]
+    pub(super) fn is_behind(&self, origin: Vec3A, direction: Vec3A) -> bool {
+        let below = Vec3A::from(self.max).cmplt(origin) & direction.cmpge(Vec3A::ZERO);
+        let above = Vec3A::from(self.min).cmpgt(origin) & direction.cmple(Vec3A::ZERO);
+        (below | above).any()
+    }
+
+    /// Whether all of the box lies beyond the end of a ray at `limit`, by more than what the roundings
+    /// of a hit in it can bring nearer; not so if the limit is not finite.
+    #[inline(always)]
+    pub(super) fn is_beyond(&self, origin: Vec3A, direction: Vec3A, limit: f32) -> bool {
+        let (low, high) = (Vec3A::from(self.min), Vec3A::from(self.max));
+        let reach = (low - origin).abs().max((high - origin).abs());
+        let error = Vec3A::splat(reach.max_element() * BEYOND_ERROR);
+        let end = origin + direction * Vec3A::splat(limit);
+        let above = (low - error).cmpgt(end) & direction.cmpge(Vec3A::ZERO);
+        let below = (high + error).cmplt(end) & direction.cmple(Vec3A::ZERO);
+        (above | below).any()
     }
 
     pub(super) fn center(self) -> Vec3 {

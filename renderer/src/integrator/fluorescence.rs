@@ -11,7 +11,7 @@ use leafmodel::optics::fluorescence::EXCITED_NM;
 use super::path::lamps::sampled_light;
 use super::path::media::Passage;
 use super::path::scatterer::Scatterer;
-use super::path::{PathResult, Paths, Vertex};
+use super::path::{Leg, PathResult, Paths, Vertex};
 use crate::bsdf::View;
 use crate::bsdf::fluorescence::FluorescenceView;
 use crate::geometry::surface::SurfacePoint;
@@ -46,7 +46,7 @@ impl<const N: usize> Paths<'_, N> {
         &self,
         leaf: &LeafMaterial,
         encounter: &Encounter<'_, N>,
-        passage: &Passage,
+        way: (&Leg<N>, &Passage),
         depth: u32,
         stream: &Stream,
     ) -> (Lanes<N>, u32) {
@@ -88,7 +88,7 @@ impl<const N: usize> Paths<'_, N> {
 
         let (found, rays) = self.exciting(
             leaf,
-            (encounter, passage),
+            (encounter, way),
             (&wavelengths, first_set, depth),
             is_through,
             &mut stream,
@@ -112,7 +112,7 @@ impl<const N: usize> Paths<'_, N> {
     fn exciting(
         &self,
         leaf: &LeafMaterial,
-        (encounter, passage): (&Encounter<'_, N>, &Passage),
+        (encounter, (leg, passage)): (&Encounter<'_, N>, (&Leg<N>, &Passage)),
         (wavelengths, first_set, depth): (&Wavelengths<N>, u32, u32),
         is_through: bool,
         stream: &mut Stream,
@@ -160,7 +160,8 @@ impl<const N: usize> Paths<'_, N> {
         let (light, rays) = sampled_light(self.world, &vertex, wavelengths, [x, y], stream);
         result.radiance += light;
         result.rays += rays;
-        if let Some(mut leg) = vertex.bounce(numbers, 1.0, self.effort.roulette_below) {
+        let mut leg = *leg;
+        if vertex.bounce(numbers, 1.0, self.effort.roulette_below, &mut leg) {
             let drops = passage.drops;
             let place = (surface, &encounter.frame, encounter.wo);
             let passage = Passage {
@@ -168,7 +169,7 @@ impl<const N: usize> Paths<'_, N> {
                 drops: (drops.film()).map_or(drops, |film| film.leave(drops, place, &mut leg)),
                 ..*passage
             };
-            paths.follow(leg, passage, depth + 1, stream, &mut result);
+            paths.follow(&mut leg, passage, depth + 1, stream, &mut result);
         }
         (result.radiance, result.rays)
     }

@@ -18,6 +18,7 @@ pub use self::result::{FirstHit, PathResult};
 use self::scatterer::Scatterer;
 pub(super) use self::vertex::Vertex;
 use crate::camera::FilmRay;
+use crate::geometry::Hit;
 use crate::geometry::ray::Ray;
 use crate::integrator::cone::Cone;
 use crate::integrator::effort::Effort;
@@ -83,7 +84,7 @@ pub fn trace<const N: usize>(
     stream: &mut Stream,
     result: &mut PathResult<N>,
 ) {
-    let from_camera = Leg {
+    let mut from_camera = Leg {
         throughput: Lanes::ONE * weight,
         bounce: Bounce {
             pdf: f32::INFINITY,
@@ -103,10 +104,11 @@ pub fn trace<const N: usize>(
         excitation_sets: None,
     };
     let passage = Passage::of_camera(world);
-    paths.follow(from_camera, passage, 0, stream, result);
+    paths.follow(&mut from_camera, passage, 0, stream, result);
 }
 
 /// A ray of a path and its origin.
+#[derive(Clone, Copy)]
 pub(super) struct Leg<const N: usize> {
     ray: Ray,
     cone: Cone,
@@ -126,11 +128,11 @@ pub(super) struct Paths<'a, const N: usize> {
 }
 
 impl<const N: usize> Paths<'_, N> {
-    /// Adds the radiance that a path finds from a leg on. Its ray was scattered `from` times
-    /// before; `passage` is where it starts, in scenes with media.
+    /// Adds the radiance that a path finds from a leg on, which becomes its last. Its ray was
+    /// scattered `from` times before; `passage` is where it starts, in scenes with media.
     pub(super) fn follow(
         &self,
-        mut leg: Leg<N>,
+        leg: &mut Leg<N>,
         mut passage: Passage,
         from: u32,
         stream: &mut Stream,
@@ -139,37 +141,39 @@ impl<const N: usize> Paths<'_, N> {
         let (world, wavelengths) = (self.world, self.wavelengths);
         let lights = (&world.lights[..], self.selection());
         for depth in from..MOST_EVENTS {
-            let met = self.meet(&mut leg, &mut passage, depth == 0, stream, result);
             let is_last = world.integrator.max_depth.is_some_and(|most| depth >= most);
-            let hit = match met {
-                Met::Surface(hit) => hit,
-                Met::Nothing => {
-                    let way = leg.ray.direction;
-                    result.radiance +=
-                        leg.throughput * from_infinity(lights, way, &leg.bounce, wavelengths);
-                    return;
-                }
-                Met::Medium(collision) => {
-                    if leg.throughput.is_zero() || is_last {
-                        return;
+            let found = if world.media.are_present {
+                match self.advance(leg, &mut passage, depth == 0, stream, result) {
+                    Met::Surface(hit) => Some(hit),
+                    Met::Nothing => None,
+                    Met::Medium(collision) => {
+                        if leg.throughput.is_zero() || is_last {
+                            return;
+                        }
+                        if !self.collide(leg, &passage, &collision, depth, stream, result) {
+                            return;
+                        }
+                        continue;
                     }
-                    let next = self.collide(&leg, &passage, &collision, depth, stream, result);
-                    let Some(next) = next else {
-                        return;
-                    };
-                    leg = next;
-                    continue;
                 }
+            } else {
+                self.meet(&leg.ray, depth == 0, result)
+            };
+            let Some(hit) = &found else {
+                let way = leg.ray.direction;
+                result.radiance +=
+                    leg.throughput * from_infinity(lights, way, &leg.bounce, wavelengths);
+                return;
             };
             let material = world.material_of(hit.instance);
             let mut encounter = Encounter::new(
                 &world.geometry,
                 material,
                 (&leg.ray, &leg.cone),
-                &hit,
+                hit,
                 wavelengths,
             );
-            let Ok(film) = self.film_over(&mut leg, passage.drops, &mut encounter, &hit) else {
+            let Ok(film) = self.film_over(leg, passage.drops, &mut encounter, hit) else {
                 continue;
             };
             let Leg {
@@ -177,7 +181,7 @@ impl<const N: usize> Paths<'_, N> {
                 throughput,
                 bounce,
                 ..
-            } = &leg;
+            } = &*leg;
             let (surface, frame, bsdf) = (&encounter.surface, &encounter.frame, &encounter.bsdf);
             let (wo, width) = (encounter.wo, encounter.width);
             if let Some(number) = world.objects[surface.instance as usize].light {
@@ -193,7 +197,7 @@ impl<const N: usize> Paths<'_, N> {
             if let Some(inside) = material.inside() {
                 let entry = through_leaf::Entry {
                     inside,
-                    at: (&hit, surface, frame, wo),
+                    at: (hit, surface, frame, wo),
                     passage: &passage,
                     leg: (*throughput, width),
                     depth,
@@ -204,7 +208,7 @@ impl<const N: usize> Paths<'_, N> {
                 if let Some(film) = film {
                     passage.drops = film.leave(passage.drops, (surface, frame, wo), &mut next);
                 }
-                leg = next;
+                *leg = next;
                 continue;
             }
             // By reference: a view is large, and would be moved out of the option.
@@ -213,58 +217,48 @@ impl<const N: usize> Paths<'_, N> {
                 return;
             };
             let gathered = result.radiance;
-            let vertex = self.on_surface((&encounter, view), &leg, &passage, depth, gathered);
+            let vertex = self.on_surface((&encounter, view), leg, &passage, depth, gathered);
             if let Some(leaf) = self.fluorescing(material) {
-                let (light, rays) = self.emitted(leaf, &encounter, &passage, depth, stream);
+                let way = (&*leg, &passage);
+                let (light, rays) = self.emitted(leaf, &encounter, way, depth, stream);
                 result.radiance += *throughput * light;
                 result.rays += rays;
             }
-            let Some(mut next) = self.scatter(&vertex, &passage, depth, stream, result) else {
+            if !self.scatter(&vertex, &passage, depth, stream, (leg, result)) {
                 return;
-            };
-            let beyond = vertex.passage_towards(&passage, next.ray.direction);
-            passage = beyond;
-            if let Some(film) = film {
-                passage.drops = film.leave(passage.drops, (surface, frame, wo), &mut next);
             }
-            leg = next;
+            if let Some(beyond) = vertex.passage_towards(&passage, leg.ray.direction) {
+                passage = beyond;
+            }
+            if let Some(film) = film {
+                passage.drops = film.leave(passage.drops, (surface, frame, wo), leg);
+            }
         }
     }
 
-    /// What a leg meets; in scenes with media it goes on through boundaries that are none.
+    /// What a ray hits in a scene without media.
     #[inline(always)]
-    fn meet(
-        &self,
-        leg: &mut Leg<N>,
-        passage: &mut Passage,
-        is_first: bool,
-        stream: &mut Stream,
-        result: &mut PathResult<N>,
-    ) -> Met {
-        if self.world.media.are_present {
-            return self.advance(leg, passage, is_first, stream, result);
-        }
+    fn meet(&self, ray: &Ray, is_first: bool, result: &mut PathResult<N>) -> Option<Hit> {
         result.rays += 1;
         if !is_first {
             for &number in &self.selection().at_infinity {
-                self.world.lights[number].prefetch(leg.ray.direction);
+                self.world.lights[number].prefetch(ray.direction);
             }
         }
-        let hit = self.world.geometry.intersect(&leg.ray);
-        hit.map_or(Met::Nothing, Met::Surface)
+        self.world.geometry.intersect(ray)
     }
 
-    /// The leg by which a path goes on that a medium has scattered, if it does; adds the light of
-    /// lamps there.
+    /// Turns a leg that a medium has scattered into that by which the path goes on; false if it does
+    /// not. Adds the light of lamps there.
     fn collide(
         &self,
-        leg: &Leg<N>,
+        leg: &mut Leg<N>,
         passage: &Passage,
         collision: &Collision,
         depth: u32,
         stream: &mut Stream,
         result: &mut PathResult<N>,
-    ) -> Option<Leg<N>> {
+    ) -> bool {
         let vertex = Vertex {
             paths: self,
             scatterer: Scatterer::Medium {
@@ -285,11 +279,12 @@ impl<const N: usize> Paths<'_, N> {
             boundary: None,
             cap: None,
         };
-        self.scatter(&vertex, passage, depth, stream, result)
+        self.scatter(&vertex, passage, depth, stream, (leg, result))
     }
 
     /// Adds the light of lamps at a vertex, and that of the paths that go on from the first one if
-    /// they are several; the leg by which the path goes on otherwise, if it does.
+    /// they are several; otherwise turns the leg into that by which the path goes on. False if it
+    /// does not.
     #[inline(always)]
     fn scatter(
         &self,
@@ -297,8 +292,8 @@ impl<const N: usize> Paths<'_, N> {
         passage: &Passage,
         depth: u32,
         stream: &mut Stream,
-        result: &mut PathResult<N>,
-    ) -> Option<Leg<N>> {
+        (leg, result): (&mut Leg<N>, &mut PathResult<N>),
+    ) -> bool {
         let set = self.set_of(depth);
         stream.seek(set);
         let numbers = stream.next4();
@@ -329,14 +324,14 @@ impl<const N: usize> Paths<'_, N> {
                 let mut stream = stream.part(number, branches);
                 stream.seek(set);
                 let share = 1.0 / branches as f32;
-                if let Some(leg) = vertex.bounce(stream.next4(), share, 0.0) {
-                    let passage = vertex.passage_towards(passage, leg.ray.direction);
-                    self.follow(leg, passage, 1, &mut stream, result);
+                if vertex.bounce(stream.next4(), share, 0.0, leg) {
+                    let beyond = vertex.passage_towards(passage, leg.ray.direction);
+                    self.follow(leg, beyond.unwrap_or(*passage), 1, &mut stream, result);
                 }
             }
-            return None;
+            return false;
         }
-        vertex.bounce(numbers, 1.0, self.effort.roulette_below)
+        vertex.bounce(numbers, 1.0, self.effort.roulette_below, leg)
     }
 
     /// The lights that are sampled.
@@ -372,6 +367,7 @@ impl<const N: usize> Paths<'_, N> {
 }
 
 /// The bounce from which a ray originates.
+#[derive(Clone, Copy)]
 struct Bounce {
     /// Density of its direction; infinite if no light sample could have chosen the same direction.
     pdf: f32,

@@ -128,8 +128,9 @@ impl EnvironmentLight {
         [azimuth - azimuth.floor(), polar.min(1.0 - f32::EPSILON)]
     }
 
-    /// Prefetches what [`EnvironmentLight::seen_towards`] will look up.
-    #[inline]
+    /// Prefetches what [`EnvironmentLight::seen_towards`] will look up. Never inlined: it would be
+    /// worked out for every ray of scenes that have no such light, too, before a loop over lights.
+    #[inline(never)]
     pub fn prefetch(&self, wi: Vec3) {
         let azimuth = (rough_atan2(wi.y, wi.x) - self.rotation) / (2.0 * PI);
         let polar = rough_atan2((wi.x * wi.x + wi.y * wi.y).sqrt(), wi.z) / PI;

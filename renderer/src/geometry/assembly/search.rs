@@ -228,19 +228,20 @@ impl<F: Found> Task for InMesh<'_, F> {
             found: PhantomData,
         };
         if F::NEAREST_FIRST {
-            let mut limit = self.limit;
-            if self.tree.has_walls() {
-                triangles.hit = self.level.run(Walls(&self));
-                limit = triangles.hit.map_or(limit, |hit| hit.t);
-            }
-            tree.walk_nearest(e, &slab, limit, &mut triangles);
+            tree.walk_nearest(e, &slab, self.limit, &mut triangles);
         } else {
             tree.walk_any(e, &slab, self.limit, &mut triangles);
-            if triangles.hit.is_none() && self.tree.has_walls() {
-                triangles.hit = self.level.run(Walls(&self));
+        }
+        let mut hit = triangles.hit;
+        if (F::NEAREST_FIRST || hit.is_none())
+            && !self.tree.wall_bounds.is_behind(origin, direction)
+        {
+            let limit = hit.map_or(self.limit, |hit| hit.t);
+            if !self.tree.wall_bounds.is_beyond(origin, direction, limit) {
+                hit = self.level.run(Walls { search: &self, hit });
             }
         }
-        let mut hit = triangles.hit?;
+        let mut hit = hit?;
         hit.instance = match self.tree.owner(hit.place) {
             Some(owner) => owner,
             None => self.instance,
@@ -250,14 +251,18 @@ impl<F: Found> Task for InMesh<'_, F> {
 }
 
 /// The search in the blocks beside the tree: apart, so that the walk through the tree stays small.
-struct Walls<'a, 'b, F>(&'b InMesh<'a, F>);
+struct Walls<'a, 'b, F> {
+    search: &'b InMesh<'a, F>,
+    /// What was found in the tree.
+    hit: Option<Hit>,
+}
 
 impl<F: Found> Task for Walls<'_, '_, F> {
     type Output = Option<Hit>;
 
     #[inline(always)]
     fn run<E: Sixteen>(self, e: E) -> Option<Hit> {
-        let Self(search) = self;
+        let Self { search, hit } = self;
         let (origin, direction, t_min) = (search.origin, search.direction, search.t_min);
         let slab = SlabRay::new(origin, direction, t_min, &search.tree.wall_bounds);
         let shear = ShearRay::new(origin, direction, t_min);
@@ -266,11 +271,14 @@ impl<F: Found> Task for Walls<'_, '_, F> {
             tree: search.tree,
             slab: &slab,
             shear: &shear,
-            hit: None,
+            hit,
             found: PhantomData,
         };
-        let mut limit = search.limit;
-        for wall in search.tree.walls() {
+        let mut limit = hit.map_or(search.limit, |hit| hit.t);
+        for (wall, bounds) in search.tree.walls() {
+            if bounds.is_behind(origin, direction) {
+                continue;
+            }
             limit = triangles.visit(wall, limit);
             if limit == f32::NEG_INFINITY {
                 break;

@@ -36,7 +36,7 @@ fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
         let shear = ShearRay::new(origin, direction, ray.t_min);
         let mut in_tree = Vec::new();
         for (number, block) in (0..).zip(&traced.blocks) {
-            let slab = if traced.walls().contains(&number) {
+            let slab = if traced.walls().any(|(wall, _)| wall == number) {
                 &for_walls
             } else {
                 &slab

@@ -1,7 +1,5 @@
 //! Triangles with a tree over them: those of one mesh, or of several that stand in the world.
 
-use std::ops::Range;
-
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -29,9 +27,10 @@ pub(super) struct TriangleTree {
     /// Of joined meshes, the instance whose triangles are in each block. Empty for one mesh, which
     /// any number of instances may share.
     owners: Vec<u32>,
-    /// Number of blocks beside the tree: of meshes of a few triangles, so large that boxes widened
-    /// for the rounding of rays to them would be too wide for the others.
-    walls: u32,
+    /// Boxes around the blocks beside the tree: of meshes of a few triangles, so large that boxes
+    /// widened for the rounding of rays to them would be too wide for the others.
+    wall_boxes: Vec<Bounds>,
+    /// The box around all of them.
     pub(super) wall_bounds: Bounds,
     /// Of joined meshes, each instance in rising order, and the box around it.
     members: Vec<(u32, Bounds)>,
@@ -65,7 +64,7 @@ impl TriangleTree {
             tree,
             blocks,
             owners: Vec::new(),
-            walls: 0,
+            wall_boxes: Vec::new(),
             wall_bounds: Bounds::EMPTY,
             members: Vec::new(),
         }
@@ -78,7 +77,7 @@ impl TriangleTree {
             tree,
             blocks: Vec::new(),
             owners: Vec::new(),
-            walls: 0,
+            wall_boxes: Vec::new(),
             wall_bounds: Bounds::EMPTY,
             members: Vec::new(),
             hull: Vec::new(),
@@ -146,7 +145,7 @@ impl TriangleTree {
             })
             .collect();
         let mut hull = tree.hull(HULL_BOXES);
-        let mut wall_bounds = Bounds::EMPTY;
+        let mut wall_boxes = Vec::with_capacity(joined.walls.len());
         for &instance in &joined.walls {
             let triangles: Vec<_> = (0..count(instance))
                 .map(|triangle| (triangle, corners(instance, triangle)))
@@ -156,7 +155,7 @@ impl TriangleTree {
             owners.push(instance);
             members.push((instance, bounds));
             hull.push(bounds);
-            wall_bounds = wall_bounds.union(bounds);
+            wall_boxes.push(bounds);
         }
         members.sort_unstable_by_key(|&(instance, _)| instance);
         Self {
@@ -164,22 +163,20 @@ impl TriangleTree {
             owners,
             tree,
             blocks,
-            walls: joined.walls.len() as u32,
-            wall_bounds,
+            wall_bounds: wall_boxes
+                .iter()
+                .copied()
+                .fold(Bounds::EMPTY, Bounds::union),
+            wall_boxes,
             members,
         }
     }
 
+    /// The blocks beside the tree, with the boxes around them.
     #[inline]
-    pub(super) fn has_walls(&self) -> bool {
-        self.walls > 0
-    }
-
-    /// The blocks beside the tree.
-    #[inline]
-    pub(super) fn walls(&self) -> Range<u32> {
-        let end = self.blocks.len() as u32;
-        end - self.walls..end
+    pub(super) fn walls(&self) -> impl Iterator<Item = (u32, &Bounds)> {
+        let first = self.blocks.len() - self.wall_boxes.len();
+        (first as u32..).zip(&self.wall_boxes)
     }
 
     /// Of joined meshes, the instance of a triangle by its place.

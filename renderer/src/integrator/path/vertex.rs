@@ -37,49 +37,50 @@ pub(in crate::integrator) struct Vertex<'a, const N: usize> {
 }
 
 impl<const N: usize> Vertex<'_, N> {
-    /// The leg that leaves by a random bounce with a share of the throughput; `None` if Russian
-    /// roulette, below a threshold, ends the path.
+    /// Turns a leg into that which leaves by a random bounce with a share of the throughput. If it
+    /// returns false, Russian roulette, below a threshold, ends the path.
+    ///
+    /// The leg is written where it stays: a copy would wait until all of it is in memory.
     pub(in crate::integrator) fn bounce(
         &self,
         numbers: [f32; 4],
         share: f32,
         roulette_below: f32,
-    ) -> Option<Leg<N>> {
+        leg: &mut Leg<N>,
+    ) -> bool {
         let [lobe, x, y, roulette] = numbers;
-        let sample = self.scatterer.sample(lobe, Vec2::new(x, y))?;
+        let Some(sample) = self.scatterer.sample(lobe, Vec2::new(x, y)) else {
+            return false;
+        };
         let mut throughput = self.throughput * sample.weight * share;
         let brightness = self.paths.brightness(&throughput);
         if brightness <= 0.0 {
-            return None;
+            return false;
         }
         if brightness < roulette_below {
             let survival = brightness / roulette_below;
             if roulette >= survival {
-                return None;
+                return false;
             }
             throughput *= 1.0 / survival;
         }
-        // Where lamps were not sampled, what the bounce finds has no other weight.
-        let pdf = if self.is_lit {
-            sample.pdf
-        } else {
-            f32::INFINITY
+        leg.throughput = throughput;
+        leg.ray = match (&self.scatterer, self.boundary) {
+            (Scatterer::Surface { surface, .. }, Some(_)) => surface.spawn_whole(sample.wi_world),
+            (scatterer, _) => scatterer.spawn(sample.wi_world),
         };
-        Some(Leg {
-            ray: match (&self.scatterer, self.boundary) {
-                (Scatterer::Surface { surface, .. }, Some(_)) => {
-                    surface.spawn_whole(sample.wi_world)
-                }
-                (scatterer, _) => scatterer.spawn(sample.wi_world),
+        leg.cone = Cone::scattered(self.width);
+        leg.bounce = Bounce {
+            // Where lamps were not sampled, what the bounce finds has no other weight.
+            pdf: if self.is_lit {
+                sample.pdf
+            } else {
+                f32::INFINITY
             },
-            throughput,
-            cone: Cone::scattered(self.width),
-            bounce: Bounce {
-                pdf,
-                from: self.receiver,
-                light_samples: self.light_samples,
-            },
-        })
+            from: self.receiver,
+            light_samples: self.light_samples,
+        };
+        true
     }
 
     /// The bodies around a ray that leaves in a direction.
@@ -91,13 +92,17 @@ impl<const N: usize> Vertex<'_, N> {
         inside
     }
 
-    /// Where a ray is that leaves in a direction, of a path that came by this passage.
+    /// Where a ray is that leaves in a direction, of a path that came by this passage; `None` if it
+    /// is where it was.
     #[inline]
     pub(in crate::integrator) fn passage_towards(
         &self,
         passage: &Passage,
         direction: Vec3,
-    ) -> Passage {
+    ) -> Option<Passage> {
+        if self.boundary.is_none() && self.cap.is_none() {
+            return None;
+        }
         let mut beyond = Passage {
             inside: self.inside_towards(direction),
             ..*passage
@@ -105,7 +110,7 @@ impl<const N: usize> Vertex<'_, N> {
         if let Some(cap) = &self.cap {
             beyond.drops = cap.drops_towards(beyond.drops, direction);
         }
-        beyond
+        Some(beyond)
     }
 }
 

@@ -55,6 +55,17 @@ fn joined_meshes_are_found_as_every_triangle_is() {
                 let room = Vec3::splat(1e-4 * scale);
                 assert!(point.position.cmpge(least - room).all());
                 assert!(point.position.cmple(most + room).all());
+                // From there on, away from the floor as often as not; the same as far as what it
+                // meets, and half as far.
+                let mut next = point.spawn(numbers.direction());
+                let found = every_triangle(&geometry, &next);
+                assert_eq!(geometry.intersect(&next), found, "{next:?}");
+                for share in [1.0, 0.5] {
+                    next.t_max = share * found.map_or(2.0 * scale, |hit| hit.t);
+                    let found = every_triangle(&geometry, &next);
+                    assert_eq!(geometry.intersect(&next), found, "{next:?}");
+                    assert_eq!(geometry.occluded(&next), found.is_some(), "{next:?}");
+                }
             }
         }
     }
