@@ -168,9 +168,9 @@ fn compare(leaf: &str, placements: &str, rays: &str, kind: &str, rounds: &str) {
     let geometry = Geometry::build(vec![mesh], instances).expect("a sound geometry");
     let rays: Vec<Ray> = floats(rays)
         .chunks_exact(7)
-        .map(|r| Ray {
-            t_max: r[6],
-            ..Ray::new(Vec3::new(r[0], r[1], r[2]), Vec3::new(r[3], r[4], r[5]))
+        .map(|r| {
+            let (origin, direction) = (Vec3::new(r[0], r[1], r[2]), Vec3::new(r[3], r[4], r[5]));
+            Ray::new(origin, direction).up_to(r[6])
         })
         .collect();
     let rounds: u32 = rounds.parse().expect("a number of rounds");

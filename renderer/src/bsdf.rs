@@ -95,12 +95,7 @@ impl<const N: usize> Scattered<N> {
 #[derive(Clone, Debug)]
 pub enum View<'a, const N: usize> {
     /// Lambertian reflection on both sides.
-    Diffuse {
-        /// The outgoing direction, local.
-        wo: Vec3,
-        /// Its reflectance.
-        reflectance: Lanes<N>,
-    },
+    Diffuse(DiffuseView<N>),
     /// The boundary of a transparent medium.
     Dielectric {
         /// The outgoing direction, local.
@@ -118,12 +113,20 @@ pub enum View<'a, const N: usize> {
     Face(FaceView),
 }
 
+/// Lambertian reflection on both sides, seen from one direction.
+#[derive(Clone, Debug)]
+pub struct DiffuseView<const N: usize> {
+    reflectance: Lanes<N>,
+    /// The outgoing direction, local.
+    wo: Vec3,
+}
+
 impl<const N: usize> View<'_, N> {
     /// The BSDF's value for light from `wi`, and the density with which `wi` is sampled.
     #[inline]
     pub fn scatter(&self, wi: Vec3) -> Scattered<N> {
         match self {
-            Self::Diffuse { wo, reflectance } => {
+            Self::Diffuse(DiffuseView { reflectance, wo }) => {
                 if wo.z * wi.z > 0.0 {
                     Scattered {
                         f: *reflectance * FRAC_1_PI,
@@ -148,7 +151,7 @@ impl<const N: usize> View<'_, N> {
     #[inline]
     pub fn sample(&self, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
         match self {
-            Self::Diffuse { wo, reflectance } => {
+            Self::Diffuse(DiffuseView { reflectance, wo }) => {
                 let up = warp::cosine_hemisphere(u);
                 let wi = Vec3::new(up.x, up.y, up.z.copysign(wo.z));
                 (up.z > 0.0).then_some(BsdfSample {
@@ -180,15 +183,15 @@ impl<'a, const N: usize> Bsdf<'a, N> {
     pub fn seen_from(&self, wo: Vec3) -> Option<View<'a, N>> {
         match self {
             _ if wo.z == 0.0 => None,
-            Self::Diffuse(reflectance) => Some(View::Diffuse {
-                wo,
+            Self::Diffuse(reflectance) => Some(View::Diffuse(DiffuseView {
                 reflectance: *reflectance,
-            }),
+                wo,
+            })),
             Self::Dielectric(dielectric) => Some(View::Dielectric {
                 wo,
                 dielectric: *dielectric,
             }),
-            Self::Leaf(leaf) => leaf.seen_from(wo).map(View::Leaf),
+            Self::Leaf(leaf) => Some(View::Leaf(leaf.view(wo))),
             Self::Relief(relief) => relief.seen_from(wo).map(View::Relief),
         }
     }

@@ -21,7 +21,7 @@
 //! let camera = Camera::new(&described, 200, 100);
 //! // The middle of the film looks along +y.
 //! let ray = camera.ray(Vec2::new(100.0, 50.0), Vec2::splat(0.5)).ray;
-//! assert!(ray.direction.distance(glam::Vec3::Y) < 1e-6);
+//! assert!(ray.direction().distance(glam::Vec3::Y) < 1e-6);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

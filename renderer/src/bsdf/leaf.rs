@@ -56,9 +56,12 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
     /// The leaf seen from `wo`; `None` from within its plane.
     #[inline]
     pub fn seen_from(&self, wo: Vec3) -> Option<LeafView<'a, N>> {
-        if wo.z == 0.0 {
-            return None;
-        }
+        (wo.z != 0.0).then(|| self.view(wo))
+    }
+
+    /// The leaf seen from `wo`, which does not lie in its plane.
+    #[inline]
+    pub(super) fn view(&self, wo: Vec3) -> LeafView<'a, N> {
         let side = usize::from(wo.z < 0.0);
         let coats = [&self.coats[side], &self.coats[1 - side]];
         let [coat, _] = coats;
@@ -72,7 +75,7 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
         let share = if total > 0.0 { 1.0 / total } else { 0.0 };
         // c(A, B) is the same in both directions.
         let through = self.tissue.transmittance[0] * (1.0 / self.coats[1].passed_mean());
-        Some(LeafView {
+        LeafView {
             coats,
             wo,
             lambda: if coat.shines() {
@@ -83,7 +86,7 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
             reflecting: reflectance * (passed * FRAC_1_PI / coat.passed_mean()),
             through: through * (passed * FRAC_1_PI),
             lobes: [albedo, reflected, transmitted].map(|lobe| lobe * share),
-        })
+        }
     }
 
     /// `f(wo, wi)`, sr⁻¹.

@@ -43,7 +43,7 @@ fn points(side: u32) -> impl Iterator<Item = Vec2> {
 
 /// Where the ray is when it is at this place along the axis.
 fn at_depth(ray: &Ray, y: f64) -> DVec3 {
-    let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+    let (origin, direction) = (ray.origin().as_dvec3(), ray.direction().as_dvec3());
     origin + direction * ((y - origin.y) / direction.y)
 }
 
@@ -53,9 +53,9 @@ fn right_is_right_and_up_is_up() {
     let ray = camera.ray(Vec2::new(300.0, 0.0), Vec2::ZERO).ray;
     let expected = Vec3::new(1.5, 1.0, 1.0).normalize();
     assert!(
-        (ray.direction - expected).length() < 1e-6,
+        (ray.direction() - expected).length() < 1e-6,
         "{}",
-        ray.direction
+        ray.direction()
     );
 }
 
@@ -172,7 +172,7 @@ fn a_tilted_lens_is_sharp_on_a_plane_that_meets_lens_and_film_in_one_line() {
                     assert_eq!(weight, 1.0);
                     // From the world (right x, into y, up z) to the frame of the picture.
                     let swap = |v: Vec3| DVec3::new(v.x.into(), v.z.into(), v.y.into());
-                    let (origin, direction) = (swap(ray.origin), swap(ray.direction));
+                    let (origin, direction) = (swap(ray.origin()), swap(ray.direction()));
                     assert!(normal.dot(origin).abs() < 1e-8, "rays start on the lens");
                     origin + direction * ((1.0 - plane.dot(origin)) / plane.dot(direction))
                 };
@@ -217,9 +217,9 @@ fn a_lens_that_leans_forward_lays_the_sharp_plane_down() {
     let depth = |y: f32| {
         let ends = [Vec2::new(0.5, 1.0), Vec2::new(0.5, 0.0)].map(|lens| {
             let ray = camera.ray(Vec2::new(150.0, y), lens).ray;
-            let slope = f64::from(ray.direction.z / ray.direction.y);
+            let slope = f64::from(ray.direction().z / ray.direction().y);
             (
-                f64::from(ray.origin.z) - f64::from(ray.origin.y) * slope,
+                f64::from(ray.origin().z) - f64::from(ray.origin().y) * slope,
                 slope,
             )
         });
@@ -254,7 +254,7 @@ fn polygons_have_the_area_of_the_disc_and_are_covered_evenly() {
         let side = 400;
         let turned = rotation + FRAC_PI_2;
         for lens in points(side) {
-            let origin = camera.ray(Vec2::new(150.0, 100.0), lens).ray.origin;
+            let origin = camera.ray(Vec2::new(150.0, 100.0), lens).ray.origin();
             let (x, y) = (f64::from(origin.x), f64::from(origin.z));
             // Distance from the nearest blade's middle, in the polygon's own frame.
             let angle = (libm::atan2(y, x) - turned).rem_euclid(TAU / n) - PI / n;
@@ -320,9 +320,13 @@ fn orthographic_rays_are_parallel_and_start_as_far_apart_as_they_end() {
     let corners = [(0.0, 0.0), (300.0, 0.0), (0.0, 200.0), (300.0, 200.0)];
     for (x, y) in corners {
         let ray = camera.ray(Vec2::new(x, y), Vec2::new(0.3, 0.9)).ray;
-        assert_eq!(ray.direction, Vec3::Y);
+        assert_eq!(ray.direction(), Vec3::Y);
         let expected = Vec3::new(x / 1000.0 - 0.15, 0.0, 0.1 - y / 1000.0);
-        assert!((ray.origin - expected).length() < 1e-7, "{}", ray.origin);
+        assert!(
+            (ray.origin() - expected).length() < 1e-7,
+            "{}",
+            ray.origin()
+        );
     }
     assert_eq!(camera.pixel_span(), [0.001, 0.0]);
     assert!(!camera.has_lens());

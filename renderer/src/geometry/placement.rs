@@ -12,8 +12,10 @@ use super::ray::Ray;
 #[repr(align(64))]
 pub(super) struct Carrier {
     /// World to local, for rays.
-    pub(super) linear: Mat3,
-    pub(super) offset: Vec3,
+    linear: Mat3,
+    offset: Vec3,
+    /// Whether `linear` is the identity.
+    is_shift: bool,
     /// Number of the tree that is traced.
     pub(super) tree: u32,
     /// Number of the instance; of joined ones the first, and the tree knows each.
@@ -26,6 +28,7 @@ impl Carrier {
         Self {
             linear: Mat3::IDENTITY,
             offset: -center,
+            is_shift: true,
             tree,
             instance,
         }
@@ -34,12 +37,16 @@ impl Carrier {
     /// Origin and direction of the ray in the local frame, with the same `t`.
     #[inline(always)]
     pub(super) fn carry(&self, ray: &Ray) -> (Vec3A, Vec3A) {
+        if self.is_shift {
+            let origin = Vec3A::from(ray.origin()) + Vec3A::from(self.offset);
+            return (origin, ray.direction().into());
+        }
         let [x, y, z] = [
             Vec3A::from(self.linear.x_axis),
             Vec3A::from(self.linear.y_axis),
             Vec3A::from(self.linear.z_axis),
         ];
-        let (o, d) = (ray.origin, ray.direction);
+        let (o, d) = (ray.origin(), ray.direction());
         (
             x * Vec3A::splat(o.x)
                 + y * Vec3A::splat(o.y)
@@ -59,7 +66,7 @@ pub(super) struct Placement {
     pub(super) linear: DMat3,
     pub(super) offset: DVec3,
     /// Transforms a triangle's local normal, by its winding, to the world.
-    pub(super) normals: DMat3,
+    normals: DMat3,
     /// Local to world in single precision, for directions that are normalised afterwards.
     pub(super) linear_f32: Mat3,
     /// The mesh's normals to the world, likewise.
@@ -110,6 +117,7 @@ impl Placement {
         let carrier = Carrier {
             linear: inverse.as_mat3(),
             offset: (-(inverse * offset)).as_vec3(),
+            is_shift: linear == DMat3::IDENTITY,
             tree: instance.mesh,
             instance: number as u32,
         };
@@ -138,9 +146,33 @@ impl Placement {
         self.carrier = carrier;
     }
 
+    /// A local point in the world.
+    #[inline]
+    pub(super) fn to_world(&self, local: DVec3) -> DVec3 {
+        if self.carrier.is_shift {
+            local + self.offset
+        } else {
+            self.linear * local + self.offset
+        }
+    }
+
+    /// A triangle's local normal, by its winding, in the world; not of unit length.
+    #[inline]
+    pub(super) fn normal_to_world(&self, local: DVec3) -> DVec3 {
+        if self.carrier.is_shift {
+            // −1 times the identity for a mirrored mesh that was joined.
+            local * self.normals.x_axis.x
+        } else {
+            self.normals * local
+        }
+    }
+
     /// For each coordinate, the sum of the magnitudes of the terms that carry a world point into
     /// the local frame.
     pub(super) fn to_local_size(&self, world: Vec3) -> Vec3 {
+        if self.carrier.is_shift {
+            return world.abs() + self.carrier.offset.abs();
+        }
         let columns = self.carrier.linear;
         columns.x_axis.abs() * world.x.abs()
             + columns.y_axis.abs() * world.y.abs()

@@ -70,10 +70,7 @@ impl SurfacePoint {
         if slope < LEAST_SLOPE * direction.length() {
             return self.spawn(direction);
         }
-        Ray {
-            t_min: 1.001 * self.position_error / slope,
-            ..Ray::new(self.position, direction)
-        }
+        Ray::new(self.position, direction).starting_at(1.001 * self.position_error / slope)
     }
 
     /// The ray from this point to `target`: `t` is 0 here and 1 there, and ends a ten-thousandth
@@ -84,10 +81,7 @@ impl SurfacePoint {
 
     /// The ray from any point to `target`, likewise.
     pub fn shadow(origin: Vec3, target: Vec3) -> Ray {
-        Ray {
-            t_max: 1.0 - SHADOW_GAP,
-            ..Ray::new(origin, target - origin)
-        }
+        Ray::new(origin, target - origin).up_to(1.0 - SHADOW_GAP)
     }
 
     /// The origin of a ray in `direction`.
@@ -114,10 +108,10 @@ impl SurfacePoint {
         };
         let [a, b, c] = corners.map(Vec3::as_dvec3);
         let local = a * weights[0] + b * weights[1] + c * weights[2];
-        let world = placement.linear * local + placement.offset;
+        let world = placement.to_world(local);
 
         let cross = (b - a).cross(c - a);
-        let normal_world = placement.normals * cross;
+        let normal_world = placement.normal_to_world(cross);
         // Of a sheared mesh not the triangle's area in the world.
         let per_length = 1.0 / normal_world.length();
         let geometric = (normal_world * per_length).as_vec3();
@@ -255,10 +249,11 @@ fn along_v(edges: [Vec3; 2], uvs: [Vec2; 3], linear: &Mat3, normal: Vec3) -> Opt
     let determinant = first.perp_dot(second);
     // Below this the uvs' own rounding decides the direction.
     let lengths2 = first.length_squared() * second.length_squared();
-    if determinant.abs() <= lengths2.sqrt() * 1e-6 {
+    if determinant * determinant <= lengths2 * 1e-12 {
         return None;
     }
-    let derivative = (edges[1] * first.x - edges[0] * second.x) * (1.0 / determinant);
+    // Only its direction counts.
+    let derivative = (edges[1] * first.x - edges[0] * second.x) * determinant.signum();
     let direction = *linear * derivative;
     let flat = direction - normal * normal.dot(direction);
     let length2 = flat.length_squared();

@@ -34,18 +34,18 @@ pub(super) struct Period {
 impl Course for Period {
     fn next(&self, stage: &Stage<'_>, ray: &mut Ray) -> (Option<Hit>, f32) {
         let mut gone = 0.0;
-        let end = ray.t_max;
+        let end = ray.t_max();
         for _ in 0..MOST_TURNS {
             let (t_side, t_beyond, axis) = self.side(ray);
             let to_end = end - gone;
-            ray.t_max = t_beyond.min(to_end);
+            *ray = ray.up_to(t_beyond.min(to_end));
             if let Some(hit) = stage.geometry.intersect(ray) {
                 return (Some(hit), gone);
             }
             if to_end <= t_side {
                 return (None, gone);
             }
-            ray.t_max = f32::INFINITY;
+            *ray = ray.up_to(f32::INFINITY);
             if !self.enter(ray, t_side, axis) {
                 return (None, gone);
             }
@@ -57,7 +57,7 @@ impl Course for Period {
     fn is_clear(&self, stage: &Stage<'_>, mut ray: Ray) -> bool {
         for _ in 0..MOST_TURNS {
             let (t_side, t_beyond, axis) = self.side(&ray);
-            ray.t_max = t_beyond;
+            ray = ray.up_to(t_beyond);
             if stage.geometry.occluded(&ray) {
                 return false;
             }
@@ -73,15 +73,17 @@ impl Period {
     /// Lets a ray that leaves by a side come in at the opposite one; `false` if it leaves above or
     /// below everything.
     fn enter(&self, ray: &mut Ray, t_side: f32, axis: usize) -> bool {
-        let height = ray.origin.z + ray.direction.z * t_side;
+        let height = ray.origin().z + ray.direction().z * t_side;
         if !t_side.is_finite() || !(self.heights[0]..=self.heights[1]).contains(&height) {
             return false;
         }
-        ray.origin += ray.direction * t_side;
-        ray.t_min = (ray.t_min - t_side).max(0.0);
+        let mut origin = ray.origin() + ray.direction() * t_side;
         // By the size, not to the side: what starts beyond a surface on the side stays beyond it.
         let size = self.most[axis] - self.least[axis];
-        ray.origin[axis] -= size.copysign(ray.direction[axis]);
+        origin[axis] -= size.copysign(ray.direction()[axis]);
+        *ray = Ray::new(origin, ray.direction())
+            .starting_at((ray.t_min() - t_side).max(0.0))
+            .up_to(ray.t_max());
         true
     }
 
@@ -89,7 +91,7 @@ impl Period {
     /// side, in lengths of its direction; and the axis across that side.
     fn side(&self, ray: &Ray) -> (f32, f32, usize) {
         let to_side = |axis: usize| {
-            let (origin, direction) = (ray.origin[axis], ray.direction[axis]);
+            let (origin, direction) = (ray.origin()[axis], ray.direction()[axis]);
             let side = if direction > 0.0 {
                 self.most[axis]
             } else {
@@ -103,7 +105,7 @@ impl Period {
             }
         };
         let [x, y] = [to_side(0), to_side(1)];
-        let beyond = |axis: usize, t: f32| t + self.touch[axis] / ray.direction[axis].abs();
+        let beyond = |axis: usize, t: f32| t + self.touch[axis] / ray.direction()[axis].abs();
         let t_beyond = beyond(0, x).min(beyond(1, y));
         if x <= y {
             (x, t_beyond, 0)

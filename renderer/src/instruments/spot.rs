@@ -124,10 +124,7 @@ impl Probe {
                 let turn = (point as f32 + 0.5 * (ring % 2) as f32) / ON_A_RING as f32;
                 let (sin, cos) = libm::sincosf(std::f32::consts::TAU * turn);
                 let foot = middle + (across * cos + along * sin) * r;
-                let ray = Ray {
-                    t_max: 2.0 * diameter,
-                    ..Ray::new(foot + normal * diameter, -normal)
-                };
+                let ray = Ray::new(foot + normal * diameter, -normal).up_to(2.0 * diameter);
                 let Some(hit) = geometry.intersect(&ray) else {
                     probe.missing += 1.0;
                     continue;

@@ -211,7 +211,7 @@ impl<'m, C: Course> Walk<'m, C> {
         }
         let Some(hit) = hit else {
             witness.escape(&Escaped {
-                direction: leg.ray.direction,
+                direction: leg.ray.direction(),
                 weight: leg.weight,
                 is_specular: leg.is_specular,
             });

@@ -272,7 +272,7 @@ mod tests {
             for film in [(0.0, 0.0), (60.0, 0.0), (45.0, 30.0)] {
                 let film = glam::Vec2::new(film.0, film.1);
                 let ray = camera.ray(film, glam::Vec2::splat(0.5)).ray;
-                let point = (ray.origin + ray.direction * 1.7).as_dvec3();
+                let point = (ray.origin() + ray.direction() * 1.7).as_dvec3();
                 let DVec4 { x, y, w, .. } = to_ndc * point.extend(1.0);
                 let [right, up] = [film.x / 30.0 - 1.0, 1.0 - film.y / 20.0];
                 assert!((x / w - f64::from(right)).abs() < 1e-5, "{x} {w} {film}");

@@ -44,7 +44,7 @@ impl<'m, const N: usize> Encounter<'m, N> {
         // What maps hold is asked for first and used last: it is on its way from memory meanwhile.
         let relief = material.relief().map(|relief| {
             let scale = geometry.texture_scale(hit);
-            let facing = ray.direction.dot(surface.shading_normal);
+            let facing = ray.direction().dot(surface.shading_normal);
             let footprint = cone::footprint(width, facing);
             (relief, relief.seen(surface.uv, scale, footprint))
         });
@@ -54,7 +54,7 @@ impl<'m, const N: usize> Encounter<'m, N> {
         // Made where it stays: a BSDF is large.
         let mut encounter = Self {
             bsdf: material.bsdf_at(&site, wavelengths),
-            wo: frame.to_local(-ray.direction),
+            wo: frame.to_local(-ray.direction()),
             width,
             has_relief: relieved.is_some(),
             frame,

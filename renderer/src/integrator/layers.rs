@@ -53,6 +53,17 @@ pub enum Films {
     Spectral,
 }
 
+impl Films {
+    /// Whether a film of colour, or one of bands, is among them.
+    const fn has(self, colour: bool) -> bool {
+        match self {
+            Self::All => true,
+            Self::Colour => colour,
+            Self::Spectral => !colour,
+        }
+    }
+}
+
 /// The source of a layer: what pixels store for it, and how it is developed.
 #[derive(Clone, Copy, Debug)]
 pub enum Source {
@@ -264,11 +275,9 @@ impl Layout {
     /// The layers of its pictures.
     #[inline]
     pub fn layers(self) -> impl Iterator<Item = &'static FilmLayer> {
-        LAYERS.iter().filter(move |layer| match layer.films {
-            Films::All => true,
-            Films::Colour => self.colour,
-            Films::Spectral => !self.colour,
-        })
+        LAYERS
+            .iter()
+            .filter(move |layer| layer.films.has(self.colour))
     }
 
     /// How a film keeps its features.
@@ -310,15 +319,50 @@ impl Layout {
     /// The features of a sample that hit something.
     #[inline]
     pub fn features<const N: usize>(self, sight: &Sight<'_, N>) -> Features {
+        // Apart, so that what is recorded is known where each loop is compiled.
+        if self.colour {
+            OF_COLOUR.of(sight)
+        } else {
+            OF_BANDS.of(sight)
+        }
+    }
+}
+
+/// What the films of a kind record of a hit: quantities, with the number of features of each.
+struct Recorded {
+    quantities: [(Quantity, usize); LAYERS.len()],
+    count: usize,
+}
+
+const OF_COLOUR: Recorded = Recorded::new(true);
+const OF_BANDS: Recorded = Recorded::new(false);
+
+impl Recorded {
+    /// By films of colour or by those of bands.
+    const fn new(colour: bool) -> Self {
+        let mut quantities = [(Quantity::Object, 0); LAYERS.len()];
+        let (mut count, mut row) = (0, 0);
+        while row < LAYERS.len() {
+            let layer = &LAYERS[row];
+            if let (Source::Feature { quantity, .. }, true) =
+                (&layer.source, layer.films.has(colour))
+            {
+                quantities[count] = (*quantity, layer.features());
+                count += 1;
+            }
+            row += 1;
+        }
+        Self { quantities, count }
+    }
+
+    #[inline(always)]
+    fn of<const N: usize>(&self, sight: &Sight<'_, N>) -> Features {
         let mut features = [0.0; MOST_FEATURES + 2];
         let mut first = 0;
-        for layer in self.layers() {
-            if let Source::Feature { quantity, .. } = layer.source {
-                // Numbers of a quantity beyond the layer's channels are overwritten by the next
-                // one.
-                features[first..first + 3].copy_from_slice(&quantity.of(sight));
-                first += layer.features();
-            }
+        for &(quantity, count) in &self.quantities[..self.count] {
+            // Numbers of a quantity beyond the layer's channels are overwritten by the next one.
+            features[first..first + 3].copy_from_slice(&quantity.of(sight));
+            first += count;
         }
         features
     }

@@ -177,10 +177,7 @@ impl<'a, const N: usize> LeafWalk<'a, N> {
             return (self.entry, self.frame);
         }
         let origin = self.entry.position + beside + self.frame.normal * reach;
-        let probe = Ray {
-            t_max: 2.0 * reach,
-            ..Ray::new(origin, -self.frame.normal)
-        };
+        let probe = Ray::new(origin, -self.frame.normal).up_to(2.0 * reach);
         let found = self
             .geometry
             .intersect(&probe)

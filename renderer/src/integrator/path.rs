@@ -89,8 +89,8 @@ pub fn trace<const N: usize>(
         bounce: Bounce {
             pdf: f32::INFINITY,
             from: Receiver {
-                position: ray.origin,
-                normal: ray.direction,
+                position: ray.origin(),
+                normal: ray.direction(),
             },
             light_samples: 0,
         },
@@ -160,7 +160,7 @@ impl<const N: usize> Paths<'_, N> {
                 self.meet(&leg.ray, depth == 0, result)
             };
             let Some(hit) = &found else {
-                let way = leg.ray.direction;
+                let way = leg.ray.direction();
                 result.radiance +=
                     leg.throughput * from_infinity(lights, way, &leg.bounce, wavelengths);
                 return;
@@ -227,7 +227,7 @@ impl<const N: usize> Paths<'_, N> {
             if !self.scatter(&vertex, &passage, depth, stream, (leg, result)) {
                 return;
             }
-            if let Some(beyond) = vertex.passage_towards(&passage, leg.ray.direction) {
+            if let Some(beyond) = vertex.passage_towards(&passage, leg.ray.direction()) {
                 passage = beyond;
             }
             if let Some(film) = film {
@@ -242,7 +242,7 @@ impl<const N: usize> Paths<'_, N> {
         result.rays += 1;
         if !is_first {
             for &number in &self.selection().at_infinity {
-                self.world.lights[number].prefetch(ray.direction);
+                self.world.lights[number].prefetch(ray.direction());
             }
         }
         self.world.geometry.intersect(ray)
@@ -263,7 +263,7 @@ impl<const N: usize> Paths<'_, N> {
             paths: self,
             scatterer: Scatterer::Medium {
                 position: collision.position,
-                way: leg.ray.direction,
+                way: leg.ray.direction(),
                 phase: collision.phase,
             },
             receiver: Receiver {
@@ -273,7 +273,7 @@ impl<const N: usize> Paths<'_, N> {
             is_lit: collision.is_lit,
             light_samples: self.light_samples(depth),
             throughput: leg.throughput,
-            width: leg.cone.width_at(leg.ray.t_max),
+            width: leg.cone.width_at(leg.ray.t_max()),
             gathered: result.radiance,
             inside: &passage.inside,
             boundary: None,
@@ -325,7 +325,7 @@ impl<const N: usize> Paths<'_, N> {
                 stream.seek(set);
                 let share = 1.0 / branches as f32;
                 if vertex.bounce(stream.next4(), share, 0.0, leg) {
-                    let beyond = vertex.passage_towards(passage, leg.ray.direction);
+                    let beyond = vertex.passage_towards(passage, leg.ray.direction());
                     self.follow(leg, beyond.unwrap_or(*passage), 1, &mut stream, result);
                 }
             }

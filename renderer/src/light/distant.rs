@@ -15,7 +15,8 @@ pub struct DistantLight {
     frame: Frame,
     /// 1 − cos of half the angular diameter.
     one_minus_cos: f32,
-    solid_angle: f32,
+    /// Density of directions within it, sr⁻¹.
+    pdf: f32,
     radiance: Spectrum,
 }
 
@@ -32,7 +33,7 @@ impl DistantLight {
         Self {
             frame: Frame::from_normal(towards),
             one_minus_cos: one_minus_cos as f32,
-            solid_angle: 2.0 * PI * one_minus_cos as f32,
+            pdf: 1.0 / (2.0 * PI * one_minus_cos as f32),
             radiance: irradiance.scaled((1.0 / projected) as f32).into(),
         }
     }
@@ -50,13 +51,11 @@ impl DistantLight {
     /// A direction to the disc, uniform over its solid angle.
     pub fn sample<const N: usize>(&self, wavelengths: &Wavelengths<N>, u: Vec2) -> LightSample<N> {
         LightSample {
-            wi: self
-                .frame
-                .to_world(warp::cone(u, self.one_minus_cos))
-                .normalize(),
+            // Of unit length to a few roundings.
+            wi: self.frame.to_world(warp::cone(u, self.one_minus_cos)),
             point: None,
             radiance: self.radiance.lanes(wavelengths),
-            pdf: 1.0 / self.solid_angle,
+            pdf: self.pdf,
             is_point: false,
         }
     }
@@ -69,8 +68,7 @@ impl DistantLight {
     ) -> Option<(Lanes<N>, f32)> {
         // |wi − axis|² = 2 (1 − cos), free of cancellation.
         let one_minus_cos = 0.5 * (wi - self.frame.normal).length_squared();
-        (one_minus_cos <= self.one_minus_cos)
-            .then(|| (self.radiance.lanes(wavelengths), 1.0 / self.solid_angle))
+        (one_minus_cos <= self.one_minus_cos).then(|| (self.radiance.lanes(wavelengths), self.pdf))
     }
 }
 

@@ -111,15 +111,20 @@ impl<F: Found> Task for Search<'_, F> {
         if geometry.carriers.len() == 1 {
             // No tree over one instance. What is not finite in the world is not so in the mesh's
             // frame either.
-            if ray.t_min <= ray.t_max
-                && let Some(task) = in_mesh::<F>(geometry, ray, 0, ray.t_max)
+            if ray.t_min() <= ray.t_max()
+                && let Some(task) = in_mesh::<F>(geometry, ray, 0, ray.t_max())
                 && let Some(hit) = task.run(e)
             {
-                found.hit(hit, ray.t_max);
+                found.hit(hit, ray.t_max());
             }
         } else if ray.is_proper() {
             let bounds = geometry.tree.bounds();
-            let slab = SlabRay::new(ray.origin.into(), ray.direction.into(), ray.t_min, bounds);
+            let slab = SlabRay::new(
+                ray.origin().into(),
+                ray.direction().into(),
+                ray.t_min(),
+                bounds,
+            );
             let mut instances = Instances {
                 geometry,
                 ray,
@@ -127,9 +132,9 @@ impl<F: Found> Task for Search<'_, F> {
                 found: &mut found,
             };
             if F::NEAREST_FIRST {
-                (geometry.tree).walk_nearest(e, &slab, ray.t_max, &mut instances);
+                (geometry.tree).walk_nearest(e, &slab, ray.t_max(), &mut instances);
             } else {
-                (geometry.tree).walk_any(e, &slab, ray.t_max, &mut instances);
+                (geometry.tree).walk_any(e, &slab, ray.t_max(), &mut instances);
             }
         }
         found.output()
@@ -188,7 +193,7 @@ fn in_mesh<'a, F: Found>(
         instance: carrier.instance,
         origin,
         direction,
-        t_min: ray.t_min,
+        t_min: ray.t_min(),
         limit,
         found: PhantomData,
     })

@@ -18,9 +18,9 @@ mod limits;
 fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
     let mut hits = Vec::new();
     let world = SlabRay::new(
-        ray.origin.into(),
-        ray.direction.into(),
-        ray.t_min,
+        ray.origin().into(),
+        ray.direction().into(),
+        ray.t_min(),
         geometry.tree.bounds(),
     );
     for (carrier, bounds) in geometry.carriers.iter().zip(&geometry.boxes) {
@@ -31,9 +31,9 @@ fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
             world.one(bounds)
         };
         let (origin, direction) = carrier.carry(ray);
-        let slab = SlabRay::new(origin, direction, ray.t_min, traced.tree.bounds());
-        let for_walls = SlabRay::new(origin, direction, ray.t_min, &traced.wall_bounds);
-        let shear = ShearRay::new(origin, direction, ray.t_min);
+        let slab = SlabRay::new(origin, direction, ray.t_min(), traced.tree.bounds());
+        let for_walls = SlabRay::new(origin, direction, ray.t_min(), &traced.wall_bounds);
+        let shear = ShearRay::new(origin, direction, ray.t_min());
         let mut in_tree = Vec::new();
         for (number, block) in (0..).zip(&traced.blocks) {
             let slab = if traced.walls().any(|(wall, _)| wall == number) {
@@ -57,7 +57,7 @@ fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
         }
         if let (Some(mut hit), Some(enter)) = (nearest(in_tree), enter) {
             hit.t = hit.t.max(enter);
-            hits.extend((hit.t <= ray.t_max).then_some(hit));
+            hits.extend((hit.t <= ray.t_max()).then_some(hit));
         }
     }
     nearest(hits)
@@ -74,7 +74,7 @@ fn nearest(hits: Vec<Hit>) -> Option<Hit> {
 /// The nearest hit by Möller and Trumbore's test in `f64` on world positions, and how far (in
 /// barycentrics) any triangle's edge is from deciding otherwise.
 fn in_doubles(geometry: &Geometry, ray: &Ray) -> (Option<f64>, f64) {
-    let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+    let (origin, direction) = (ray.origin().as_dvec3(), ray.direction().as_dvec3());
     let (mut nearest, mut margin): (Option<f64>, f64) = (None, f64::INFINITY);
     for placement in &geometry.placements {
         let mesh = &geometry.meshes[placement.instance.mesh as usize];
@@ -138,11 +138,11 @@ fn the_trees_find_what_testing_every_triangle_finds() {
                 let target = instance
                     .to_world
                     .transform_point3((corners[0] + corners[1] + corners[2]) / 3.0);
-                ray.direction = target - ray.origin;
+                ray = Ray::new(ray.origin(), target - ray.origin());
             }
             if numbers.unit() < 0.3 {
-                ray.t_min = numbers.unit();
-                ray.t_max = ray.t_min + numbers.unit();
+                ray = ray.starting_at(numbers.unit());
+                ray = ray.up_to(ray.t_min() + numbers.unit());
             }
             let hit = geometry.intersect(&ray);
             assert_eq!(
@@ -357,7 +357,7 @@ proptest! {
         let mut numbers = Numbers::new(seed);
         for _ in 0..20 {
             let ray = ray_through(&mut numbers, &one);
-            let scaled = Ray { origin: ray.origin * factor, direction: ray.direction * factor, ..ray };
+            let scaled = Ray::new(ray.origin() * factor, ray.direction() * factor);
             prop_assert_eq!(one.intersect(&ray), other.intersect(&scaled));
         }
     }

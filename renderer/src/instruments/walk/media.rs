@@ -39,7 +39,7 @@ impl Passage {
         let surface = &met.encounter.surface;
         if let Some(body) = stage.objects[surface.instance as usize].body {
             let place = stage.objects.body_place(surface.instance);
-            let direction = ray.direction;
+            let direction = ray.direction();
             self.inside
                 .leave_boundary(place, body, surface.geometric_normal, direction);
             *ray = surface.spawn_whole(direction);
@@ -85,7 +85,7 @@ impl<'m, C: Course> Walk<'m, C> {
             let reach = around.map_or(f32::INFINITY, |(_, medium)| {
                 medium.reach(&leg.weight, [choice, distance])
             });
-            leg.ray.t_max = from + reach;
+            leg.ray = leg.ray.up_to(from + reach);
             let (hit, gone) = self.course.next(stage, &mut leg.ray);
             moved += gone;
             let before = leg.weight;
@@ -93,18 +93,18 @@ impl<'m, C: Course> Walk<'m, C> {
                 let Some((body, medium)) = around else {
                     return (None, moved);
                 };
-                if leg.ray.t_max.is_infinite() {
+                if leg.ray.t_max().is_infinite() {
                     // No closed body is left without passing its boundary, but by rounding.
                     leg.weight *= medium.passed(&before, f32::INFINITY);
                     witness.event(&passing(
                         stage.objects.object_of(body),
-                        (leg.ray.origin, Vec2::ZERO),
+                        (leg.ray.origin(), Vec2::ZERO),
                         [before, leg.weight],
                     ));
                     return (None, moved);
                 }
                 leg.passage.is_straight = false;
-                let position = leg.ray.origin + leg.ray.direction * leg.ray.t_max;
+                let position = leg.ray.origin() + leg.ray.direction() * leg.ray.t_max();
                 leg.weight *= medium.scattered(&before, reach);
                 self.play(&mut leg.weight, stream);
                 witness.event(&Event {
@@ -121,8 +121,8 @@ impl<'m, C: Course> Walk<'m, C> {
                     return (None, moved);
                 }
                 leg.is_specular = false;
-                let scattering = medium.phase.sample(leg.ray.direction, Vec2::new(x, y));
-                leg.cone = leg.cone.from(moved + leg.ray.t_max);
+                let scattering = medium.phase.sample(leg.ray.direction(), Vec2::new(x, y));
+                leg.cone = leg.cone.from(moved + leg.ray.t_max());
                 leg.ray = Ray::new(position, scattering.direction);
                 (moved, from) = (0.0, 0.0);
                 continue;
@@ -144,7 +144,7 @@ impl<'m, C: Course> Walk<'m, C> {
             let Some(body) = passed.filter(|_| !leg.weight.is_zero()) else {
                 return (Some(hit), moved);
             };
-            let direction = leg.ray.direction;
+            let direction = leg.ray.direction();
             leg.passage.inside.leave_boundary(
                 stage.objects.body_place(hit.instance),
                 body,
@@ -153,13 +153,13 @@ impl<'m, C: Course> Walk<'m, C> {
             );
             // The same ray goes on: behind the hit, which depends on ray and triangle alone.
             from = hit.t;
-            leg.ray.t_min = from.next_up();
+            leg.ray = leg.ray.starting_at(from.next_up());
         }
         // What light that is caught still carries counts as absorbed where it is.
         if let Some((body, _)) = leg.passage.inside.innermost() {
             witness.event(&passing(
                 stage.objects.object_of(body),
-                (leg.ray.origin, Vec2::ZERO),
+                (leg.ray.origin(), Vec2::ZERO),
                 [leg.weight, Lanes::ZERO],
             ));
             leg.weight = Lanes::ZERO;

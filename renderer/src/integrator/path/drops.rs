@@ -122,7 +122,7 @@ impl Film {
         (surface, frame, wo): (&SurfacePoint, &Frame, Vec3),
         leg: &mut Leg<N>,
     ) -> Drops {
-        let wi = frame.to_local(leg.ray.direction);
+        let wi = frame.to_local(leg.ray.direction());
         if wi.z * wo.z <= 0.0 {
             return Drops::default();
         }
@@ -176,11 +176,11 @@ impl<const N: usize> Paths<'_, N> {
         hit: &Hit,
     ) -> Result<Option<Film>, ()> {
         let surface = &encounter.surface;
-        if let Some(cap) = self.cap_at(surface, leg.ray.direction) {
+        if let Some(cap) = self.cap_at(surface, leg.ray.direction()) {
             if cap.is_unknown(drops) {
                 // The same ray goes on behind the hit.
-                leg.ray.t_min = hit.t.next_up();
-                leg.ray.t_max = f32::INFINITY;
+                leg.ray = leg.ray.starting_at(hit.t.next_up());
+                leg.ray = leg.ray.up_to(f32::INFINITY);
                 leg.bounce.pdf = f32::INFINITY;
                 return Err(());
             }

@@ -51,7 +51,7 @@ pub(super) fn emission<const N: usize>(
     };
     let normal = surface.geometric_normal;
     let place = (surface.triangle, surface.position);
-    let Some(radiance) = light.emitted(ray.direction, normal, place, wavelengths) else {
+    let Some(radiance) = light.emitted(ray.direction(), normal, place, wavelengths) else {
         return Lanes::ZERO;
     };
     if bounce.pdf.is_infinite() {

@@ -77,7 +77,7 @@ fn direct<const N: usize>(
     }
     let light_pdf = sample.pdf * choice.expected;
     let by_bounce = if sample.is_point { 0.0 } else { pdf };
-    let weight = mis::power(light_pdf, by_bounce) / light_pdf;
+    let weight = mis::power_over_own(light_pdf, by_bounce);
     let mut added = vertex.throughput * scattered * sample.radiance * weight;
     // This is unbiased, since the radiance found before does not depend on this sample.
     if let Some(coin) = coin {

@@ -83,7 +83,7 @@ impl<const N: usize> Paths<'_, N> {
                 let medium = (!leg.throughput.is_zero()).then(|| medium.at(self.wavelengths));
                 medium.map(|medium| (medium, place, body.is_matched))
             });
-            leg.ray.t_max = f32::INFINITY;
+            leg.ray = leg.ray.up_to(f32::INFINITY);
             result.rays += 1;
             // Within a closed body there is something ahead. Where a ray passes an edge, rounding may
             // turn the order of two boundaries round, so that it takes itself for inside: then it is
@@ -101,13 +101,13 @@ impl<const N: usize> Paths<'_, N> {
             if let Some((medium, place, is_lit)) = &medium
                 && end < hit.t
             {
-                leg.ray.t_max = end;
+                leg.ray = leg.ray.up_to(end);
                 leg.throughput *= medium.scattered(&leg.throughput, end - from);
-                let position = leg.ray.origin + leg.ray.direction * end;
+                let position = leg.ray.origin() + leg.ray.direction() * end;
                 if is_camera_ray && result.first.is_none() {
                     result.first = Some(FirstHit {
                         position,
-                        normal: -leg.ray.direction,
+                        normal: -leg.ray.direction(),
                         albedo: medium.albedo(),
                         object: world.objects.object_of(*place) as u32,
                     });
@@ -126,7 +126,7 @@ impl<const N: usize> Paths<'_, N> {
                 return Met::Surface(hit);
             };
             let surface = world.geometry.surface(&leg.ray, &hit);
-            let direction = leg.ray.direction;
+            let direction = leg.ray.direction();
             if is_camera_ray && result.first.is_none() {
                 let against = direction.dot(surface.shading_normal) < 0.0;
                 result.first = Some(FirstHit {
@@ -143,7 +143,7 @@ impl<const N: usize> Paths<'_, N> {
                 .leave_boundary(place, body, normal, direction);
             // The same ray goes on: behind the hit, which depends on ray and triangle alone.
             from = hit.t;
-            leg.ray.t_min = from.next_up();
+            leg.ray = leg.ray.starting_at(from.next_up());
         }
         leg.throughput = Lanes::ZERO;
         Met::Nothing
@@ -168,7 +168,7 @@ pub(super) fn transmittance<const N: usize>(
             // The direction to a point is as long as the way to it.
             let whole = if target.is_some() { 1.0 } else { f32::INFINITY };
             let end = hit.map_or(whole, |hit| hit.t);
-            let length = (end - from) * ray.direction.length();
+            let length = (end - from) * ray.direction().length();
             let medium = world.media.media[number as usize].at(wavelengths);
             left *= medium.transmittance(length);
         }
@@ -182,9 +182,9 @@ pub(super) fn transmittance<const N: usize>(
         let surface = world.geometry.surface(&ray, &hit);
         let place = world.objects.body_place(hit.instance);
         let normal = surface.geometric_normal;
-        inside.leave_boundary(place, body, normal, ray.direction);
+        inside.leave_boundary(place, body, normal, ray.direction());
         from = hit.t;
-        ray.t_min = from.next_up();
+        ray = ray.starting_at(from.next_up());
     }
     (Lanes::ZERO, MOST_CROSSINGS)
 }

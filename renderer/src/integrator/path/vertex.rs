@@ -149,7 +149,7 @@ impl<const N: usize> Paths<'_, N> {
                 (place, body, surface.geometric_normal)
             }),
             cap: if objects.have_drops() {
-                self.cap_at(surface, leg.ray.direction)
+                self.cap_at(surface, leg.ray.direction())
             } else {
                 None
             },

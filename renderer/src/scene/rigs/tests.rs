@@ -40,11 +40,9 @@ fn scene(rig: &str) -> Description {
 /// Whether anything but the sheet itself lies between a point on it and another.
 fn is_shaded(world: &World, from: Vec3, way: Vec3) -> bool {
     let distance = way.length();
-    let ray = Ray {
-        t_min: 1e-4,
-        t_max: distance,
-        ..Ray::new(from + 1e-5 * Vec3::Z, way / distance)
-    };
+    let ray = Ray::new(from + 1e-5 * Vec3::Z, way / distance)
+        .starting_at(1e-4)
+        .up_to(distance);
     world.geometry.occluded(&ray)
 }
 

@@ -3,7 +3,7 @@
 use glam::{Affine3A, Vec3};
 
 use super::super::super::testing::{Numbers, blade, placed, placed_with, ray_through, soup};
-use super::every_triangle;
+use super::{Ray, every_triangle};
 
 /// Meshes that stand once each above a wide floor, and one that stands twice, which has 40 triangles:
 /// what is traced by one tree, beside it, and by trees of its own.
@@ -39,7 +39,10 @@ fn joined_meshes_are_found_as_every_triangle_is() {
                 let mesh = &meshes[mesh as usize];
                 let corners = mesh.corners(numbers.below(mesh.triangles().len()) as u32);
                 let target = (corners[0] + corners[1] + corners[2]) / 3.0;
-                ray.direction = to_world.transform_point3(target) - ray.origin;
+                ray = Ray::new(
+                    ray.origin(),
+                    to_world.transform_point3(target) - ray.origin(),
+                );
                 let hit = geometry.intersect(&ray);
                 assert_eq!(
                     hit,
@@ -61,7 +64,7 @@ fn joined_meshes_are_found_as_every_triangle_is() {
                 let found = every_triangle(&geometry, &next);
                 assert_eq!(geometry.intersect(&next), found, "{next:?}");
                 for share in [1.0, 0.5] {
-                    next.t_max = share * found.map_or(2.0 * scale, |hit| hit.t);
+                    next = next.up_to(share * found.map_or(2.0 * scale, |hit| hit.t));
                     let found = every_triangle(&geometry, &next);
                     assert_eq!(geometry.intersect(&next), found, "{next:?}");
                     assert_eq!(geometry.occluded(&next), found.is_some(), "{next:?}");

@@ -39,11 +39,7 @@ fn an_interval_bounds_what_is_hit() {
         (t.next_up(), f32::INFINITY, false),
         (3.0, 1.0, false),
     ] {
-        let ray = Ray {
-            t_min,
-            t_max,
-            ..ray
-        };
+        let ray = ray.starting_at(t_min).up_to(t_max);
         assert_eq!(geometry.intersect(&ray).is_some(), hit, "{t_min}..{t_max}");
         assert_eq!(geometry.occluded(&ray), hit, "{t_min}..{t_max}");
     }
