@@ -228,7 +228,7 @@ impl WavelengthSampler {
 
     /// The share of light that reaches the film with this throughput at drawn wavelengths; about 1
     /// if all lanes are 1. For a colour film it is the greatest of the shares of the observer's channels, for
-    /// bands the greatest lane.
+    /// bands the root of the mean square: errors of bands count alike, and as squares.
     #[inline]
     pub fn brightness<const N: usize>(
         &self,
@@ -243,7 +243,9 @@ impl WavelengthSampler {
                     .map(|seen| (seen * *throughput).sum());
                 x.max(y).max(z)
             }
-            Kind::Bands(_) | Kind::Sets { .. } => throughput.max_lane(),
+            // Lanes beyond the bands are no one's.
+            Kind::Bands(bands) => root_mean_square(&throughput.0[..bands.len()]),
+            Kind::Sets { .. } => root_mean_square(&throughput.0),
         }
     }
 
@@ -261,12 +263,34 @@ impl WavelengthSampler {
     }
 }
 
+/// The root of the mean square of some numbers ≥ 0.
+#[inline]
+fn root_mean_square(numbers: &[f32]) -> f32 {
+    let squares = numbers.iter().map(|number| number * number);
+    (squares.sum::<f32>() / numbers.len() as f32).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use leafmodel::optics::{ProspectD, presets};
 
     use super::*;
     use crate::spectrum::cie;
+
+    #[test]
+    fn what_counts_of_bands_is_the_root_of_their_mean_square_whatever_lanes_beyond_hold() {
+        let bands = [500.0, 700.0].map(|center_nm| Band {
+            center_nm,
+            width_nm: 10.0,
+        });
+        let sampler = WavelengthSampler::new(&FilmKind::Spectral {
+            bands: bands.to_vec(),
+        });
+        let seen = |lanes| sampler.brightness(&sampler.draw::<4>(0.5), &Lanes(lanes));
+        assert_eq!(seen([3.0, 3.0, 100.0, 0.0]), 3.0);
+        assert_eq!(seen([7.0, 1.0, 0.0, 0.0]), 5.0);
+        assert_eq!(seen([0.0, 0.0, 1.0, 1.0]), 0.0);
+    }
 
     #[test]
     fn the_mean_over_drawn_wavelengths_is_the_colour_of_the_spectrum() {
