@@ -25,7 +25,7 @@ const NEAR: f64 = 4.0;
 /// Most triangles of a wall, which stands beside the tree as one block.
 const WALL_TRIANGLES: usize = LANES;
 
-/// Most walls: a ray tests each.
+/// Most walls: a ray that may meet them tests each.
 const MOST_WALLS: usize = 2;
 
 /// Extent of a wall over that of all else, at least.

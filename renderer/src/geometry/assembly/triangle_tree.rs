@@ -97,8 +97,7 @@ impl TriangleTree {
             let own_center = center_of(mesh).as_dvec3();
             mesh.corners(triangle).map(|corner| {
                 let local = corner.as_dvec3() - own_center;
-                let world = placement.linear * local + placement.offset;
-                (world - center).as_vec3()
+                (placement.to_world(local) - center).as_vec3()
             })
         };
         let count = |instance: u32| {
