@@ -15,7 +15,7 @@ pub(super) fn integrator(integrator: &mut Integrator, keys: &mut Keys<'_>) {
     let limits = Number(Limits::closed(0.0, 1.0));
     let about = "Paths of whose light less than this share can reach the film may end by Russian \
         roulette, without bias; 0 switches it off. On a film of colour the share is what the eye \
-        sees, on bands the root of the mean square over them. Higher is faster and noisier.";
+        sees, on bands their mean, at least a quarter of the brightest. Higher is faster and noisier.";
     keys.optional(
         "roulette_below",
         &mut integrator.roulette_below,
