@@ -1,6 +1,7 @@
 //! How far it is to the nearest of many segments, fast at millions of points.
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 /// Distances to segments.
 ///
@@ -25,6 +26,58 @@ struct Node {
     count: u32,
 }
 
+/// The segments that matter to some points that lie together.
+#[derive(Debug, Default)]
+struct Near {
+    lines: Vec<Line>,
+    /// Number of the segment that was the nearest of the points before. A search that begins with it
+    /// leaves out nearly all boxes.
+    nearest: u32,
+    /// Room for a search: nodes that wait.
+    waiting: Vec<u32>,
+}
+
+impl Near {
+    /// Distance of a point to the nearest of the segments.
+    fn distance(&self, p: DVec2) -> f64 {
+        let squares = self.lines.iter().map(|line| line.square(p));
+        squares.fold(f64::INFINITY, f64::min).sqrt()
+    }
+}
+
+/// A segment, and what its distance to a point needs of it.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    from: DVec2,
+    along: DVec2,
+    /// Squared length.
+    length: f64,
+}
+
+impl Line {
+    fn new([from, to]: [DVec2; 2]) -> Self {
+        let along = to - from;
+        Self {
+            from,
+            along,
+            length: along.length_squared(),
+        }
+    }
+
+    /// Squared distance of a point.
+    fn square(&self, p: DVec2) -> f64 {
+        let offset = p - self.from;
+        let share = if self.length > 0.0 {
+            (offset.dot(self.along) / self.length).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        (offset - share * self.along).length_squared()
+    }
+}
+
+/// Points of a grid along a side of the squares that share a search.
+const TILE: usize = 4;
 /// Most segments of a leaf.
 const SHORT: usize = 4;
 /// Boxes are left out only if they are farther than what has been found by this share, so that
@@ -58,17 +111,66 @@ impl Distances {
         self.search(p, f64::INFINITY, &mut 0)
     }
 
-    /// As [`Distances::at`], with the same bits, faster for points one after the other along a line.
-    ///
-    /// `nearest` is the number of the segment that was the nearest one of the point before, 0 at the
-    /// start. A search that begins with it leaves out nearly all other boxes.
-    pub(crate) fn at_next(&self, p: DVec2, nearest: &mut u32) -> f64 {
-        let first = self.segments.get(*nearest as usize);
-        let best = first.map_or(f64::INFINITY, |&segment| square(segment, p));
-        self.search(p, best, nearest)
+    /// As [`Distances::at`], with the same bits, for the points `place([column, row])` of a grid of
+    /// `[width, height]`, row by row, on all threads; infinite where a row's flags, `asked(row)`,
+    /// do not ask for it. Much faster, since points that lie together share their search.
+    pub(crate) fn of_grid<'f>(
+        &self,
+        [width, height]: [usize; 2],
+        place: impl Fn([usize; 2]) -> DVec2 + Sync,
+        asked: impl Fn(usize) -> &'f [bool] + Sync,
+    ) -> Vec<f64> {
+        let mut away = vec![f64::INFINITY; width * height];
+        let bands = away.par_chunks_mut(TILE * width).enumerate();
+        bands.for_each(|(band, away)| {
+            let (top, rows) = (band * TILE, away.len() / width);
+            let mut near = Near::default();
+            for left in (0..width).step_by(TILE) {
+                let columns = left..(left + TILE).min(width);
+                if !(top..top + rows).any(|row| asked(row)[columns.clone()].contains(&true)) {
+                    continue;
+                }
+                let corners = [place([left, top]), place([columns.end - 1, top + rows - 1])];
+                self.gather(corners, &mut near);
+                for row in 0..rows {
+                    for column in columns.clone().filter(|&column| asked(top + row)[column]) {
+                        away[row * width + column] = near.distance(place([column, top + row]));
+                    }
+                }
+            }
+        });
+        away
     }
 
-    /// The distance, where a segment with the number `nearest` has the squared distance `best`.
+    /// Collects the segments of which one is the nearest of any point in the box between two corners.
+    fn gather(&self, corners: [DVec2; 2], near: &mut Near) {
+        let centre = 0.5 * (corners[0] + corners[1]);
+        let first = self.segments.get(near.nearest as usize);
+        let best = first.map_or(f64::INFINITY, |&segment| Line::new(segment).square(centre));
+        // A point is within half the diagonal of the centre, so the nearest segment of either is at
+        // most that much nearer or farther than that of the other.
+        let most = self.search(centre, best, &mut near.nearest) + corners[0].distance(corners[1]);
+        let square = most * most * (1.0 + SPARE);
+        near.lines.clear();
+        near.waiting.clear();
+        near.waiting.extend((!self.nodes.is_empty()).then_some(0));
+        while let Some(place) = near.waiting.pop() {
+            let node = &self.nodes[place as usize];
+            if node.square(centre) > square {
+                continue;
+            }
+            if node.count == 0 {
+                near.waiting.extend([place + 1, node.place]);
+                continue;
+            }
+            let of_leaf = &self.segments[node.place as usize..][..node.count as usize];
+            let lines = of_leaf.iter().map(|&segment| Line::new(segment));
+            near.lines
+                .extend(lines.filter(|line| line.square(centre) <= square));
+        }
+    }
+
+    /// The distance, where the segment with the number `nearest` has the squared distance `best`.
     fn search(&self, p: DVec2, mut best: f64, nearest: &mut u32) -> f64 {
         // What waits, with the squared distance of its box.
         let mut waiting = [(0.0, 0_u32); DEEPEST];
@@ -80,7 +182,7 @@ impl Distances {
                 let node = &self.nodes[place as usize];
                 if node.count > 0 {
                     for number in node.place..node.place + node.count {
-                        let square = square(self.segments[number as usize], p);
+                        let square = Line::new(self.segments[number as usize]).square(p);
                         if square < best {
                             (best, *nearest) = (square, number);
                         }
@@ -136,18 +238,6 @@ fn part(nodes: &mut Vec<Node>, segments: &mut [[DVec2; 2]], first: usize) {
     part(nodes, right, first + half);
 }
 
-/// Squared distance of a point to a segment.
-fn square([from, to]: [DVec2; 2], p: DVec2) -> f64 {
-    let (along, offset) = (to - from, p - from);
-    let length = along.length_squared();
-    let share = if length > 0.0 {
-        (offset.dot(along) / length).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    (offset - share * along).length_squared()
-}
-
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
@@ -156,7 +246,7 @@ mod tests {
     use crate::testing::fixed;
 
     fn exhaustive(segments: &[[DVec2; 2]], p: DVec2) -> f64 {
-        let squares = segments.iter().map(|&segment| square(segment, p));
+        let squares = segments.iter().map(|&segment| Line::new(segment).square(p));
         squares.fold(f64::INFINITY, f64::min).sqrt()
     }
 
@@ -166,16 +256,26 @@ mod tests {
         fn distances_are_those_of_a_search_over_all_segments(
             ends in prop::collection::vec((-10.0..10.0, 0.0..30.0, -3.0..3.0, -3.0..3.0), 1..40),
             points in prop::collection::vec((-15.0..15.0, -5.0..35.0), 50),
+            texel in -3.0..0.7,
         ) {
             let segments: Vec<[DVec2; 2]> = ends.iter()
                 .map(|&(x, y, dx, dy)| [DVec2::new(x, y), DVec2::new(x + dx, y + dy)]).collect();
             let field = Distances::new(segments.clone());
-            let mut nearest = 0;
-            for (x, y) in points {
+            for &(x, y) in &points {
                 let p = DVec2::new(x, y);
-                let expected = exhaustive(&segments, p);
-                prop_assert_eq!(field.at(p), expected);
-                prop_assert_eq!(field.at_next(p, &mut nearest), expected);
+                prop_assert_eq!(field.at(p), exhaustive(&segments, p));
+            }
+            // A grid whose last tiles are narrower and lower, without some of its points.
+            let corner = DVec2::from(points[0]);
+            let place = |[column, row]: [usize; 2]| {
+                corner + libm::pow(10.0, texel) * DVec2::new(column as f64, row as f64)
+            };
+            let asked: Vec<bool> = (0..9 * 7).map(|i| i % 5 != 3 && i / 9 != 2).collect();
+            let away = field.of_grid([9, 7], place, |row| &asked[9 * row..][..9]);
+            for (i, &away) in away.iter().enumerate() {
+                let p = place([i % 9, i / 9]);
+                let expected = if asked[i] { exhaustive(&segments, p) } else { f64::INFINITY };
+                prop_assert_eq!(away, expected);
             }
         }
     }
@@ -209,6 +309,7 @@ mod tests {
     fn without_segments_everything_is_infinitely_far() {
         let none = Distances::new(Vec::new());
         assert_eq!(none.at(DVec2::ONE), f64::INFINITY);
-        assert_eq!(none.at_next(DVec2::ONE, &mut 0), f64::INFINITY);
+        let away = none.of_grid([1, 1], |_| DVec2::ONE, |_| &[true]);
+        assert_eq!(away, [f64::INFINITY]);
     }
 }

@@ -170,24 +170,30 @@ fn cover(
     let gathering = Gathering::new(plan.dust, blade.veins, blade.margin, blade.seed);
     let lines = blade.veins.iter().map(|vein| [vein.from, vein.to]);
     let veins = (has_stomata && !blade.veins.is_empty()).then(|| Distances::new(lines.collect()));
+    let middle = |[column, row]: [usize; 2]| {
+        frame.min + texel * (DVec2::new(column as f64, row as f64) + 0.5)
+    };
+    let away = veins.map(|veins| veins.of_grid([width, height], middle, |row| coverage.row(row)));
     let mut loads = vec![f64::NAN; width * height];
-    let mut away = vec![NO_VEIN_MM; width * height];
-    let rows = loads.par_chunks_mut(width).zip(away.par_chunks_mut(width));
-    rows.enumerate().for_each(|(row, (loads, away))| {
+    let rows = loads.par_chunks_mut(width).enumerate();
+    rows.for_each(|(row, loads)| {
         let covered = coverage.row(row);
-        let mut nearest = 0;
         for column in (0..width).filter(|column| covered[*column]) {
-            let p = frame.min + texel * (DVec2::new(column as f64, row as f64) + 0.5);
-            loads[column] = if has_dust { gathering.at(p) } else { 0.0 };
-            if let Some(veins) = &veins {
-                away[column] = veins.at_next(p, &mut nearest) as f32;
-            }
+            loads[column] = if has_dust {
+                gathering.at(middle([column, row]))
+            } else {
+                0.0
+            };
         }
     });
     let taus = optical_thicknesses(&plan.dust, &loads);
-    let texels = taus.into_iter().zip(away);
+    let away_mm = |i: usize| match &away {
+        Some(away) if away[i].is_finite() => away[i] as f32,
+        Some(_) | None => NO_VEIN_MM,
+    };
+    let texels = taus.into_iter().enumerate();
     texels
-        .map(|([above, below], away)| [above, below, away])
+        .map(|(i, [above, below])| [above, below, away_mm(i)])
         .collect()
 }
 

@@ -18,6 +18,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::contents_map::ContentsMap;
+use super::coverage::{Coverage, extend};
 use super::distances::Distances;
 use super::frame::UvFrame;
 use super::mottle::Mottle;
@@ -119,17 +120,23 @@ impl Unevenness {
             .filter(|vein| vein.order == 1)
             .map(|vein| [vein.from, vein.to])
             .collect();
-        let primaries = (!lines.is_empty()).then(|| Distances::new(lines));
+        // Without primaries all is infinitely far from them.
+        let size = [grid.width, grid.height];
+        let coverage = Coverage::new(outline.points(), frame, size);
+        let away = Distances::new(lines).of_grid(
+            size,
+            |[column, row]| grid.middle(column, row),
+            |row| coverage.row(row),
+        );
         grid.each_row(&mut factors, |row, factors| {
-            let mut nearest = 0;
-            for (column, factor) in factors.iter_mut().enumerate() {
-                let p = grid.middle(column, row);
-                let patch = (noise.at(p) / NOISE_DEVIATION).clamp(-2.5, 2.5);
-                let paler = primaries.as_ref().map_or(0.0, |distances| {
-                    libm::exp(-distances.at_next(p, &mut nearest) / self.reach_mm)
-                });
+            let covered = coverage.row(row);
+            for (column, factor) in factors.iter_mut().enumerate().filter(|(c, _)| covered[*c]) {
+                let patch = noise.at(grid.middle(column, row));
+                let patch = (patch / NOISE_DEVIATION).clamp(-2.5, 2.5);
+                let paler = libm::exp(-away[row * grid.width + column] / self.reach_mm);
                 *factor *= (1.0 + self.patches * patch) * (1.0 - self.along_primaries * paler);
             }
+            extend(factors, covered);
         });
         // One texel after the other, so that the sums do not depend on the number of threads.
         let (mut before, mut after) = (0.0, 0.0);

@@ -96,13 +96,15 @@ impl<'a> Carried<'a> {
             let normals = triangle.map(|v| self.normals[v as usize]);
             let doubled = (b - a).perp_dot(c - a);
             let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-            let first = (low.x / step - 0.5).ceil().max(0.0) as usize;
-            let end = ((high.x / step + 0.5).floor().max(0.0) as usize).min(across);
             for line in 0..PLACES {
                 let y = row as f64 + (line as f64 + 0.5) * step;
                 if y < low.y || y > high.y {
                     continue;
                 }
+                let [left, right] = span([a, b, c], y);
+                // A place more on either side, for rounding.
+                let first = (left / step - 1.5).ceil().max(0.0) as usize;
+                let end = ((right / step + 1.5).floor().max(0.0) as usize).min(across);
                 for column in first..end {
                     let p = DVec2::new((column as f64 + 0.5) * step, y);
                     let weights = [
@@ -121,6 +123,26 @@ impl<'a> Carried<'a> {
         }
         slopes
     }
+}
+
+/// From where to where a level line at a height that it reaches runs within a triangle.
+fn span([a, b, c]: [DVec2; 3], y: f64) -> [f64; 2] {
+    let mut span = [f64::INFINITY, f64::NEG_INFINITY];
+    for (from, to) in [(a, b), (b, c), (c, a)] {
+        if y < from.y.min(to.y) || y > from.y.max(to.y) {
+            continue;
+        }
+        let rise = to.y - from.y;
+        let ends = if rise == 0.0 {
+            [from.x, to.x]
+        } else {
+            [from.x + ((y - from.y) / rise).clamp(0.0, 1.0) * (to.x - from.x); 2]
+        };
+        for x in ends {
+            span = [span[0].min(x), span[1].max(x)];
+        }
+    }
+    span
 }
 
 #[cfg(test)]

@@ -9,6 +9,9 @@ use super::super::vein_grid::VeinGrid;
 use super::super::vein_profile::strength;
 use super::{SurfaceOf, SurfacePlan};
 
+/// Bounds are taken by this factor higher, for rounding.
+const SPARE: f64 = 1.0 + 1e-9;
+
 /// The mounds of all veins.
 #[derive(Debug)]
 pub(super) struct Mounds {
@@ -54,8 +57,7 @@ impl Mounds {
         let members = self.veins.members(centre).iter().copied();
         near.extend(members.filter(|&number| {
             let width = HALF_WIDTH * self.veins.widest(number);
-            // A little more, for rounding.
-            self.veins.nearest(number, centre).distance <= (width + reach) * (1.0 + 1e-9)
+            self.veins.nearest(number, centre).distance <= (width + reach) * SPARE
         }));
     }
 
@@ -68,14 +70,15 @@ impl Mounds {
             roughness: 0.0,
         };
         for &number in veins {
-            let near = self.veins.nearest(number, p);
             // The profile is at most 1, so that this mound cannot be higher.
-            if 2.0 * near.radius <= highest {
+            if 2.0 * self.veins.widest(number) * SPARE <= highest {
                 continue;
             }
+            let near = self.veins.nearest(number, p);
             let width = HALF_WIDTH * near.radius;
             let away = near.distance / width;
-            if away >= 1.0 {
+            // Nor does the profile exceed 1 − away².
+            if away >= 1.0 || 2.0 * near.radius * (1.0 - away * away) * SPARE <= highest {
                 continue;
             }
             let (sine, cosine) = libm::sincos(PI * away);
