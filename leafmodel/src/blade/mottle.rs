@@ -28,8 +28,8 @@ const COSINES: [f64; 5] = [
     0.0,
 ];
 
-/// 16 unit vectors, evenly around the circle. Which one comes next is chance: it is looked up, since a
-/// branch would be guessed wrong.
+/// 16 unit vectors, evenly around the circle. Which one comes next is chance, so that they are looked
+/// up, not chosen by branches.
 const DIRECTIONS: [DVec2; 16] = {
     let mut directions = [DVec2::ZERO; 16];
     let mut step = 0;

@@ -99,3 +99,17 @@ impl Mounds {
         mound
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_profile_exceeds_the_bound_by_which_mounds_are_left_out() {
+        for step in 0..=10_000 {
+            let away = f64::from(step) / 10_000.0;
+            let profile = f64::midpoint(1.0, libm::cos(PI * away));
+            assert!(profile <= (1.0 - away * away) * SPARE, "{away}");
+        }
+    }
+}
