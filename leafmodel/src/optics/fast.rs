@@ -2,21 +2,20 @@
 //!
 //! The formulae are those of [`super::plate`] and [`super::pile`], in `f32` and in a form without
 //! branches, so that several wavelengths go side by side through the processor's vector units. The
-//! transmissivity of a layer comes from a table of its optical depth, exponentials and logarithms
-//! from polynomials. Functions are inlined into those that are compiled for the units of a machine.
+//! transmissivity of a layer comes from a table, exponentials and logarithms from polynomials. Functions are inlined into those that are compiled for the units of a machine.
 //!
 //! - **In**: [`PileLanes`], made once for some wavelengths; what a leaf holds.
 //! - **Out**: `(R, T)` in `f32`, within 1e-6 of the exact model.
 //! - **Always true**: R + T ≤ 1; the same bits for a lane alone and among others, on every machine.
 
-mod depth;
 mod elementary;
+mod layer;
 
 use super::constituent::Constituent;
 use super::contents::Texel;
 use super::prospect_d::Coefficients;
-use depth::DepthTable;
-use elementary::{exp_minus_one, log_one_plus};
+use elementary::{exp_minus_one, log_one_plus_ratio};
+use layer::LayerTable;
 
 /// Below this `1 − e^−2(α+mβ)` the pile is taken to be lossless. At such values the share absorbed
 /// is far below `f32`.
@@ -87,11 +86,10 @@ impl<const L: usize> PileLanes<L> {
     /// `(R, T)` of a leaf with these contents at each of the wavelengths.
     #[inline(always)]
     pub fn reflectance_transmittance(&self, contents: &Texel) -> ([f32; L], [f32; L]) {
-        let (structure, depths) = self.depths(contents);
-        let [t_lit, t_in, t_out, ..] = &self.constants;
+        let (structure, layers) = self.layers(contents);
         let (mut r, mut t) = ([0.0; L], [0.0; L]);
         for i in 0..L {
-            (r[i], t[i]) = pile(t_lit[i], t_in[i], t_out[i], depths[i], structure);
+            (r[i], t[i]) = pile(self.faces(i), layers[i], structure);
         }
         (r, t)
     }
@@ -105,58 +103,66 @@ impl<const L: usize> PileLanes<L> {
         contents: &Texel,
         each: &[&Texel; L],
     ) -> (([f32; L], [f32; L]), [f32; L]) {
-        let (structures, depths_of_each) = self.depths_of_each(each);
-        let (structure, depths) = self.depths(contents);
-        let [t_lit, t_in, t_out, ..] = &self.constants;
+        let (structures, layers_of_each) = self.layers_of_each(each);
+        let (structure, layers) = self.layers(contents);
         let (mut r, mut t, mut t_of_each) = ([0.0; L], [0.0; L], [0.0; L]);
         for i in 0..L {
-            (r[i], t[i]) = pile(t_lit[i], t_in[i], t_out[i], depths[i], structure);
-            let (depth, structure) = (depths_of_each[i], structures[i]);
-            (_, t_of_each[i]) = pile(t_lit[i], t_in[i], t_out[i], depth, structure);
+            (r[i], t[i]) = pile(self.faces(i), layers[i], structure);
+            (_, t_of_each[i]) = pile(self.faces(i), layers_of_each[i], structures[i]);
         }
         ((r, t), t_of_each)
     }
 
-    /// The structure, and the optical depth of a layer at each of the wavelengths.
+    /// What the faces of a plate let through at one of the wavelengths.
     #[inline(always)]
-    fn depths(&self, contents: &Texel) -> (f32, [f32; L]) {
+    fn faces(&self, lane: usize) -> [f32; FACES] {
+        let [lit, inwards, outwards, ..] = &self.constants;
+        [lit[lane], inwards[lane], outwards[lane]]
+    }
+
+    /// The structure, and what a layer absorbs and lets through at each of the wavelengths.
+    #[inline(always)]
+    fn layers(&self, contents: &Texel) -> (f32, [(f32, f32); L]) {
         let structure = contents[Constituent::Structure];
         let per_plate = 1.0 / structure;
-        let mut depths = self.absorption(contents);
-        let table = DepthTable::get();
-        for depth in &mut depths {
-            *depth = table.optical_depth(*depth * per_plate);
+        let absorption = self.absorption(contents);
+        let table = LayerTable::get();
+        let mut layers = [(0.0, 0.0); L];
+        for lane in 0..L {
+            layers[lane] = table.absorbed_and_passed(absorption[lane] * per_plate);
         }
-        (structure, depths)
+        (structure, layers)
     }
 
     /// The same for contents of its own at each of the wavelengths.
     #[inline(always)]
-    fn depths_of_each(&self, contents: &[&Texel; L]) -> ([f32; L], [f32; L]) {
-        let table = DepthTable::get();
+    fn layers_of_each(&self, contents: &[&Texel; L]) -> ([f32; L], [(f32, f32); L]) {
+        let table = LayerTable::get();
         // First what lies about in memory, lane by lane; what follows goes side by side.
-        let (mut structure, mut depths) = ([0.0; L], [0.0; L]);
+        let (mut structure, mut absorption) = ([0.0; L], [0.0; L]);
         for lane in 0..L {
             let [plates, held @ ..] = contents[lane].as_array();
             structure[lane] = *plates;
             for (row, content) in self.constants[FACES..].iter().zip(held) {
-                depths[lane] += row[lane] * content;
+                absorption[lane] += row[lane] * content;
             }
         }
+        let mut layers = [(0.0, 0.0); L];
         for lane in 0..L {
-            depths[lane] = table.optical_depth(depths[lane] / structure[lane]);
+            layers[lane] = table.absorbed_and_passed(absorption[lane] / structure[lane]);
         }
-        (structure, depths)
+        (structure, layers)
     }
 }
 
-/// `R`, `T` of `n` plates from the transmissivities of a plate's faces and the optical depth
-/// `−ln τ` of a layer.
+/// `R`, `T` of `n` plates from the transmissivities of a plate's faces, and what a layer absorbs and
+/// lets through.
+///
+/// The chain of operations that wait for one another is kept short: quotients are put off until one
+/// division serves several.
 #[inline(always)]
-fn pile(t_lit: f32, t_in: f32, t_out: f32, depth: f32, n: f32) -> (f32, f32) {
-    // One plate. `absorbed` is 1 − τ to full relative accuracy.
-    let absorbed = -exp_minus_one(-depth);
-    let tau = 1.0 - absorbed;
+fn pile([t_lit, t_in, t_out]: [f32; FACES], (absorbed, tau): (f32, f32), n: f32) -> (f32, f32) {
+    // One plate.
     let r_inside = 1.0 - t_out;
     let inside = r_inside * tau;
     let once = 1.0 / ((1.0 - inside) * (1.0 + inside));
@@ -167,30 +173,31 @@ fn pile(t_lit: f32, t_in: f32, t_out: f32, depth: f32, n: f32) -> (f32, f32) {
     let r = (1.0 - t_in) + inside * t;
     let lost = t_in * absorbed * (1.0 + inside) * once;
 
-    // The plates below, as in `pile::below`: `rise` is sinh α, `x` sinh β, `fall` e^−α. Where no
-    // light passes, t is kept from zero: then β is huge, and nothing comes from below anyhow.
-    let delta = ((1.0 + r + t) * (1.0 + r - t) * (1.0 - r + t) * lost).sqrt();
-    let rise = 0.5 * delta / r;
-    let x = 0.5 * delta / if t > LEAST_T { t } else { LEAST_T };
-    let fall = 1.0 / ((1.0 + rise * rise).sqrt() + rise);
-    // asinh x = ln(1 + x + x² / (1 + √(1 + x²))), which keeps its digits for small x.
-    let x2 = x * x;
-    let beta = log_one_plus(x + x2 / (1.0 + (1.0 + x2).sqrt()));
+    // The plates below, as in `pile::below`, where sinh α = s / r and sinh β = s / t. Where no light
+    // passes, t is kept from zero: then β is huge, and nothing comes from below anyhow.
+    let s2 = 0.25 * ((1.0 + r + t) * (1.0 + r - t) * ((1.0 - r + t) * lost));
+    let s = s2.sqrt();
+    let aside = 1.0 / ((r * r + s2).sqrt() + s);
+    let fall = r * aside; // e^−α
+    let one_minus_fall2 = 2.0 * s * aside;
+    // e^β − 1 = (s + √(t² + s²)) / t − 1, without a difference of numbers that are nearly equal.
+    let kept = if t > LEAST_T { t } else { LEAST_T };
+    let both = (kept * kept + s2).sqrt() + kept;
+    let beta = log_one_plus_ratio(s * (s + both), kept * both);
     let m = n - 1.0;
     let root = exp_minus_one(-m * beta); // e^−mβ − 1
     let y = 1.0 + root; // e^−mβ
     let one_minus_y2 = -root * (1.0 + y);
-    let one_minus_fall2 = 2.0 * rise * fall;
     let whole = one_minus_y2 + y * y * one_minus_fall2;
     let lossless = whole <= LOSSLESS;
     let back = if lossless { m * r } else { fall * one_minus_y2 };
     let through = if lossless { t } else { y * one_minus_fall2 };
     let of = if lossless { t + m * r } else { whole };
-    let (r_below, t_below) = (back / of, through / of);
 
-    let entering = t_first / (1.0 - r_below * r);
-    let reflectance = r_first + entering * r_below * t;
-    let transmittance = entering * t_below;
+    // r and t of the plates below are `back / of` and `through / of`.
+    let entering = t_first / (of - back * r);
+    let reflectance = r_first + entering * (back * t);
+    let transmittance = entering * through;
     let rest = 1.0 - reflectance;
     (
         reflectance,

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use super::batches::{BATCH, OpenBatches, Part, Squares, fixed, square_of_mean};
 use super::features::Words;
+use super::fixed::{LONGEST_RUN, MOST_OF_RUN, Run};
 use super::moments::Moments;
 
 /// Pixels along a block's sides; blocks at the right and lower border may have fewer.
@@ -74,6 +75,7 @@ impl Block<'_> {
     /// pixel.
     pub fn expose(&mut self, samples: u32, mut expose: impl FnMut(u32, u32, &mut PixelSums<'_>)) {
         let words = self.words;
+        let mut runs = vec![Run::default(); self.luminance.len()];
         let places = self
             .moments
             .chunks_exact_mut(self.luminance.len())
@@ -82,6 +84,8 @@ impl Block<'_> {
             let mut pixel = PixelSums {
                 luminance: self.luminance,
                 moments,
+                runs: &mut runs,
+                run_length: 0,
                 squares: &mut *self.squares,
                 open: &mut *self.open,
                 part: Part::default(),
@@ -94,6 +98,7 @@ impl Block<'_> {
             };
             let (column, row) = (within % self.width, within / self.width);
             expose(self.x + column, self.y + row, &mut pixel);
+            pixel.end_runs();
             pixel.end_part();
             self.faults.clamped += pixel.clamped;
             if pixel.rejected > 0 {
@@ -111,6 +116,10 @@ impl Block<'_> {
 pub struct PixelSums<'a> {
     luminance: &'a [f32],
     moments: &'a mut [Moments],
+    /// The last ordinary values of each channel, not yet in its moments.
+    runs: &'a mut [Run],
+    /// Number of values in each of them.
+    run_length: u32,
     /// Those of the whole block.
     squares: &'a mut [Squares],
     open: &'a mut OpenBatches,
@@ -139,8 +148,9 @@ impl PixelSums<'_> {
         features: Option<&[f32; F]>,
     ) {
         debug_assert_eq!(values.len(), self.moments.len(), "a value a channel");
-        // Whether all features are finite is computed without a branch for each.
-        let finite = values.iter().all(|value| value.is_finite())
+        // Whether all numbers are what they should be is computed without a branch for each.
+        let ordinary = (values.iter()).fold(true, |all, value| all & (value.abs() <= MOST_OF_RUN));
+        let finite = (ordinary || values.iter().all(|value| value.is_finite()))
             && features.is_none_or(|features| {
                 (features.iter()).fold(true, |all, number| all & number.is_finite())
             });
@@ -156,13 +166,31 @@ impl PixelSums<'_> {
         }
         let shares = values.iter().zip(self.luminance);
         self.part.sum += fixed(shares.map(|(value, share)| value * share).sum());
-        for (moments, &value) in self.moments.iter_mut().zip(values) {
-            self.clamped += u64::from(moments.add(value));
+        if ordinary {
+            if self.run_length == LONGEST_RUN {
+                self.end_runs();
+            }
+            self.run_length += 1;
+            for (run, &value) in self.runs.iter_mut().zip(values) {
+                run.add(value);
+            }
+        } else {
+            for (moments, &value) in self.moments.iter_mut().zip(values) {
+                self.clamped += u64::from(moments.add(value));
+            }
         }
         if let Some(features) = features {
             debug_assert!(self.words.features() <= F, "a number for each feature");
             self.words.add(number, features, self.wide, self.narrow);
         }
+    }
+
+    /// Adds the last ordinary values to the moments.
+    fn end_runs(&mut self) {
+        for (moments, run) in self.moments.iter_mut().zip(&mut *self.runs) {
+            moments.add_run(&std::mem::take(run));
+        }
+        self.run_length = 0;
     }
 
     /// Adds the samples of the present batch to what the block has of it.

@@ -1,50 +1,71 @@
 //! Single precision to fixed point.
 //!
 //! - **In**: finite `f32`s, each a whole number of at most 24 bits times a power of two.
-//! - **Out**: integers in units of a power of two, computed by a shift or an exact product, so that
-//!   only the stated rounding occurs.
+//! - **Out**: integers in units of a power of two, computed by exact products, so that only the stated
+//!   rounding occurs.
 //! - **Left out**: numbers that are not finite, which the caller must reject.
 
-/// Number of fraction bits of sums and of sums of squares. (With fewer, the variance of dim pixels
-/// would vanish.)
-pub(super) const FRACTION_BITS: i32 = 64;
-/// One in that fixed point.
+/// One in the fixed point of sums and of sums of squares, 2⁻⁶⁴. (With fewer fraction bits, the
+/// variance of dim pixels would vanish.)
 pub(super) const ONE: f64 = 18_446_744_073_709_551_616.0;
 /// Greatest value that is taken: 2³³ samples of it still fit into 128 bits.
 pub(super) const MOST: f32 = 1_073_741_824.0;
 
-/// A finite number as sign, integer and power of two: `±mantissa · 2^exponent`.
-#[inline]
-fn parts(value: f32) -> (bool, u32, i32) {
-    let bits = value.to_bits();
-    let biased = (bits >> 23 & 0xff) as i32;
-    let fraction = bits & 0x007f_ffff;
-    // Subnormal numbers have the exponent of the smallest normal ones and no leading one.
-    let mantissa = fraction | u32::from(biased != 0) << 23;
-    (bits >> 31 != 0, mantissa, biased.max(1) - 150)
-}
-
-/// A value and its square in units of 2⁻⁶⁴, both truncated towards zero; |`value`| ≤ [`MOST`].
+/// A value and its square in units of 2⁻⁶⁴, both rounded to the nearest, halves to even; |`value`| ≤
+/// [`MOST`].
 #[inline]
 pub(super) fn value_and_square(value: f32) -> (i128, u128) {
     debug_assert!(value.abs() <= MOST, "clamped beforehand");
-    let (negative, mantissa, exponent) = parts(value);
-    let magnitude = shifted(u64::from(mantissa), exponent + FRACTION_BITS) as i128;
-    let square = u64::from(mantissa) * u64::from(mantissa);
-    (
-        if negative { -magnitude } else { magnitude },
-        shifted(square, 2 * exponent + FRACTION_BITS),
-    )
+    // The square of 24 bits is exact in 53, and so are products with powers of two.
+    let wide = f64::from(value);
+    let units = |number: f64| (number * ONE).round_ties_even();
+    (units(wide) as i128, units(wide * wide) as u128)
 }
 
-/// `whole · 2^shift`, truncated.
-#[inline]
-fn shifted(whole: u64, shift: i32) -> u128 {
-    if shift >= 0 {
-        // A square has at most 48 bits and is shifted by at most 2 · 7 + 64 = 78.
-        u128::from(whole) << shift
-    } else {
-        u128::from(whole >> shift.unsigned_abs().min(63))
+/// Greatest value that a [`Run`] takes.
+pub(super) const MOST_OF_RUN: f32 = 524_288.0;
+
+/// Fraction bits of the coarse part of a [`Run`]: the square of [`MOST_OF_RUN`] in these units, and
+/// what is left of it in units of 2⁻⁶⁴, both are below 2⁵¹.
+const COARSE_BITS: u32 = 12;
+const COARSE: f64 = (1_u64 << COARSE_BITS) as f64;
+const FINE_BITS: u32 = 64 - COARSE_BITS;
+const FINE: f64 = (1_u64 << FINE_BITS) as f64;
+
+/// Most values that a [`Run`] takes: so many numbers of 51 bits are below 2⁶³.
+pub(super) const LONGEST_RUN: u32 = 2048;
+
+/// Sums of at most [`LONGEST_RUN`] values and of their squares, each as a number of units of 2⁻¹² and
+/// one of units of 2⁻⁶⁴: the same as sums of what [`value_and_square`] gives, in a third of the time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Run {
+    /// Of values and of squares.
+    coarse: [i64; 2],
+    fine: [i64; 2],
+}
+
+impl Run {
+    /// Adds a value within ±[`MOST_OF_RUN`].
+    #[inline]
+    pub(super) fn add(&mut self, value: f32) {
+        let wide = f64::from(value);
+        let sums = self.coarse.iter_mut().zip(&mut self.fine);
+        for (number, (coarse, fine)) in [wide, wide * wide].into_iter().zip(sums) {
+            // Products and the difference are exact, so that the last line alone rounds.
+            let scaled = number * COARSE;
+            let whole = scaled + WHOLE;
+            let rest = scaled - (whole - WHOLE);
+            *coarse += whole_of(whole);
+            *fine += whole_of(rest * FINE + WHOLE);
+        }
+    }
+
+    /// The sums in units of 2⁻⁶⁴.
+    pub(super) fn sums(&self) -> (i128, u128) {
+        let [sum, squares] = [0, 1].map(|place| {
+            (i128::from(self.coarse[place]) << FINE_BITS) + i128::from(self.fine[place])
+        });
+        (sum, squares as u128)
     }
 }
 
@@ -61,7 +82,13 @@ pub(super) fn nearest(value: f32, scale: f64, most: f64) -> i64 {
     let scaled = f64::from(value) * scale;
     let kept = if scaled < most { scaled } else { most };
     let kept = if kept > -most { kept } else { -most };
-    ((kept + WHOLE).to_bits() as i64).wrapping_sub(WHOLE.to_bits() as i64)
+    whole_of(kept + WHOLE)
+}
+
+/// The whole number to which [`WHOLE`] has been added.
+#[inline]
+fn whole_of(sum: f64) -> i64 {
+    (sum.to_bits() as i64).wrapping_sub(WHOLE.to_bits() as i64)
 }
 
 #[cfg(test)]
@@ -75,14 +102,18 @@ mod tests {
         #![proptest_config(fixed(256))]
 
         #[test]
-        fn value_and_square_are_those_of_arithmetic_in_double_precision(bits: u32) {
-            let value = f32::from_bits(bits);
-            prop_assume!(value.is_finite() && value.abs() <= MOST);
-            // A product of two numbers of 24 bits is exact in 53, a power of two changes none; the
-            // cast cuts off.
-            let wide = f64::from(value);
-            let expected = ((wide * ONE) as i128, (wide * wide * ONE) as u128);
-            prop_assert_eq!(value_and_square(value), expected);
+        fn a_run_adds_up_what_each_value_is(bits in proptest::collection::vec(any::<u32>(), 16)) {
+            let mut run = Run::default();
+            let (mut sum, mut squares) = (0, 0);
+            for bits in bits {
+                // Most exponents are of numbers that a run does not take: take those that it does.
+                let value = f32::from_bits((bits % MOST_OF_RUN.to_bits()) | (bits & 0x8000_0000));
+                run.add(value);
+                let (one, square) = value_and_square(value);
+                sum += one;
+                squares += square;
+            }
+            prop_assert_eq!(run.sums(), (sum, squares));
         }
 
         #[test]
@@ -115,6 +146,20 @@ mod tests {
         assert_eq!(value_and_square(-MOST), (-(1 << 94), 1 << 124));
         assert_eq!(value_and_square(f32::from_bits(1)), (0, 0));
         assert_eq!(value_and_square(-0.0), (0, 0));
+        // Halves of a unit go to the even one: 2⁻⁶⁵ and 3 · 2⁻⁶⁵.
+        let half = f32::from_bits((127 - 65) << 23);
+        assert_eq!(value_and_square(half).0, 0);
+        assert_eq!(value_and_square(-3.0 * half).0, -2);
+        let mut run = Run::default();
+        for value in [MOST_OF_RUN, -MOST_OF_RUN, MOST_OF_RUN, half, -3.0 * half] {
+            run.add(value);
+        }
+        assert_eq!(run.sums(), ((1 << 83) - 2, 3 << 102));
+        for _ in 5..LONGEST_RUN {
+            run.add(MOST_OF_RUN);
+        }
+        let sum = i128::from(LONGEST_RUN - 4) << 83;
+        assert_eq!(run.sums(), (sum - 2, u128::from(LONGEST_RUN - 2) << 102));
         let of = |value| nearest(value, 1.0, 10.0);
         assert_eq!(
             nearest(f32::MAX, 16_777_216.0, 1_125_899_906_842_624.0),

@@ -1,6 +1,6 @@
 //! Sum and sum of squares of one channel of one pixel.
 
-use super::fixed::{MOST, ONE, value_and_square};
+use super::fixed::{MOST, ONE, Run, value_and_square};
 
 /// First two moments of a channel's samples, in units of 2⁻⁶⁴.
 ///
@@ -22,6 +22,14 @@ impl Moments {
         self.sum += sum;
         self.squares = self.squares.saturating_add(square);
         taken != value
+    }
+
+    /// Adds the values of a run.
+    #[inline]
+    pub(super) fn add_run(&mut self, run: &Run) {
+        let (sum, squares) = run.sums();
+        self.sum += sum;
+        self.squares = self.squares.saturating_add(squares);
     }
 
     /// Adds the samples of another.

@@ -89,9 +89,10 @@ impl WavelengthSampler {
     }
 
     fn bands(bands: Vec<Band>) -> Self {
-        // Lanes beyond the last band carry that band's wavelength; nobody reads them.
+        // Lanes beyond the last band go through the bands again. Nobody reads them, but they count where a
+        // path decides by the mean over its lanes.
         let grid = WavelengthGrid::new(lanes_of(bands.len()), |row, lane| {
-            let band = bands[lane.min(bands.len() - 1)];
+            let band = bands[lane % bands.len()];
             let share = (row as f64 + 0.5) / ROWS as f64;
             (band.center_nm + (share - 0.5) * band.width_nm) as f32
         });

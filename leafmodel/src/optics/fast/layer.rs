@@ -1,7 +1,8 @@
-//! Optical depth `−ln τ(K)` of a layer, from a table of polynomials.
+//! What a layer lets through, `τ(K)`, and what it absorbs, `1 − τ(K)`, from a table of polynomials.
 //!
-//! `g(K) = −ln τ(K) / K` falls from 2 (diffuse light without absorption travels twice the
-//! thickness) towards 1. It is smooth in `ln K`, so equal numbers of intervals go to each octave of
+//! Up to `K = 1` the table holds `g(K) = (1 − τ(K)) / K`, which falls from 2 (diffuse light without
+//! absorption travels twice the thickness) and keeps the digits of what little is absorbed; above, it
+//! holds `τ` itself. Both are smooth in `ln K`, so equal numbers of intervals go to each octave of
 //! `K`: the upper bits of the floating-point number are the interval's index.
 
 use std::sync::OnceLock;
@@ -10,6 +11,8 @@ use crate::optics::plate::{layer_absorptance, layer_transmissivity};
 
 /// Lowest exponent of the table: below 2^−26 `g` is within 3e-7 of its limit 2.
 const FIRST_OCTAVE: i32 = -26;
+/// First exponent from which the table holds what is let through.
+const TURN: i32 = 0;
 /// First exponent above the table: at 2^7 nothing measurable passes.
 const END_OCTAVE: i32 = 7;
 /// Intervals an octave, as a power of two.
@@ -18,21 +21,21 @@ const SPLITS: usize = 1 << SPLIT_BITS;
 const INTERVALS: usize = (END_OCTAVE - FIRST_OCTAVE) as usize * SPLITS;
 const TERMS: usize = 4;
 
-/// Coefficients of `g` in rising powers of the place inside the interval, −1 to 1.
+/// Coefficients of `g` or `τ` in rising powers of the place inside the interval, −1 to 1.
 type Interval = [f32; TERMS];
 
-/// `g` by intervals of `K`.
-pub(super) struct DepthTable([Interval; INTERVALS]);
+/// `g` and `τ` by intervals of `K`.
+pub(super) struct LayerTable([Interval; INTERVALS]);
 
 /// The last number below 2⁷, the end of the table.
 const LAST: f32 = f32::from_bits(((127 + END_OCTAVE) as u32) << MANTISSA_BITS).next_down();
 const MANTISSA_BITS: u32 = 23;
 
-impl DepthTable {
+impl LayerTable {
     /// The table, made when it is first asked for.
     #[inline]
     pub(super) fn get() -> &'static Self {
-        static TABLE: OnceLock<Box<DepthTable>> = OnceLock::new();
+        static TABLE: OnceLock<Box<LayerTable>> = OnceLock::new();
         TABLE.get_or_init(|| Box::new(Self::new()))
     }
 
@@ -42,17 +45,18 @@ impl DepthTable {
             let width = power_of_two(octave) / SPLITS as f64;
             for (split, interval) in intervals.iter_mut().enumerate() {
                 let low = width * (SPLITS + split) as f64;
-                let exact = fit(|x| relative_depth(low + width * (x + 1.0) / 2.0));
+                let exact = fit(|x| tabulated(low + width * (x + 1.0) / 2.0));
                 *interval = exact.map(|coefficient| coefficient as f32);
             }
         }
         Self(table)
     }
 
-    /// `−ln τ(k)` for `k ≥ 0`, in `[k, 2k]`; relative error below 1e-6 for k up to 30.
+    /// `1 − τ(k)` and `τ(k)` for `k ≥ 0`, in [0, 1]; within 1e-6 of `1 − τ` and 3e-7 of 1.
     #[inline(always)]
-    pub(super) fn optical_depth(&self, k: f32) -> f32 {
+    pub(super) fn absorbed_and_passed(&self, k: f32) -> (f32, f32) {
         const FIRST: f32 = power_of_two(FIRST_OCTAVE) as f32;
+        const TURNS: f32 = power_of_two(TURN) as f32;
         let above = if k > FIRST { k } else { FIRST };
         let inside = if above < LAST { above } else { LAST };
         let bits = inside.to_bits();
@@ -63,8 +67,15 @@ impl DepthTable {
         let rest = (bits & ((1 << shift) - 1)) | (127 << MANTISSA_BITS);
         let x = (f32::from_bits(rest) - 1.0) * (2 * SPLITS) as f32 - 1.0;
         let [a, b, c, d] = self.0[index];
-        let g = (a + b * x) + x * x * (c + d * x);
-        k * g
+        let held = (a + b * x) + x * x * (c + d * x);
+        let one = if inside < TURNS { k * held } else { held };
+        let one = if one > 0.0 { one } else { 0.0 };
+        let other = 1.0 - one;
+        if inside < TURNS {
+            (one, other)
+        } else {
+            (other, one)
+        }
     }
 }
 
@@ -72,12 +83,12 @@ const fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
-/// `−ln τ(k) / k`, exact.
-fn relative_depth(k: f64) -> f64 {
-    if k < 0.5 {
-        -libm::log1p(-layer_absorptance(k)) / k
+/// What the table holds at `k`, exact.
+fn tabulated(k: f64) -> f64 {
+    if k < power_of_two(TURN) {
+        layer_absorptance(k) / k
     } else {
-        -libm::log(layer_transmissivity(k)) / k
+        layer_transmissivity(k)
     }
 }
 
@@ -108,22 +119,29 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_depth_is_the_logarithm_of_the_transmissivity() {
+    fn the_table_is_the_integral() {
         for step in 0..20_000 {
-            let k = 10f64.powf(-6.0 + 7.5 * f64::from(step) / 20_000.0) as f32;
-            let exact = relative_depth(f64::from(k)) * f64::from(k);
-            let error = (f64::from(DepthTable::get().optical_depth(k)) - exact).abs() / exact;
-            assert!(error < 1e-6, "K = {k}: relative error {error}");
+            let k = 10f64.powf(-9.0 + 11.0 * f64::from(step) / 20_000.0) as f32;
+            let (absorbed, passed) = LayerTable::get().absorbed_and_passed(k);
+            let exact = layer_absorptance(f64::from(k));
+            let error = (f64::from(absorbed) - exact).abs() / exact;
+            assert!(error < 1e-6, "1 − τ at K = {k}: relative error {error}");
+            let error = (f64::from(passed) - layer_transmissivity(f64::from(k))).abs();
+            assert!(error < 3e-7, "τ at K = {k}: {error}");
         }
     }
 
     #[test]
     fn the_ends_are_finite() {
-        let table = DepthTable::get();
-        assert_eq!(table.optical_depth(0.0), 0.0);
-        for k in [f32::MIN_POSITIVE, 1e-30, 127.999, 128.0, 129.0, 1e30] {
-            let ratio = table.optical_depth(k) / k;
-            assert!((1.0..=2.0).contains(&ratio), "K = {k}: {ratio}");
+        let table = LayerTable::get();
+        assert_eq!(table.absorbed_and_passed(0.0), (0.0, 1.0));
+        for k in [f32::MIN_POSITIVE, 1e-30] {
+            let (absorbed, passed) = table.absorbed_and_passed(k);
+            assert!((absorbed / k - 2.0).abs() < 1e-6, "K = {k}: {absorbed}");
+            assert_eq!(passed, 1.0);
+        }
+        for k in [127.999, 128.0, 129.0, 1e30] {
+            assert_eq!(table.absorbed_and_passed(k), (1.0, 0.0), "K = {k}");
         }
     }
 }
