@@ -77,6 +77,7 @@ pub mod import;
 pub mod inference;
 pub mod leaf;
 pub mod measure;
+pub mod memory;
 pub mod mosaic;
 pub mod optics;
 pub mod plan_file;

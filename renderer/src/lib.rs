@@ -85,7 +85,6 @@ pub mod light;
 pub mod material;
 pub mod measured;
 pub mod medium;
-mod memory;
 mod plot;
 pub mod sampling;
 pub mod scene;

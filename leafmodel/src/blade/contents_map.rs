@@ -12,6 +12,7 @@ use super::senescence::Withering;
 use super::tissue::{Tissue, TissueError};
 use super::vein_field::VeinField;
 use super::vein_light::VeinLight;
+use crate::memory;
 use crate::mosaic::pattern::LaminaPattern;
 use crate::optics::{Constituent, Texel};
 use crate::venation::network::VeinSegment;
@@ -101,7 +102,7 @@ impl ContentsMap {
             mottle: (tissue.mottle > 0.0).then(|| Mottle::new(seed, tissue.mottle_scale_mm)),
         };
         let coverage = Coverage::new(place.margin, frame, [width as usize, height as usize]);
-        let mut texels = vec![Texel::splat(0.0); width as usize * height as usize];
+        let mut texels = memory::filled(Texel::splat(0.0), width as usize * height as usize);
         let rows = texels.par_chunks_mut(width as usize).enumerate();
         rows.for_each(|(row, texels)| {
             let v = (row as f64 + 0.5) / f64::from(height);

@@ -41,6 +41,7 @@ use super::frame::UvFrame;
 use super::mesh::BladeMesh;
 use super::senescence::Withering;
 use super::tissue::{Tissue, TissueError};
+use crate::memory;
 use crate::venation::network::VeinSegment;
 
 /// Moments of the slopes of one face over a texel: `[mean ∂z/∂x, mean ∂z/∂y, mean (∂z/∂x)², mean
@@ -118,7 +119,7 @@ impl SurfaceMap {
             .and_then(|mesh| Carried::new(mesh, with_veins, frame, size));
         let withering = blade.withering.filter(|_| plan.dead_roughness > 0.0);
         let coverage = Coverage::new(blade.margin, frame, size);
-        let mut texels = vec![[[0.0; 4]; 2]; size[0] * size[1]];
+        let mut texels = memory::untouched(vec![[[0.0; 4]; 2]; size[0] * size[1]]);
         let rows = texels.par_chunks_mut(size[0]).enumerate();
         rows.for_each(|(row, texels)| {
             let covered = coverage.row(row);
@@ -167,34 +168,35 @@ fn cover(
     }
     let frame = blade.frame;
     let texel = frame.size / DVec2::new(width as f64, height as f64);
-    let gathering = Gathering::new(plan.dust, blade.veins, blade.margin, blade.seed);
     let lines = blade.veins.iter().map(|vein| [vein.from, vein.to]);
     let veins = (has_stomata && !blade.veins.is_empty()).then(|| Distances::new(lines.collect()));
     let middle = |[column, row]: [usize; 2]| {
         frame.min + texel * (DVec2::new(column as f64, row as f64) + 0.5)
     };
     let away = veins.map(|veins| veins.of_grid([width, height], middle, |row| coverage.row(row)));
-    let mut loads = vec![f64::NAN; width * height];
-    let rows = loads.par_chunks_mut(width).enumerate();
-    rows.for_each(|(row, loads)| {
-        let covered = coverage.row(row);
-        for column in (0..width).filter(|column| covered[*column]) {
-            loads[column] = if has_dust {
-                gathering.at(middle([column, row]))
-            } else {
-                0.0
-            };
-        }
-    });
-    let taus = optical_thicknesses(&plan.dust, &loads);
-    let away_mm = |i: usize| match &away {
-        Some(away) if away[i].is_finite() => away[i] as f32,
-        Some(_) | None => NO_VEIN_MM,
-    };
-    let texels = taus.into_iter().enumerate();
-    texels
-        .map(|(i, [above, below])| [above, below, away_mm(i)])
-        .collect()
+    let mut taus = Vec::new();
+    if has_dust {
+        let gathering = Gathering::new(plan.dust, blade.veins, blade.margin, blade.seed);
+        let mut loads = memory::filled(f64::NAN, width * height);
+        let rows = loads.par_chunks_mut(width).enumerate();
+        rows.for_each(|(row, loads)| {
+            let covered = coverage.row(row);
+            for column in (0..width).filter(|column| covered[*column]) {
+                loads[column] = gathering.at(middle([column, row]));
+            }
+        });
+        taus = optical_thicknesses(&plan.dust, &loads);
+    }
+    let mut cover = memory::room_for(width * height);
+    cover.extend((0..width * height).map(|i| {
+        let [above, below] = taus.get(i).copied().unwrap_or_default();
+        let away_mm = match &away {
+            Some(away) if away[i].is_finite() => away[i] as f32,
+            Some(_) | None => NO_VEIN_MM,
+        };
+        [above, below, away_mm]
+    }));
+    cover
 }
 
 /// The moments of both faces over the texel at a corner and of a size, mm, whose coats are `rough`

@@ -3,7 +3,7 @@
 use glam::Vec2;
 use leafmodel::optics::{Constituent, Contents, PerConstituent, Texel};
 
-use crate::{memory, simd};
+use crate::simd;
 
 /// A contents map: bilinear between texel centres, clamped at the border; row 0 is at v = 0.
 #[derive(Clone, Debug)]
@@ -23,7 +23,8 @@ pub struct Around {
 }
 
 impl ContentsTexture {
-    /// A map from `width × height` texels, row by row.
+    /// A map from `width × height` texels, row by row; they are best in
+    /// [huge pages](leafmodel::memory).
     ///
     /// # Panics
     ///
@@ -37,7 +38,7 @@ impl ContentsTexture {
         Self {
             width: width as u32,
             height: height as u32,
-            texels: memory::settled(texels),
+            texels: texels.into_boxed_slice(),
         }
     }
 

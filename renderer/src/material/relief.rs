@@ -114,15 +114,14 @@ impl Relief {
             }
         };
         let faces = [face(0), face(1)];
-        let flat = map.texels.iter().map(|[above, below]| {
-            std::array::from_fn(|i| if i < 4 { above[i] } else { below[i - 4] })
-        });
+        let flat = map.texels.into_flattened().into_flattened();
         let soil = |brightness: f64| {
             Curve::uniform(300.0, 50.0, 46, move |nm| grain_albedo(nm, brightness))
         };
         Self {
-            moments: Levels::new(map.size, flat.collect()),
-            cover: (!map.cover.is_empty()).then(|| Levels::new(map.size, map.cover)),
+            moments: Levels::new(map.size, flat),
+            cover: (!map.cover.is_empty())
+                .then(|| Levels::new(map.size, map.cover.into_flattened())),
             faces,
             cells: Cells::new(map.cells, map.size_mm),
             stomata: [0, 1].map(|face| Stomata::new(&map.stomata, face)),

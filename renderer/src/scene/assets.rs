@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use leafmodel::document::assets::{Assets, Raster, Triangles};
+use leafmodel::memory;
 use leafmodel::optics::{Constituent, Texel};
 
 use crate::geometry;
@@ -173,7 +174,7 @@ fn channel(
 pub fn contents_map(file: &Path) -> Result<ContentsTexture, AssetError> {
     let picture = openexr::read_texture(file)?;
     let (width, height) = (picture.width as usize, picture.height as usize);
-    let mut texels = vec![Texel::splat(0.0); width * height];
+    let mut texels = memory::filled(Texel::splat(0.0), width * height);
     for constituent in Constituent::ALL {
         let name = constituent.channel();
         // Maps of PROSPECT-D's inputs alone hold no betalains.

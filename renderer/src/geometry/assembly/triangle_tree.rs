@@ -1,6 +1,7 @@
 //! Triangles with a tree over them: those of one mesh, or of several that stand in the world.
 
 use glam::Vec3;
+use leafmodel::memory;
 use rayon::prelude::*;
 
 use super::super::bounds::Bounds;
@@ -9,7 +10,6 @@ use super::super::placement::Placement;
 use super::super::triangle::TriangleBlock;
 use super::super::wide_tree::{LeafItems, WideTree};
 use super::joining::Joined;
-use crate::memory;
 use crate::simd::LANES;
 
 /// Number of boxes that represent a mesh when the box of an instance is computed. For 10,000

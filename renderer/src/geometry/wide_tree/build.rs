@@ -1,6 +1,7 @@
 //! Building a wide tree: neighbouring boxes are packed into leaves, a binary tree is built over the
 //! leaves, and its nodes are combined into nodes of sixteen.
 
+use leafmodel::memory;
 use rayon::prelude::*;
 
 use super::super::bounds::Bounds;
@@ -9,7 +10,6 @@ use super::cut::{Cheapest, Cut, FourLevels};
 use super::pack;
 use super::{LEAF, LeafItems, MAX_DEPTH, WideNode, WideTree};
 use crate::geometry::binary_tree::{BinaryNode, upwards};
-use crate::memory;
 
 impl WideTree {
     /// Builds the tree over `boxes`, and returns for each leaf the numbers of its boxes.

@@ -1,8 +1,9 @@
 //! A map whose levels halve in size.
 
 use glam::Vec2;
+use leafmodel::memory;
 
-use crate::{memory, simd};
+use crate::simd;
 
 /// Maps of `K` numbers a texel, from the finest to one texel; each level averages the one before.
 #[derive(Clone, Debug)]
@@ -12,16 +13,23 @@ pub(super) struct Levels<const K: usize>(Vec<Level<K>>);
 struct Level<const K: usize> {
     width: usize,
     height: usize,
-    texels: Box<[[f32; K]]>,
+    /// `K` for each texel.
+    numbers: Box<[f32]>,
 }
 
 impl<const K: usize> Levels<K> {
-    /// The levels above a map of this size, row by row from v = 0.
-    pub(super) fn new([width, height]: [usize; 2], texels: Vec<[f32; K]>) -> Self {
+    /// The levels above a map of this size, row by row from v = 0, with the `K` numbers of a texel one
+    /// after the other.
+    pub(super) fn new([width, height]: [usize; 2], numbers: Vec<f32>) -> Self {
+        debug_assert_eq!(
+            numbers.len(),
+            width * height * K,
+            "a map fills its rectangle"
+        );
         let mut levels = vec![Level {
             width,
             height,
-            texels: memory::settled(texels),
+            numbers: numbers.into_boxed_slice(),
         }];
         while let Some(next) = levels.last().and_then(Level::half) {
             levels.push(next);
@@ -36,7 +44,7 @@ impl<const K: usize> Levels<K> {
 
     /// Texels of the finest level.
     pub(super) fn finest(&self) -> &[[f32; K]] {
-        &self.0[0].texels
+        self.0[0].texels()
     }
 
     /// The numbers at `uv`, linear between levels; level 0 is the finest, and that of a ray without
@@ -78,19 +86,25 @@ fn mix<const K: usize>(a: &[f32; K], b: &[f32; K], share: f32) -> [f32; K] {
 }
 
 impl<const K: usize> Level<K> {
+    fn texels(&self) -> &[[f32; K]] {
+        self.numbers.as_chunks().0
+    }
+
     /// The level of half as many texels on each side; `None` for one texel.
     fn half(&self) -> Option<Self> {
         if self.width == 1 && self.height == 1 {
             return None;
         }
         let [width, height] = [self.width, self.height].map(|side| side.div_ceil(2));
-        let mut texels = vec![[0.0; K]; width * height];
+        let mut numbers = memory::untouched(vec![0.0; width * height * K]);
+        let finer = self.texels();
+        let (texels, _) = numbers.as_chunks_mut::<K>();
         for (row, texels) in texels.chunks_mut(width).enumerate() {
             for (column, texel) in texels.iter_mut().enumerate() {
                 let pick = |dx: usize, dy: usize| {
                     let x = (2 * column + dx).min(self.width - 1);
                     let y = (2 * row + dy).min(self.height - 1);
-                    &self.texels[y * self.width + x]
+                    &finer[y * self.width + x]
                 };
                 let upper = mix(pick(0, 0), pick(1, 0), 0.5);
                 let lower = mix(pick(0, 1), pick(1, 1), 0.5);
@@ -100,7 +114,7 @@ impl<const K: usize> Level<K> {
         Some(Self {
             width,
             height,
-            texels: memory::settled(texels),
+            numbers: numbers.into_boxed_slice(),
         })
     }
 
@@ -108,15 +122,16 @@ impl<const K: usize> Level<K> {
     fn prefetch(&self, uv: Vec2) {
         let (x0, _, _) = neighbours(uv.x, self.width);
         let (y0, y1, _) = neighbours(uv.y, self.height);
-        simd::prefetch(&self.texels, y0 * self.width + x0);
-        simd::prefetch(&self.texels, y1 * self.width + x0);
+        simd::prefetch(self.texels(), y0 * self.width + x0);
+        simd::prefetch(self.texels(), y1 * self.width + x0);
     }
 
     /// Bilinear between texel centres, clamped at the border.
     fn at(&self, uv: Vec2) -> [f32; K] {
         let (x0, x1, share_x) = neighbours(uv.x, self.width);
         let (y0, y1, share_y) = neighbours(uv.y, self.height);
-        let texel = |x: usize, y: usize| &self.texels[y * self.width + x];
+        let texels = self.texels();
+        let texel = |x: usize, y: usize| &texels[y * self.width + x];
         let below = mix(texel(x0, y0), texel(x1, y0), share_x);
         let above = mix(texel(x0, y1), texel(x1, y1), share_x);
         mix(&below, &above, share_y)

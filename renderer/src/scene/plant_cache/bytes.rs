@@ -1,6 +1,7 @@
 //! A grown leaf as bytes: a sequence of counts and numbers, little-endian.
 
 use glam::{DAffine3, Vec2, Vec3};
+use leafmodel::memory;
 use leafmodel::optics::{Contents, PerConstituent};
 
 use crate::scene::plants::parts::{LeafParts, MapParts, MeshParts, Piece, SurfaceParts};
@@ -167,7 +168,9 @@ impl<'a> Rest<'a> {
                 f32::from_le_bytes(number(&bytes[4 * i..]))
             }))
         };
-        Some(bytes.chunks_exact(4 * N).map(one).collect())
+        let mut made = memory::room_for(count);
+        made.extend(bytes.chunks_exact(4 * N).map(one));
+        Some(made)
     }
 
     fn counted<const N: usize, T>(&mut self, make: impl Fn([f32; N]) -> T) -> Option<Vec<T>> {

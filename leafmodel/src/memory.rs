@@ -1,25 +1,29 @@
-//! Memory for large arrays with random access.
+//! Memory for large arrays.
+//!
+//! In pages of 2 MiB it costs one page fault where small pages cost 512, and random access to a large tree
+//! or map costs fewer page-table walks.
 #![cfg_attr(
     target_os = "linux",
     allow(unsafe_code, reason = "a hint to the kernel about memory of our own")
 )]
 
-/// An empty vector with this capacity, in pages of 2 MiB if the system has them. With small pages
-/// most accesses to a large tree or map also cost a page-table walk.
-pub(crate) fn room_for<T>(count: usize) -> Vec<T> {
-    let room = Vec::with_capacity(count);
-    ask_for_huge_pages(&room);
-    room
+/// An empty vector with this capacity, in pages of 2 MiB if the system has them.
+pub fn room_for<T>(count: usize) -> Vec<T> {
+    untouched(Vec::with_capacity(count))
 }
 
-/// The same elements in such memory, if they fill two of these pages.
-pub(crate) fn settled<T: Copy>(elements: Vec<T>) -> Box<[T]> {
-    if size_of_val(&elements[..]) < 2 * HUGE_PAGE {
-        return elements.into();
-    }
-    let mut room = room_for(elements.len());
-    room.extend_from_slice(&elements);
-    room.into()
+/// As many copies of an element, in such pages.
+pub fn filled<T: Clone>(element: T, count: usize) -> Vec<T> {
+    let mut elements = room_for(count);
+    elements.resize(count, element);
+    elements
+}
+
+/// The same elements; what nobody has read or written yet will come in such pages, as all of
+/// `vec![0.0; n]` does.
+pub fn untouched<T>(elements: Vec<T>) -> Vec<T> {
+    ask_for_huge_pages(&elements);
+    elements
 }
 
 /// Bytes of a huge page.
@@ -47,12 +51,17 @@ mod tests {
 
     #[test]
     fn there_is_room_and_it_holds_what_is_put_in() {
-        for count in [0, 1, 1000, 3_000_000] {
+        for count in [0_u32, 1, 1000, 3_000_000] {
             let mut room: Vec<u32> = room_for(count as usize);
             assert!(room.is_empty() && room.capacity() >= count as usize);
             room.extend(0..count);
             assert!(room.iter().copied().eq(0..count));
-            assert_eq!(settled(room.clone())[..], room[..]);
+            assert!(
+                untouched(vec![0_u32; count as usize])
+                    .iter()
+                    .all(|&n| n == 0)
+            );
+            assert!(filled(7_u32, count as usize).iter().all(|&n| n == 7));
         }
     }
 }
