@@ -1,7 +1,7 @@
 //! Memory for large arrays.
 //!
-//! In pages of 2 MiB it costs one page fault where small pages cost 512, and random access to a large tree
-//! or map costs fewer page-table walks.
+//! In pages of 2 MiB it costs one page fault where small pages cost 512, and random access to a
+//! large tree or map costs fewer page-table walks.
 #![cfg_attr(
     target_os = "linux",
     allow(unsafe_code, reason = "a hint to the kernel about memory of our own")

@@ -1,8 +1,8 @@
 //! What the optics of a leaf cost: `cargo bench -p renderer --bench optics`.
 //!
-//! One thread, one leaf after the other of a list whose contents all differ, so time ÷ elements is the
-//! time of a leaf: R and T by the exact model at one wavelength, and at the wavelengths of a path, 8 of a
-//! colour picture and 32 of as many bands, at each level of instructions that runs here.
+//! One thread, one leaf after the other of a list whose contents all differ, so time ÷ elements is
+//! the time of a leaf: R and T by the exact model at one wavelength, and at the wavelengths of a
+//! path, 8 of a colour picture and 32 of as many bands, at each level of instructions that runs here.
 
 use std::hint::black_box;
 

@@ -1,8 +1,9 @@
 //! What random choices cost: `cargo bench -p renderer --bench samplers`.
 //!
-//! One thread, 64 samples of one pixel, so time ÷ elements is the time of a sample, or of one choice of
-//! a sample: its random numbers for a camera ray and three bounces (four sets of four), its wavelengths,
-//! a direction from a point, one within the sun's disc and a place in a sky of 1024 × 512 texels.
+//! One thread, 64 samples of one pixel, so time ÷ elements is the time of a sample, or of one choice
+//! of a sample: its random numbers for a camera ray and three bounces (four sets of four), its
+//! wavelengths, a direction from a point, one within the sun's disc and a place in a sky of
+//! 1024 × 512 texels.
 
 use std::hint::black_box;
 

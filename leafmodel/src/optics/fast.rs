@@ -2,7 +2,8 @@
 //!
 //! The formulae are those of [`super::plate`] and [`super::pile`], in `f32` and in a form without
 //! branches, so that several wavelengths go side by side through the processor's vector units. The
-//! transmissivity of a layer comes from a table, exponentials and logarithms from polynomials. Functions are inlined into those that are compiled for the units of a machine.
+//! transmissivity of a layer comes from a table, exponentials and logarithms from polynomials.
+//! Functions are inlined into those that are compiled for the units of a machine.
 //!
 //! - **In**: [`PileLanes`], made once for some wavelengths; what a leaf holds.
 //! - **Out**: `(R, T)` in `f32`, within 1e-6 of the exact model.

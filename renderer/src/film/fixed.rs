@@ -102,6 +102,15 @@ mod tests {
         #![proptest_config(fixed(256))]
 
         #[test]
+        fn value_and_square_are_those_of_integers(whole in -8_388_608_i32..=8_388_608, bits in 0_u32..=24) {
+            // A number of 24 bits with as many fraction bits, its square with twice as many.
+            let value = whole as f32 / (1 << bits) as f32;
+            let sum = i128::from(whole) << (64 - bits);
+            let square = u128::from(whole.unsigned_abs()).pow(2) << (64 - 2 * bits);
+            prop_assert_eq!(value_and_square(value), (sum, square));
+        }
+
+        #[test]
         fn a_run_adds_up_what_each_value_is(bits in proptest::collection::vec(any::<u32>(), 16)) {
             let mut run = Run::default();
             let (mut sum, mut squares) = (0, 0);

@@ -190,6 +190,31 @@ fn a_sample_that_is_not_finite_is_rejected_whole_and_a_huge_one_clamped() {
 }
 
 #[test]
+fn sums_of_many_great_values_are_those_of_each_by_itself() {
+    // The squares of so many would not fit into one run of values; 2²⁰ is no number for a run.
+    let numbers: Vec<u32> = (0..20_000).collect();
+    let value = |x: u32, number: u32| {
+        if (x + number) % 3 == 2 {
+            1_048_576.0
+        } else {
+            524_288.0
+        }
+    };
+    let film = exposed([2, 1], &numbers, |x, _, number| {
+        ([value(x, x * number), 524_288.0], None)
+    });
+    for x in 0..2 {
+        let mut expected = [Moments::default(); 2];
+        for &number in &numbers {
+            expected[0].add(value(x, x * number));
+            expected[1].add(524_288.0);
+        }
+        let place = 2 * x as usize;
+        assert_eq!(film.moments[place..place + 2], expected);
+    }
+}
+
+#[test]
 fn the_error_of_luminance_is_that_of_means_of_batches() {
     // Samples of a batch are evenly spread, and channels err against one another: what varies from
     // batch to batch is all that luminance errs by.
