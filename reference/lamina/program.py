@@ -43,7 +43,7 @@ def program() -> Path:
     if built.is_file():
         return built
     raise FileNotFoundError(
-        "no program `lamina`: install it (cargo install --path renderer), or name it in the "
+        "no program `lamina`: install it (cargo install --path renderer/program), or name it in the "
         "environment variable LAMINA"
     )
 
@@ -68,7 +68,7 @@ def run(arguments: Sequence[str | Path], command: str | None = None) -> str:
 
 def version() -> str:
     """The program's version, such as `0.1.0`."""
-    return run(["--version"]).split()[-1]
+    return run(["--version"]).split()[1]
 
 
 def overrides(flag: str, values: Mapping[str, Value] | None) -> list[str]:

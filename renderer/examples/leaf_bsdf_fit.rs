@@ -1,5 +1,5 @@
 //! The leaf BSDF of scenes fitted to the leaf of layers, and how far it is off by angle:
-//! `cargo run --release -p renderer --example leaf_bsdf_fit -- [PRESET …]`.
+//! `cargo run --release -p lamina-renderer --example leaf_bsdf_fit -- [PRESET …]`.
 //!
 //! For each preset, three BSDFs stand beside the BRDF and BTDF of the layers:
 //!

@@ -7,7 +7,7 @@
 //! use std::process::ExitCode;
 //!
 //! let command = ["lamina", "check", "no-such-scene.toml"].map(Into::into);
-//! assert_eq!(renderer::cli::run(command), ExitCode::from(2));
+//! assert_eq!(renderer::cli::run(command, "0.1.0"), ExitCode::from(2));
 //! ```
 
 // These take the place of the standard ones in this module and below: a render must not end because
@@ -61,7 +61,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
 
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
 
 use crate::scene::load::{self, Loaded};
 use arguments::{Arguments, Command, ExportCommand, GREETING, SceneArguments};
@@ -102,10 +102,14 @@ impl From<DocumentErrors> for Failure {
 }
 
 /// Runs the command line `arguments` (the program's name first) and returns the exit code.
-pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// `version` is what `--version` prints: the package's version and, of a checkout, the commit.
+pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str) -> ExitCode {
     signals::survive_file_limits();
     let line: Vec<OsString> = arguments.into_iter().collect();
-    let arguments = match Arguments::try_parse_from(&line) {
+    let matches = Arguments::command()
+        .version(version)
+        .try_get_matches_from(&line);
+    let arguments = match matches.and_then(|matches| Arguments::from_arg_matches(&matches)) {
         Ok(arguments) => arguments,
         Err(error) => {
             // Help and version are requests, not errors; clap chooses the stream for each.

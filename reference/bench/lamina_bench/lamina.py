@@ -65,7 +65,7 @@ def render(program: Path, scene: Path, spp: int, seed: int, overrides: tuple[str
 def version(program: Path) -> str:
     """What the program says of itself."""
     done = subprocess.run([str(program), "--version"], capture_output=True, text=True, check=True)
-    return done.stdout.split()[-1]
+    return done.stdout.strip().removeprefix("lamina ")
 
 
 def cpu_of_render(cpu: float, cpu_at_one: float, spp: int) -> float:
