@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lamina.extras import require
 from lamina.program import Value, overrides, run
 
 if TYPE_CHECKING:
@@ -49,6 +50,7 @@ class Grown:
         """The veins as a graph: nodes with `x_mm`, `y_mm`; edges with `length_mm`, `radius_mm` (the
         mean of both ends) and `order`. Needs networkx.
         """
+        require("graph", "a graph of veins")
         import networkx
 
         graph = networkx.Graph()

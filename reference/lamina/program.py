@@ -43,7 +43,8 @@ def program() -> Path:
     if built.is_file():
         return built
     raise FileNotFoundError(
-        "no program `lamina`: install it (cargo install --path renderer/program), or name it in the "
+        "no program `lamina`: install it (cargo install --path renderer/program), or name it in "
+        "the "
         "environment variable LAMINA"
     )
 
