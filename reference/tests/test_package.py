@@ -12,10 +12,12 @@ import os
 import subprocess
 import sys
 import tempfile
+import tomllib
 from pathlib import Path
 
 import numpy as np
 import OpenImageIO as oiio
+import pytest
 
 import lamina
 from lamina.checking import problems_of
@@ -49,8 +51,6 @@ def test_the_program_that_the_environment_names_is_run() -> None:
 
 
 def test_values_are_written_as_toml_reads_them() -> None:
-    import tomllib
-
     values = {
         "a": 1,
         "b": 0.1,
@@ -58,16 +58,49 @@ def test_values_are_written_as_toml_reads_them() -> None:
         "d": 'quoted "text" \\ with\nlines',
         "e": [1, [2.5, "x"]],
         "f": {"d65": 0.5},
-        "g": np.float64(1e-30),
-        "h": np.int32(7),
+        "control": "\x00\x1f\x7f\u2028 ü",
+        "numbers": [1e300, -0.0, 5e-324, float("inf"), -7],
+        "tables": [{"a b.c": [True]}, {}],
     }
     text = "\n".join(f"{key} = {toml(value)}" for key, value in values.items())
     assert tomllib.loads(text) == values
-    try:
-        toml({1, 2})  # type: ignore[arg-type]
-    except TypeError:
-        return
-    raise AssertionError("a set is no value")
+
+
+def test_arrays_and_paths_are_values() -> None:
+    wide = np.array([[1, 2, 3], [4, 5, 6]], np.float32)
+    for value, same in (
+        (np.float64(1e-30), 1e-30),
+        (np.float32(0.1), float(np.float32(0.1))),
+        (np.int32(7), 7),
+        (np.bool_(True), True),
+        (np.str_("a"), "a"),
+        (wide, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]),
+        (wide[:, ::2].T, [[1.0, 4.0], [3.0, 6.0]]),
+        (np.array(3), 3),
+        (np.array([], int), []),
+        (np.array([True, False]), [True, False]),
+        (np.array(["a", "bc"]), ["a", "bc"]),
+        ([np.uint8(255), Path("a", "b.exr")], [255, str(Path("a", "b.exr"))]),
+        (range(3), [0, 1, 2]),
+    ):
+        assert tomllib.loads(f"value = {toml(value)}")["value"] == same, value
+    size = {"film.spectral.size": np.array([12, 8]), "film.spectral.spp": np.int64(1)}
+    assert dict(lamina.render(FLAT, size).sizes) == {"y": 8, "x": 12, "wavelength": 4, "axis": 3}
+
+
+@pytest.mark.parametrize(
+    "value",
+    [{1, 2}, None, b"ab", 1j, np.longdouble(1), np.array([1j]), np.datetime64("2020-01-01")],
+)
+def test_what_no_file_can_hold_is_refused_by_its_key(value: object) -> None:
+    message = r"film\.rgb\.spp cannot be set to .*: take numbers, truths, text"
+    with pytest.raises(TypeError, match=message):
+        lamina.check(FLAT, {"film.rgb.spp": [value]})  # type: ignore[list-item]
+
+
+def test_a_number_that_is_not_finite_is_refused_by_the_program() -> None:
+    problems = lamina.check(FLAT, {"camera.perspective.vertical_fov_deg": np.nan})
+    assert [problem.code for problem in problems] == ["scene::not_finite"]
 
 
 def test_a_spectral_picture_is_what_the_exr_holds() -> None:
