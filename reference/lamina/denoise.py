@@ -5,7 +5,7 @@ biased, and of one picture nobody knows by how much. The file says so in `lamina
 layer `variance` is that of the picture which went in.
 
 With twins, renders of the same scene with other seeds, all are denoised and their mean is written.
-`twins` tells what is left of the noise, which the layer `variance` has then, and the bias.
+`lamina.twins` estimates the bias, and what is left of the noise, which the layer `variance` has.
 
 - In: an EXR of Lamina, of a colour film or a spectral one; its layers `albedo` and `N` as guides.
 - Out: the same EXR with other radiance; if wanted, a picture to look at by `lamina tonemap`.

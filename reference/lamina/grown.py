@@ -28,7 +28,9 @@ class Grown:
     outline: Array
     """Corners of the margin, counter-clockwise, `[corners, 2]`."""
     base: Array
+    """Where the petiole meets the blade, `[2]`."""
     apex: Array
+    """The tip, `[2]`."""
     nodes: Array
     """Places of the veins' nodes, `[nodes, 2]`; older ones come first."""
     edges: NDArray[np.int64]

@@ -1,4 +1,4 @@
-"""Tells how noisy pictures are, from their own variance.
+"""Shows how noisy pictures are, from their own variance: `lamina-noise PICTURE.exr`.
 
 Relative standard error of luminance by pixel: the root of the variance of the mean over the mean.
 The layer `variance.Y` has that variance. Pictures of older versions hold variances of R, G and B

@@ -1,11 +1,12 @@
 """Renders a scene for print: `lamina-print SCENE.toml --out FOLDER`.
 
 Several renders of other seeds, the twins, are denoised each alone; their mean is the picture, and
-`twins` tells what is left of its noise, and the bias. What was done is told as a line of a table.
+`lamina.twins` estimates what is left of its noise, and the bias. What was done is printed as a line
+of a table.
 
 Half of the time goes where single renders are noisy: the first twin begins with a few samples
-everywhere, which tell by which target noise. The rest goes where what is shown still errs, which
-only the twins tell, once they are denoised.
+everywhere, by which its target noise is set. The rest goes where what is shown still errs, which
+only the differences of denoised twins show.
 
 - In: a scene file; seconds for each twin.
 - Out, in FOLDER: NAME-1.exr, NAME-1.json (times, memory) and so on of each twin; NAME.exr, and

@@ -10,7 +10,6 @@ import contextlib
 import os
 import resource
 import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -285,22 +284,6 @@ def test_a_program_for_the_picture_that_fails_leaves_the_exr() -> None:
             status, said, warned = call(good, "--out", out, "--png", png)
         assert status == 1 and "tonemap" in warned and said == f"{out}\n", warned
         assert NOTE in attributes(out) and not png.exists()
-
-
-def test_a_missing_package_is_told_with_the_way_to_install_it() -> None:
-    kept = sys.modules.get("mitsuba_oidn")
-    # What Python holds for a module that must not be imported.
-    sys.modules["mitsuba_oidn"] = None  # type: ignore[assignment]
-    try:
-        with scratch() as folder:
-            good = write(folder / "good.exr", spectral_film()[1])
-            status, _, warned = call(good, "--out", folder / "out.exr")
-            assert status == 1 and "pip install 'lamina-render[denoise]'" in warned, warned
-            assert not (folder / "out.exr").exists()
-    finally:
-        del sys.modules["mitsuba_oidn"]
-        if kept is not None:
-            sys.modules["mitsuba_oidn"] = kept
 
 
 def test_a_full_disk_leaves_the_old_file() -> None:

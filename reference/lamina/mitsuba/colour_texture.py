@@ -103,7 +103,7 @@ class ColourTexture(mi.Texture):
         self.basis = [Table(column, double=True) for column in table[:, 1:].T]
         self.repeats = float(props.get("repeats_u")), float(props.get("repeats_v"))
         self.slots: list[Slot] = []
-        while props.has_property(f"slot_{len(self.slots)}"):
+        while f"slot_{len(self.slots)}" in props:
             self.slots.append(Slot(str(props.get(f"slot_{len(self.slots)}"))))
 
     def eval(self, si: Any, active: Any = True) -> Any:

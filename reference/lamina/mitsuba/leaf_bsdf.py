@@ -184,7 +184,7 @@ class LeafBSDF(mi.BSDF):
         # A cut through the tissue has no coat.
         self.half = None
         self.outer = self.coats
-        if props.has_property("half"):
+        if "half" in props:
             self.half = FACES.index(str(props.get("half")))
             none = Coat(1.0, 1.0, 1.0)
             self.outer = (self.coats[0], none) if self.half == 0 else (none, self.coats[1])
@@ -193,7 +193,7 @@ class LeafBSDF(mi.BSDF):
         self.kind = str(props.get("tissue"))
         self.abaxial_ratio = None
         self.spread: tuple[float, float] | None = None
-        if props.has_property("abaxial_ratio"):
+        if "abaxial_ratio" in props:
             self.abaxial_ratio = props.get_unbounded_texture("abaxial_ratio")
         if self.kind == "measured":
             self.reflectance = props.get_texture("reflectance")
@@ -204,7 +204,7 @@ class LeafBSDF(mi.BSDF):
                 Path(str(table)), Double, bool(props.get("extrapolate", False))
             )
             if self.kind == "map":
-                if props.has_property("spread_u"):
+                if "spread_u" in props:
                     self.spread = float(props.get("spread_u")), float(props.get("spread_v"))
                 self.map = ContentsMap(Path(str(mi.file_resolver().resolve(str(props.get("map"))))))
             elif self.kind == "contents":

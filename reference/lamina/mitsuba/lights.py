@@ -180,7 +180,7 @@ class Pattern(Radiance):
         self.radiance = props.get_unbounded_texture("radiance")
         self.edge = float(np.log(float(props.get("edge_share"))))
         self.picture = None
-        if props.has_property("picture"):
+        if "picture" in props:
             self.picture = Weights(resolved(props, "picture"), wraps=False)
             self.spectra = [props.get_unbounded_texture(name) for name in PRIMARIES]
 

@@ -1,4 +1,4 @@
-"""All plugins of the comparison. Import it after Mitsuba's variant is chosen."""
+"""All plugins. Import this module after Mitsuba's variant is chosen."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from lamina.mitsuba import colour_texture, lights, plastic_bsdf, relief_bsdf
 
 
 def register() -> None:
-    """Makes them known to Mitsuba."""
+    """Makes all plugins known to Mitsuba."""
     relief_bsdf.register()
     plastic_bsdf.register()
     colour_texture.register()

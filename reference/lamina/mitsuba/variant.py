@@ -1,9 +1,10 @@
 """Which Mitsuba is used: spectral, compiled through LLVM where that is to be had.
 
-Dr.Jit loads libLLVM by itself. The environment's own one (`karellen-llvm-core`) goes first: it
-is pinned, and older system ones (LLVM 14 and 15, as of Debian 12) abort the process with
-"Cannot select: fmaximum" on code that Mitsuba 3.9 brings forth. Next comes what the system has,
-then the scalar variant, in which a BSDF written in Python is some 40 times slower.
+Dr.Jit loads libLLVM when Mitsuba is first imported, so `choose` comes before that. The
+environment's own libLLVM (`karellen-llvm-core`) goes first: it is pinned, and older system ones
+(LLVM 14 and 15, as of Debian 12) abort the process with "Cannot select: fmaximum" on code that
+Mitsuba 3.9 brings forth. Next comes what the system has, then the scalar variant, in which a BSDF
+written in Python is some 40 times slower.
 """
 
 from __future__ import annotations
