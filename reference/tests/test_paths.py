@@ -93,6 +93,7 @@ def walk(page: str) -> None:
     assert commands >= 3 and shown >= 10, f"{page}: {commands} commands, {shown} lines shown"
 
 
+@pytest.mark.deep
 def test_the_biologists_path_leads_where_its_page_says() -> None:
     walk("biologist.md")
 

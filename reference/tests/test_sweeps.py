@@ -137,7 +137,7 @@ def test_what_is_done_is_not_done_again_and_a_sweep_may_grow() -> None:
 
 
 def test_a_killed_worker_changes_nothing() -> None:
-    wanted = {"over": {RADIUS: [0.5, 1, 1.5]}, "seeds": 4, "values": SMALL, "spp": 2000}
+    wanted = {"over": {RADIUS: [0.5, 1, 1.5]}, "seeds": 4, "values": SMALL, "spp": 600}
     with folder() as made:
         serial, killed = made / "serial.zarr", made / "killed.zarr"
         lamina.sweep(FURNACE, store=serial, threads=2, batch=2, **wanted)

@@ -82,9 +82,18 @@ def smith_lambda(coat: Coat, x: Array, y: Array, z: Array) -> Array:
     return 0.5 * (np.sqrt(1.0 + slope2) - 1.0)
 
 
+@lru_cache(maxsize=4)
+def legendre_nodes(count: int) -> tuple[Array, Array]:
+    """Nodes and weights of Gauss-Legendre quadrature, which take as long as a coat's albedo."""
+    return np.polynomial.legendre.leggauss(count)
+
+
 def albedo(coat: Coat, x: Array, y: Array, z: Array) -> Array:
     """E for unit directions with z > 0 (arrays of one length)."""
-    nodes, weights = np.polynomial.legendre.leggauss(NODES_CAP)
+    # A boundary between equal media reflects nothing.
+    if coat.eta == 1.0:
+        return np.zeros_like(z)
+    nodes, weights = legendre_nodes(NODES_CAP)
     turns = 2.0 * np.pi * np.arange(NODES_TURN) / NODES_TURN
     u, phi = (part.ravel() for part in np.meshgrid(0.5 * (nodes + 1.0), turns, indexing="ij"))
     weight = np.repeat(0.5 * weights / NODES_TURN, NODES_TURN)
@@ -139,7 +148,7 @@ def _normal(coat: Coat) -> float:
 
 @lru_cache(maxsize=64)
 def _mean(coat: Coat) -> float:
-    nodes, weights = np.polynomial.legendre.leggauss(48)
+    nodes, weights = legendre_nodes(48)
     root = 0.5 * (nodes + 1.0)
     mu = root * root
     # dω μ = μ dμ dφ, μ = s², so 2 μ dμ = 4 s³ ds; φ by the midpoint rule over a quadrant.
