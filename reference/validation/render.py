@@ -5,7 +5,7 @@ gives the variance of their mean, pixel by pixel, whatever the sampler does insi
 
 **What `specfilm` returns.** Its channel j is ∫ s_j(λ) L(λ) dλ, an integral: the sample's 1/pdf is
 multiplied by the response s_j. A response of 1/width over the band therefore gives the mean
-radiance of the band, W m⁻² sr⁻¹ nm⁻¹; the self-test holds this to the closed form of a sky of
+radiance of the band, W m⁻² sr⁻¹ nm⁻¹; a test holds this to the closed form of a sky of
 known radiance. Wavelengths are drawn from the sum of all responses, which the film resamples at
 the finest spacing of any of them: each response is written with `STEPS` intervals, so that the
 resampled edges lie within 1/STEPS of the band's width.
