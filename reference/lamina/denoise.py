@@ -289,7 +289,7 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
 
 def denoise_files(options: argparse.Namespace) -> Mean:
     """Reads, denoises, writes, says what was done, and returns it."""
-    require("denoise", "lamina-denoise")
+    require("denoise", "denoising")
     sources: list[Path] = [options.picture, *options.twin]
     films = []
     for source in sources:

@@ -315,7 +315,7 @@ def mean_of(options: argparse.Namespace, twins: Sequence[Twin]) -> Shown:
 def run(options: argparse.Namespace) -> None:
     """Renders, denoises, and tells what was done."""
     # Before the renders, which take many minutes.
-    require("print", "lamina-print")
+    require("print", "a print")
     twins, shown, left = remembered_or_first(options)
     more = improved(options, twins, shown, left)
     if more is not twins:
