@@ -20,7 +20,7 @@ from lamina.checking import Problem, check
 from lamina.grown import Grown, frames, grow
 from lamina.measured import instruments, read_figures, to_netcdf
 from lamina.parts import render_in_parts
-from lamina.program import LaminaError, program, run, version
+from lamina.program import LaminaError, Value, program, run, version
 from lamina.rendered import read, render
 from lamina.spectra import optics
 from lamina.sweeping import sweep
@@ -29,6 +29,7 @@ __all__ = [
     "Grown",
     "LaminaError",
     "Problem",
+    "Value",
     "check",
     "frames",
     "grow",

@@ -21,10 +21,13 @@ class Problem:
     code: str
     """Which kind, such as `scene::wrong_type`."""
     text: str
+    """What is wrong."""
     file: str
+    """The file, or the flag that set the value."""
     line: int | None
     """From 1; None if it belongs to no line."""
     column: int | None
+    """From 1; None if it belongs to no line."""
     help: str
     """What would be right."""
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lamina.extras import require
 from lamina.program import Value, overrides, run
 
 if TYPE_CHECKING:
@@ -27,7 +28,9 @@ class Grown:
     outline: Array
     """Corners of the margin, counter-clockwise, `[corners, 2]`."""
     base: Array
+    """Where the petiole meets the blade, `[2]`."""
     apex: Array
+    """The tip, `[2]`."""
     nodes: Array
     """Places of the veins' nodes, `[nodes, 2]`; older ones come first."""
     edges: NDArray[np.int64]
@@ -49,6 +52,7 @@ class Grown:
         """The veins as a graph: nodes with `x_mm`, `y_mm`; edges with `length_mm`, `radius_mm` (the
         mean of both ends) and `order`. Needs networkx.
         """
+        require("graph", "a graph of veins")
         import networkx
 
         graph = networkx.Graph()

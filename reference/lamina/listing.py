@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from lamina.program import LaminaError, Value, overrides, program, toml
+from lamina.program import LaminaError, Value, overrides, program, written
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ def flags(
     """What a call adds to a sweep file, as flags of `lamina sweep`."""
     words = overrides("-D", values)
     for key, members in (over or {}).items():
-        words += ["--over", f"{key}={','.join(toml(member) for member in members)}"]
+        words += ["--over", f"{key}={','.join(written(key, member) for member in members)}"]
     for flag, value in (("--seeds", seeds), ("--spp", spp), ("--noise", noise)):
         if value is not None:
             words += [flag, str(value)]

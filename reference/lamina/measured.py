@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from lamina.extras import require
 from lamina.program import LaminaError, Value, overrides, run
 
 Row = dict[str, object]
@@ -73,13 +74,15 @@ def read_figures(file: str | Path) -> dict[str, xr.Dataset]:
     rows, told = rows_of(Path(file))
     names = dict.fromkeys(str(row["instrument"]) for row in rows)
     return {
-        name: dataset([row for row in rows if row["instrument"] == name], told | {"instrument": name})
+        name: dataset(
+            [row for row in rows if row["instrument"] == name], told | {"instrument": name}
+        )
         for name in names
     }
 
 
 def rows_of(file: Path) -> tuple[list[Row], dict[str, object]]:
-    """The rows of a table, numbers as numbers and what is empty as None, and what is said of all."""
+    """The rows of a table (numbers as numbers, empty cells as None), and what is said of all."""
     text = file.read_text(encoding="utf-8")
     numbers = {"value", "standard_error"} | {column for column, _, unit in AXES if unit}
     if file.suffix.lower() == ".json":
@@ -99,7 +102,9 @@ def rows_of(file: Path) -> tuple[list[Row], dict[str, object]]:
     rows: list[Row] = []
     for line in csv.DictReader(text.splitlines()):
         if not {"instrument", "quantity", "unit", *numbers} <= set(line):
-            raise ValueError(f"{file}: this is no file of `lamina instruments`: a column is missing")
+            raise ValueError(
+                f"{file}: this is no file of `lamina instruments`: a column is missing"
+            )
         row: Row = {}
         for column, entry in line.items():
             if entry == "":
@@ -153,7 +158,7 @@ def dataset(rows: list[Row], about: Mapping[str, object]) -> xr.Dataset:
     units = {axis: unit for _, axis, unit in AXES}
     for axis, known in coordinates.items():
         if units.get(axis):
-            known.sort()  # type: ignore[type-var]
+            known.sort()
     found: dict[str, xr.Variable] = {}
     for name, figures in variables.items():
         axes = list(figures[0][0])
@@ -209,6 +214,7 @@ def to_netcdf(
     One instrument goes to `out`, each of several to a file `STEM-NAME.nc`. Raises ValueError for
     an instrument that is not there.
     """
+    require("netcdf", "NetCDF")
     found = read_figures(figures)
     chosen = list(only) if only else list(found)
     for name in chosen:

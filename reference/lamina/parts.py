@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import xarray as xr
 
+from lamina.extras import require
 from lamina.listing import list_tasks
 from lamina.program import LaminaError, Value, overrides, program, run
 from lamina.rendered import read
@@ -37,6 +38,7 @@ def render_in_parts(
     so that a call after a failure does only what is not done. Each part grows the scene's leaves
     anew. Raises LaminaError, and ValueError for more parts than samples.
     """
+    require("sweep", "lamina.render_in_parts")
     if not 1 <= parts <= spp:
         raise ValueError(f"{parts} parts of {spp} samples: take 1 to {spp}")
     stem = Path(out).resolve()

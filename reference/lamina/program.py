@@ -2,14 +2,28 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
-Value = bool | int | float | str | Sequence["Value"] | Mapping[str, "Value"]
-"""What a key of a scene or leaf file may be set to."""
+import numpy as np
+
+Value = (
+    bool
+    | int
+    | float
+    | str
+    | os.PathLike[str]
+    | np.generic
+    | np.ndarray[Any, Any]
+    | Sequence["Value"]
+    | Mapping[str, "Value"]
+)
+"""What a key of a scene or leaf file may be set to: arrays are lists, paths are text."""
 
 
 class LaminaError(RuntimeError):
@@ -43,7 +57,8 @@ def program() -> Path:
     if built.is_file():
         return built
     raise FileNotFoundError(
-        "no program `lamina`: install it (cargo install --path renderer/program), or name it in the "
+        "no program `lamina`: install it (cargo install --path renderer/program), or name it in "
+        "the "
         "environment variable LAMINA"
     )
 
@@ -75,30 +90,38 @@ def overrides(flag: str, values: Mapping[str, Value] | None) -> list[str]:
     """Arguments that set keys: `flag` and `KEY=VALUE` for each, values written as in TOML."""
     arguments: list[str] = []
     for key, value in (values or {}).items():
-        arguments += [flag, f"{key}={toml(value)}"]
+        arguments += [flag, f"{key}={written(key, value)}"]
     return arguments
 
 
+def written(key: str, value: Value) -> str:
+    """The value of a key as TOML. Raises TypeError, with the key, for what TOML does not have."""
+    try:
+        return toml(value)
+    except TypeError as refused:
+        raise TypeError(f"{key} cannot be set to {refused}") from None
+
+
 def toml(value: Value) -> str:
-    """A value as TOML has it, on one line."""
+    """A value as TOML has it, on one line; the program refuses numbers that are not finite."""
     match value:
         case bool():
             return "true" if value else "false"
         case str():
-            escaped = value.replace("\\", "\\\\").replace('"', '\\"')
-            for letter, short in (("\n", "\\n"), ("\r", "\\r"), ("\t", "\\t")):
-                escaped = escaped.replace(letter, short)
-            return f'"{escaped}"'
+            # Every escape of JSON is one of TOML, which also wants one for DEL.
+            return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+        case os.PathLike():
+            return toml(os.fspath(value))
         case Mapping():
             members = ", ".join(f"{toml(str(key))} = {toml(inner)}" for key, inner in value.items())
             return "{ " + members + " }"
-        case Sequence():
+        # Numbers of more than 64 bits stay as they are when they are converted.
+        case np.ndarray() | np.generic() if value.dtype != np.longdouble:
+            return toml(value.tolist())
+        case Sequence() if not isinstance(value, bytes | bytearray | memoryview):
             return "[" + ", ".join(toml(inner) for inner in value) + "]"
-        case _ if hasattr(value, "item"):
-            # A number of NumPy's.
-            return toml(value.item())
-        case int():
-            return str(value)
-        case float():
+        case int() | float():
             return repr(value)
-    raise TypeError(f"a key cannot be set to {value!r}")
+    raise TypeError(
+        f"{value!r}: take numbers, truths, text, paths, or arrays, lists, tables of these"
+    )

@@ -26,6 +26,7 @@ import OpenImageIO as oiio
 import xarray as xr
 from numpy.typing import NDArray
 
+from lamina.extras import require
 from lamina.plots import plot
 from lamina.program import LaminaError, run, version
 from lamina.rendered import read
@@ -43,6 +44,7 @@ def report(paths: Sequence[str | Path], out: str | Path) -> Path:
 
     Raises ValueError for anything else, OSError for files that cannot be read.
     """
+    require("report", "a report")
     places = [Path(path) for path in paths]
     if len(places) == 2 and all(place.suffix == ".exr" for place in places):
         title, summary, sections = two_pictures(*places)

@@ -11,6 +11,7 @@ from uuid import uuid4
 import numpy as np
 import xarray as xr
 
+from lamina.extras import require
 from lamina.grown import numbers_of
 from lamina.listing import Listing, flags, list_tasks, tasks_at
 from lamina.program import LaminaError, Value, program, run
@@ -58,6 +59,7 @@ def sweep(
     Raises LaminaError for what the program refuses, before anything is done, or once all other
     tasks are done for those that failed; ValueError if the store holds something else.
     """
+    require("sweep", "lamina.sweep")
     from lamina import store as stores
 
     place = Path(store).resolve()

@@ -1,6 +1,6 @@
 //! The sideways spread of light that a blade lets through.
 //!
-//! `docs/src/theory/light-spread.md` derives the kernel and its length; `reference/light-spread`
+//! `docs/src/theory/light-spread.md` derives the kernel and its length; `reference/run light-spread`
 //! measures both by a Monte Carlo simulation.
 
 use std::f32::consts::TAU;

@@ -2,7 +2,7 @@
 //!
 //! Linear sRGB `(r, g, b)` becomes `r bᵣ(λ) + g b_g(λ) + b b_b(λ)` with three smooth basis spectra
 //! that sum to one and whose colours under D65 are the sRGB primaries (after Mallett and Yuksel
-//! 2019, computed for this project by `reference/make_tables.py`). The conversion is linear, so it
+//! 2019, computed for this project by `reference/run tables`). The conversion is linear, so it
 //! commutes with filtering, and reflectances in [0, 1] stay there.
 
 use std::sync::OnceLock;

@@ -33,7 +33,7 @@ fn d65_has_the_same_white_by_every_observer() {
 
 #[test]
 fn shipped_cameras_see_surfaces_nearly_as_the_eye_does() {
-    // By numpy's least squares over the same set (`reference/sensitivities`); a camera with
+    // By numpy's least squares over the same set (`reference/run sensitivities`); a camera with
     // Foveon's three layers is farther from the eye.
     for (name, mean, greatest) in [
         ("nikon-d5100", 1.24, 4.51),

@@ -1,0 +1,1 @@
+"""Pages and pictures of the book that are made by programs."""

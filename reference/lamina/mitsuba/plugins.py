@@ -1,0 +1,13 @@
+"""All plugins. Import this module after Mitsuba's variant is chosen."""
+
+from __future__ import annotations
+
+from lamina.mitsuba import colour_texture, lights, plastic_bsdf, relief_bsdf
+
+
+def register() -> None:
+    """Makes all plugins known to Mitsuba."""
+    relief_bsdf.register()
+    plastic_bsdf.register()
+    colour_texture.register()
+    lights.register()

@@ -1,0 +1,100 @@
+"""The leaf BSDF in Mitsuba: sampling, energy, reciprocity."""
+
+from __future__ import annotations
+
+import pytest
+
+pytest.importorskip("mitsuba")
+
+import contextlib
+import io
+import itertools
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+from mitsuba_leaves import COATS, VIEWS, hit, leaf, measured, throughputs
+
+from lamina.mitsuba.coat import Coat, albedo
+
+
+def test_coat_albedo_is_the_integral_over_directions() -> None:
+    # Over directions instead of visible normals: another route to the same number.
+    nodes, weights = np.polynomial.legendre.leggauss(400)
+    root = 0.5 * (nodes + 1.0)
+    mu, w = root * root, weights * root
+    phi = 2.0 * np.pi * (np.arange(720) + 0.5) / 720
+    for eta, a_x, a_y in ((1.45, 0.3, 0.3), (1.5, 0.2, 0.5)):
+        coat = Coat(eta, a_x, a_y)
+        for theta, turn in ((0.2, 0.3), (1.0, 1.2), (1.4, 0.7)):
+            o = np.array(
+                [np.sin(theta) * np.cos(turn), np.sin(theta) * np.sin(turn), np.cos(theta)]
+            )
+            s = np.sqrt(1.0 - mu * mu)[:, None]
+            i = np.stack(
+                [s * np.cos(phi), s * np.sin(phi), np.broadcast_to(mu[:, None], (400, 720))]
+            )
+            h = i + o[:, None, None]
+            h /= np.sqrt((h * h).sum(axis=0))
+            d = 1.0 / (np.pi * a_x * a_y * ((h[0] / a_x) ** 2 + (h[1] / a_y) ** 2 + h[2] ** 2) ** 2)
+            lam = [0.5 * (np.sqrt(1 + ((a_x * v[0]) ** 2 + (a_y * v[1]) ** 2) / v[2] ** 2) - 1)
+                   for v in (o, i)]  # fmt: skip
+            c = (o[:, None, None] * h).sum(axis=0)
+            g = np.sqrt(eta**2 - 1 + c * c)
+            fresnel = 0.5 * ((g - c) / (g + c)) ** 2
+            fresnel *= 1 + ((c * (g + c) - 1) / (c * (g - c) + 1)) ** 2
+            f = d * fresnel / (1 + lam[0] + lam[1]) / (4 * o[2])
+            direct = (f.mean(axis=1) * w).sum() * 2.0 * np.pi
+            table = albedo(coat, *(np.array([value]) for value in o))[0]
+            assert abs(direct - table) < 5e-5, (coat, theta, direct, table)
+
+
+def test_leaf_is_sampled_as_its_pdf_says() -> None:
+    cases = list(itertools.product(COATS[:4], VIEWS))
+    level = 1.0 - (1.0 - 0.01) ** (1.0 / len(cases))
+    for coats, wi in cases:
+        bsdf = leaf(coats)
+
+        def sample(u: mi.Vector3f, bsdf: mi.BSDF = bsdf, wi: tuple = wi) -> tuple:
+            bs, weight = bsdf.sample(
+                mi.BSDFContext(), hit(wi, (0.6, 0.8, 0.0)), u.x, mi.Point2f(u.y, u.z)
+            )
+            return bs.wo, dr.select(bs.pdf > 0.0, mi.Float(1.0), 0.0)
+
+        def pdf(wo: mi.Vector3f, bsdf: mi.BSDF = bsdf, wi: tuple = wi) -> mi.Float:
+            return bsdf.pdf(mi.BSDFContext(), hit(wi, (0.6, 0.8, 0.0)), wo)
+
+        test = mi.chi2.ChiSquareTest(
+            mi.chi2.SphericalDomain(), sample, pdf, sample_dim=3, sample_count=200_000, res=51,
+            ires=16 if coats == COATS[2] else 6,
+        )  # fmt: skip
+        with contextlib.redirect_stdout(io.StringIO()):
+            passed = test.run(level)
+        assert passed, (coats, wi, test.p_value, test.messages)
+
+
+def test_normal_incidence_gives_back_r_and_t() -> None:
+    for coats, (r, t) in itertools.product(COATS, ((0.1, 0.05), (0.45, 0.47), (0.3, 0.1))):
+        got, error = throughputs(measured(coats, r, t), (0.0, 0.0, 1.0))
+        for part, want in zip((0, 1), (r, t), strict=True):
+            off = np.abs(got[part] - want).max()
+            assert off < 4.0 * error[part].max() + 1e-4, (coats, part, got[part], want)
+
+
+def test_lossless_leaf_loses_nothing_at_any_angle() -> None:
+    for coats, wi, (r, t) in itertools.product(COATS, VIEWS, ((0.5, 0.5), (0.8, 0.2))):
+        got, error = throughputs(measured(coats, r, t), wi)
+        off = np.abs(got.sum(axis=0) - 1.0).max()
+        assert off < 4.0 * error.max() + 1e-4, (coats, wi, got)
+
+
+def test_leaf_is_reciprocal() -> None:
+    rng = np.random.default_rng(7)
+    a, b = (rng.normal(size=(3, 4096)) for _ in range(2))
+    a, b = (v / np.sqrt((v * v).sum(axis=0)) for v in (a, b))
+    for coats, ratio in itertools.product(COATS, (1.0, 1.6)):
+        bsdf = measured(coats, 0.2, 0.3, ratio)
+        there = bsdf.eval(mi.BSDFContext(), hit(a), mi.Vector3f(b)) / dr.abs(mi.Float(b[2]))
+        back = bsdf.eval(mi.BSDFContext(), hit(b), mi.Vector3f(a)) / dr.abs(mi.Float(a[2]))
+        there, back = np.array(there), np.array(back)
+        assert np.all(np.abs(there - back) <= 2e-3 * there + 1e-6), coats

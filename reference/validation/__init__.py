@@ -1,0 +1,1 @@
+"""Comparisons of Lamina with other software; `reference/run` lists them."""
