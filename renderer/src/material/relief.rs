@@ -24,7 +24,7 @@ use crate::bsdf::dust::DustTable;
 use crate::bsdf::leaf::Coat;
 use crate::bsdf::relief::ReliefFace;
 use crate::geometry::TextureScale;
-use crate::spectrum::{Curve, Lanes, Wavelengths};
+use crate::spectrum::{Curve, Lanes, Wavelengths, library};
 
 /// By how much the square of a GGX roughness grows with the variance of slopes.
 ///
@@ -115,8 +115,11 @@ impl Relief {
         };
         let faces = [face(0), face(1)];
         let flat = map.texels.into_flattened().into_flattened();
-        let soil = |brightness: f64| {
-            Curve::uniform(300.0, 50.0, 46, move |nm| grain_albedo(nm, brightness))
+        let dry_soil = Curve::from_points(&library::soil(0.0));
+        let grains = |brightness: f64| {
+            Curve::uniform(350.0, 50.0, 43, |nm| {
+                grain_albedo(brightness * f64::from(dry_soil.at(nm as f32)))
+            })
         };
         Self {
             moments: Levels::new(map.size, flat),
@@ -125,7 +128,7 @@ impl Relief {
             faces,
             cells: Cells::new(map.cells, map.size_mm),
             stomata: [0, 1].map(|face| Stomata::new(&map.stomata, face)),
-            grains: map.dust_brightness.map(soil),
+            grains: map.dust_brightness.map(grains),
             size_mm: Vec2::from(map.size_mm),
             cut: None,
         }

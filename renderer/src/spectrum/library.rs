@@ -43,11 +43,11 @@ pub fn surface(number: usize) -> Vec<(f64, f64)> {
     rows.map(|(nm, values)| (*nm, values[number])).collect()
 }
 
-/// The reflectance of bare soil of a moisture of 0 (dry) to 1 (wet): pairs of a wavelength in nm, 400
-/// to 2500, and a share.
+/// The reflectance of bare soil of a moisture of 0 (dry) to 1 (wet): pairs of a wavelength in nm, 360
+/// to 2500, and a fraction.
 ///
-/// `ρ = m ρ_wet + (1 − m) ρ_dry`, the mixture of PROSAIL, whose `psoil` is 1 − m
-/// (\[jacquemoud2009\]).
+/// `ρ = m ρ_wet + (1 − m) ρ_dry`, where ρ_dry and ρ_wet are means over the same 100 soils
+/// (\[wadoux2021\], \[minasny2011\]).
 pub fn soil(moisture: f64) -> Vec<(f64, f64)> {
     let mixed = |[dry, wet]: [f64; 2]| moisture * wet + (1.0 - moisture) * dry;
     soils()
@@ -84,11 +84,24 @@ mod tests {
         for ((a, b), c) in dry.iter().zip(&half).zip(&wet) {
             assert!(a.1 > c.1 && (b.1 - 0.5 * (a.1 + c.1)).abs() < 1e-12);
         }
-        // As the table has them at 550 nm.
-        assert!((at(&dry, 550.0) - 0.2587).abs() < 5e-5 && (at(&wet, 550.0) - 0.0288).abs() < 5e-5);
+        assert_eq!((dry[0].0, dry[dry.len() - 1].0), (360.0, 2500.0));
         // Water absorbs at 1450 and 1940 nm.
         let ratio = |nm: f64| at(&wet, nm) / at(&dry, nm);
         assert!(ratio(1450.0) < ratio(1250.0) && ratio(1940.0) < ratio(1700.0));
+    }
+
+    #[test]
+    fn wet_soil_is_darker_than_dry_soil_below_a_film_of_water_by_one_factor() {
+        // Ångström (1925): of what the soil sends up, the film lets 1 / n² out and sends the rest
+        // back. He leaves out that water also lies between the grains, where it makes them scatter
+        // more forwards; so measured soil is darker, and alike at all wavelengths at which water
+        // hardly absorbs.
+        let below_water = |dry: f64| dry / (1.33 * 1.33 * (1.0 - dry) + dry);
+        let [dry, wet] = [0.0, 1.0].map(soil);
+        for (dry, wet) in dry.iter().zip(&wet).filter(|(dry, _)| dry.0 <= 1300.0) {
+            let factor = wet.1 / below_water(dry.1);
+            assert!((0.78..0.90).contains(&factor), "{factor} at {} nm", dry.0);
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::*;
 use crate::bsdf::coat_table::{Bloom, CoatTable};
 use crate::bsdf::dust::DustTable;
 use crate::bsdf::leaf::{Coat, Tissue, usual_abaxial_ratio};
+use crate::spectrum::{Curve, library};
 
 const ALPHA: f32 = 0.3;
 
@@ -280,6 +281,7 @@ fn samples_of_a_dusty_leaf_have_the_value_that_they_say() {
 fn dust_brightens_a_green_leaf_in_the_visible_and_darkens_it_beyond_the_red_edge() {
     // R and T of a green leaf, and the albedo of grains of a dry soil, by wavelength.
     use leafmodel::optics::dust::grain_albedo;
+    let dry_soil = Curve::from_points(&library::soil(0.0));
     for (nm, leaf, sign) in [
         (450.0, [0.05, 0.01], 1.0),
         (550.0, [0.11, 0.10], 1.0),
@@ -288,7 +290,7 @@ fn dust_brightens_a_green_leaf_in_the_visible_and_darkens_it_beyond_the_red_edge
         (900.0, [0.46, 0.48], -1.0),
         (1940.0, [0.07, 0.04], 1.0),
     ] {
-        let albedo = grain_albedo(nm, 1.0) as f32;
+        let albedo = grain_albedo(f64::from(dry_soil.at(nm))) as f32;
         let sent = |tau: f32| {
             with_dust(leaf, [1.45, 0.3, 0.0], ([tau, 0.0], albedo), |leaf| {
                 let view = direction(0.1, 0.0);
