@@ -48,9 +48,16 @@ fn in_full() -> bool {
 
 /// The figures of all instruments of a scene.
 fn figures(text: &str, budget: &Budget) -> Result<Vec<Row>, InstrumentError> {
-    let (scene, world, first) = built(text);
+    figures_of(&built(text), budget)
+}
+
+/// The same of a scene that is built.
+fn figures_of(
+    (scene, world, first): &(Description, World, Vec<usize>),
+    budget: &Budget,
+) -> Result<Vec<Row>, InstrumentError> {
     let numbers = 0..scene.instruments.len();
-    let rows = numbers.map(|number| read_out(&world, &scene, number, first[number], budget));
+    let rows = numbers.map(|number| read_out(world, scene, number, first[number], budget));
     rows.collect::<Result<Vec<_>, _>>()
         .map(|rows| rows.concat())
 }

@@ -9,7 +9,7 @@ use renderer::sampling::stream::Stream;
 use renderer::scene::load::parse;
 use renderer::scene::world::World;
 use support::chi_square::{ChiSquare, sidak};
-use support::picture::{mean_and_error, mean_of, picture_of};
+use support::picture::{mean_and_error, mean_of, means_and_errors, picture_of};
 
 /// A scene of two bands seen straight from above by parallel rays, to which blocks are added.
 fn scene(integrator: &str, blocks: &str) -> String {
@@ -49,7 +49,8 @@ fn assert_agrees(what: &str, (mean, error): (f64, f64), expected: f64, most: f64
 fn a_clear_absorbing_box_obeys_beer_and_lambert_without_noise() {
     let medium = "absorption_per_m = { table = [[550, 1], [800, 4]] }";
     let picture = picture_of(&scene("", &format!("{}{SKY}", slab(1.0, medium))), 1);
-    for (channel, absorption) in [1.0, 4.0].into_iter().enumerate() {
+    let found: [_; 2] = means_and_errors(&text, 8);
+    for (found, absorption) in found.into_iter().zip([1.0, 4.0]) {
         let expected = f64::exp(-0.5 * absorption);
         let means = picture.film.map(|pixel| pixel.mean(channel));
         for mean in means {
@@ -63,14 +64,14 @@ fn a_pane_of_absorbing_glass_transmits_and_reflects_as_its_faces_and_its_depth_s
     // The sky above and below: what comes up is T + R of a plate of two faces.
     let medium = "absorption_per_mm = { table = [[550, 1e-3], [800, 4e-3]] }";
     let text = scene("", &format!("{}{SKY}", slab(1.5, medium))).replace("spp = 64", "spp = 1024");
-    for (channel, absorption) in [1.0, 4.0].into_iter().enumerate() {
+    let found: [_; 2] = means_and_errors(&text, 8);
+    for (found, absorption) in found.into_iter().zip([1.0, 4.0]) {
         let (r, inner) = (0.04, f64::exp(-0.5 * absorption));
         let transmitted = (1.0 - r) * (1.0 - r) * inner / (1.0 - r * r * inner * inner);
         let expected = r + transmitted * (1.0 + r * inner);
         let reflected =
             r + (1.0 - r) * (1.0 - r) * r * inner * inner / (1.0 - r * r * inner * inner);
         assert!((expected - (reflected + transmitted)).abs() < 1e-12);
-        let found = mean_and_error(&text, channel, 8);
         assert_agrees("a pane", found, expected, 2e-3);
     }
 }
@@ -112,8 +113,7 @@ fn a_furnace_is_one_through_and_inside_of_media_that_absorb_nothing() {
         );
     }
     for eta in ["eta = 1", "eta = 1.4"] {
-        for channel in [0, 1] {
-            let found = mean_and_error(&scene("", &tank(eta, coloured)), channel, 24);
+        for found in means_and_errors::<2>(&scene("", &tank(eta, coloured)), 24) {
             assert_agrees("a coloured tank", found, 1.0, 5e-3);
         }
     }
@@ -144,11 +144,11 @@ fn a_slab_scatters_once_what_the_equation_of_transfer_says() {
     ] {
         let blocks = format!("{}{sun}", slab(1.0, &format!("{medium}{phase}")));
         let text = scene("max_depth = 1", &blocks);
-        for (channel, [a, s]) in [[1.0, 3.0], [0.0, 0.5]].into_iter().enumerate() {
+        let found: [_; 2] = means_and_errors(&text, 8);
+        for (found, [a, s]) in found.into_iter().zip([[1.0, 3.0], [0.0, 0.5]]) {
             let (extinction, depth) = (a + s, 0.5 * (a + s));
             let lost = 1.0 - f64::exp(-depth * (1.0 + 1.0 / mu));
             let expected = s / extinction * value * 2.0 * mu / (1.0 + mu) * lost;
-            let found = mean_and_error(&text, channel, 8);
             assert_agrees(phase, found, expected, 3e-3);
         }
     }
@@ -197,10 +197,10 @@ fn a_filter_dims_the_light_behind_it_and_a_clear_body_inside_makes_it_thinner() 
         [objects.hollow]\nmesh = \"hollow\"\nmaterial = \"clear\"\n";
     for (inner, thickness) in [("", 0.5), (hollow, 0.3)] {
         let text = scene("", &format!("{}{floor}{inner}", slab(1.0, medium)));
-        for (channel, absorption) in [1.0, 2.0].into_iter().enumerate() {
+        let found: [_; 2] = means_and_errors(&text, 4);
+        for (found, absorption) in found.into_iter().zip([1.0, 2.0]) {
             // Up along the normal, down at a slope of 1 : 2.
             let expected = 0.5 / PI * 0.5 * f64::exp(-absorption * thickness * 3.0);
-            let found = mean_and_error(&text, channel, 4);
             // The sun is a disc; the mean of exp(−τ/μ) over it differs by 1e-5.
             assert_agrees("a filter", found, expected, 1e-3);
         }

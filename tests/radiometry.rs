@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use renderer::film::Pixel;
-use support::picture::{mean_and_error, mean_of, picture_of};
+use support::picture::{mean_and_error, mean_of, means_and_errors, picture_of};
 
 /// A scene of two bands with a pinhole camera, to which blocks are added.
 pub(crate) fn scene(camera: &str, integrator: &str, blocks: &str) -> String {
@@ -80,8 +80,8 @@ azimuth_deg = 40
 "
     );
     let text = scene(FACING_THE_ORIGIN, "", &blocks);
-    for (channel, reflectance) in [(0, 0.25), (1, 0.75)] {
-        let found = mean_and_error(&text, channel, 8);
+    let [dark, bright] = means_and_errors(&text, 8);
+    for (found, reflectance) in [(dark, 0.25), (bright, 0.75)] {
         assert_agrees("sun", found, reflectance / PI * 2.0 * 0.5);
     }
 }
@@ -128,8 +128,9 @@ fn a_closed_glowing_room_has_the_radiance_of_the_geometric_series() {
     let blocks = glowing_room("{ table = [[550, 0.5], [800, 0.9]] }", 0.1);
     let camera = "position_m = [0.1, 0.2, 0.3]\nlook_at_m = [1, 0, 0]\nvertical_fov_deg = 90";
     let text = scene(camera, "", &blocks);
-    assert_agrees("room, 0.5", mean_and_error(&text, 0, 8), 0.1 / (1.0 - 0.5));
-    assert_agrees("room, 0.9", mean_and_error(&text, 1, 8), 0.1 / (1.0 - 0.9));
+    let [half, most] = means_and_errors(&text, 8);
+    assert_agrees("room, 0.5", half, 0.1 / (1.0 - 0.5));
+    assert_agrees("room, 0.9", most, 0.1 / (1.0 - 0.9));
 }
 
 #[test]
@@ -258,8 +259,8 @@ radiance_w_m2_sr_nm = 1
         );
         let camera = "position_m = [0, -0.2, 0.05]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 26";
         let text = scene(camera, "", &blocks).replace("spp = 64", "spp = 1024");
-        for channel in 0..2 {
-            let (mean, error) = mean_and_error(&text, channel, 8);
+        let found: [_; 2] = means_and_errors(&text, 8);
+        for (channel, (mean, error)) in found.into_iter().enumerate() {
             eprintln!("roughness {alpha}, band {channel}: {mean:.6} ± {error:.1e}");
             assert!(error < 2.5e-4, "the error {error} hides what is to be seen");
             assert!(

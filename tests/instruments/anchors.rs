@@ -76,7 +76,7 @@ fn scene(lai: f64, seed: u64) -> String {
 }
 
 #[test]
-#[ignore = "slow: a minute of a processor; with LAMINA_ANCHORS=all six"]
+#[ignore = "deep: a minute of a processor; with LAMINA_ANCHORS=all six"]
 fn canopies_of_small_discs_have_the_fluxes_of_a_turbid_layer() {
     let anchors = anchors();
     assert_eq!(anchors.len(), 11);

@@ -113,7 +113,6 @@ fn crowns_apart_hide_what_their_chords_hide() {
 }
 
 #[test]
-#[ignore = "slow: a minute"]
 fn crowns_at_random_have_the_gaps_of_nilsons_binomial_form() {
     // Each of N crowns hides the shadow π R² / cos θ of the plan but for what comes through:
     // (1 − π R² / cos θ (1 − p))^N.

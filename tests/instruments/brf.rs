@@ -123,7 +123,7 @@ fn direction(zenith_deg: f64, azimuth_deg: f64) -> [f64; 3] {
 }
 
 #[test]
-#[ignore = "slow: 20 s"]
+#[ignore = "deep: 20 s"]
 fn small_discs_scatter_once_as_the_turbid_layer_does_and_twice_as_much_into_the_hot_spot() {
     // Away from the sun, where a disc of half a hundredth hides nothing of what it has shaded, and in it.
     let views = [

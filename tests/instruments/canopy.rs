@@ -147,8 +147,10 @@ fn what_stands_outside_the_box_is_not_in_it() {
              soil = \"ground\"\nincidence_deg = [0, 40]\n"
         )
     };
-    let [whole, quarter] = ["[0, 0, 4, 4]", "[1, 1, 3, 3]"]
-        .map(|within| figures(&text(within), &rays(1 << 15)).expect("it can be measured"));
+    let scenes = ["[0, 0, 4, 4]", "[1, 1, 3, 3]"].map(|within| built(&text(within)));
+    let [whole, quarter] = scenes
+        .each_ref()
+        .map(|scene| figures_of(scene, &rays(1 << 15)).expect("it can be measured"));
     for incidence in [NORMAL, Direction::Beam(40_f64.to_radians())] {
         let [all, part] = [&whole, &quarter].map(|rows| {
             of(rows, "uncollided", incidence, 550.0)
@@ -163,12 +165,8 @@ fn what_stands_outside_the_box_is_not_in_it() {
         );
         assert!(error < 6e-3, "{all:?} {part:?}");
     }
-    let count = |within: &str| {
-        let (scene, world, _) = built(&text(within));
-        notes(&world, &scene, 0)
-    };
-    assert_eq!(count("[0, 0, 4, 4]"), Vec::<String>::new());
-    let notes = count("[1, 1, 3, 3]");
+    let [none, notes] = scenes.map(|(scene, world, _)| notes(&world, &scene, 0));
+    assert_eq!(none, Vec::<String>::new());
     assert_eq!(notes.len(), 1, "{notes:?}");
     let left_out = "parts of the object `leaves` stand outside `within_m` and are left out";
     assert!(notes[0].ends_with(left_out), "{notes:?}");

@@ -82,7 +82,6 @@ fn scene(anchors: &[Anchor]) -> String {
 }
 
 #[test]
-#[ignore = "slow: half a minute of a processor; with LAMINA_ANCHORS=all ten"]
 fn slabs_and_half_spaces_of_media_are_those_of_the_table() {
     let anchors = anchors();
     assert_eq!(anchors.len(), 25);

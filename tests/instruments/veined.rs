@@ -91,7 +91,6 @@ fn read<'r>(rows: &'r [Row], quantity: &'static str, nm: f64) -> &'r Row {
 }
 
 #[test]
-#[ignore = "slow: 10 s"]
 fn a_veined_leaf_reads_the_mean_of_its_tissues_but_for_light_that_spreads_under_veins() {
     let text = veined(BIRCH, 0.0, SMOOTH);
     let rows = figures(&text, &rays(1 << 17)).expect("it can be measured");
@@ -134,7 +133,7 @@ fn a_veined_leaf_reads_the_mean_of_its_tissues_but_for_light_that_spreads_under_
 /// The table of the book: the sphere on leaves as they are, with all that their presets say of the
 /// surface, less the mean of their tissues.
 #[test]
-#[ignore = "slow: a minute"]
+#[ignore = "deep: a minute"]
 fn leaves_of_several_species_differ_from_the_mean_of_their_tissues_by_what_veins_do() {
     let spot = |preset, at_mm| Spot { preset, at_mm };
     let leaves = [

@@ -50,9 +50,18 @@ pub fn mean_of(rendered: &Rendered, channel: usize) -> f64 {
 ///
 /// Seeds are independent; samples within a picture are not, being of low discrepancy.
 pub fn mean_and_error(text: &str, channel: usize, seeds: u64) -> (f64, f64) {
-    let means: Vec<f64> = (0..seeds)
-        .map(|seed| mean_of(&picture_of(text, seed), channel))
-        .collect();
+    let pictures: Vec<_> = (0..seeds).map(|seed| picture_of(text, seed)).collect();
+    mean_and_error_in(&pictures, channel)
+}
+
+/// The same of the first `N` channels, from one picture per seed.
+pub fn means_and_errors<const N: usize>(text: &str, seeds: u64) -> [(f64, f64); N] {
+    let pictures: Vec<_> = (0..seeds).map(|seed| picture_of(text, seed)).collect();
+    std::array::from_fn(|channel| mean_and_error_in(&pictures, channel))
+}
+
+fn mean_and_error_in(pictures: &[Rendered], channel: usize) -> (f64, f64) {
+    let means: Vec<f64> = pictures.iter().map(|picture| mean_of(picture, channel)).collect();
     mean_and_error_of(&means)
 }
 

@@ -308,7 +308,6 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "slow: a search for the greatest error, 2 s"]
     fn the_greatest_error_over_the_range_is_told() {
         let mut worst = [0.0_f64; 2];
         for step in 0..400 {

@@ -181,7 +181,7 @@ proptest! {
     #![proptest_config(fixed(250))]
 
     #[test]
-    #[ignore = "slow: 10 s"]
+    #[ignore = "deep: 10 s"]
     fn larger_networks_are_those_of_the_definitions_node_for_node(
         plan in plans(20.0..60.0), slope in -1.0..1.0, lobed in any::<bool>(), seed in any::<u64>(),
     ) {

@@ -24,7 +24,7 @@ const LIP: f64 = -1.5;
 const UNDERSIDE: [f64; 2] = [54.0, 3.0];
 
 #[test]
-#[ignore = "slow: 10 s"]
+#[ignore = "deep: 10 s"]
 fn a_cap_has_warts_on_its_upper_side_only_and_more_of_them_the_oftener_they_divide() {
     let profile = [
         (0.0, 1.0),

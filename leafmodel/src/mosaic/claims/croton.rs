@@ -69,7 +69,7 @@ fn nearness_of_the_turned(places: &[DVec3], first: &[u32], later: &[u32]) -> f64
 const NOISE_BELOW: f64 = 0.93;
 
 #[test]
-#[ignore = "slow: 10 s"]
+#[ignore = "deep: 10 s"]
 fn a_croton_yellows_by_the_borders_of_its_blotches_and_noise_does_not() {
     let leaf = lamina(1.0);
     let days = [5.0, 15.0, 20.0, 30.0];
@@ -111,7 +111,7 @@ fn a_croton_yellows_by_the_borders_of_its_blotches_and_noise_does_not() {
 }
 
 #[test]
-#[ignore = "slow: 6 s"]
+#[ignore = "deep: 6 s"]
 fn clones_of_the_ageing_croton_are_contiguous() {
     let last = grown(&lamina(1.0), &AGEING.plan(), 1);
     assert!(contiguity(&last.voronoi, &last.clones) > 0.98);

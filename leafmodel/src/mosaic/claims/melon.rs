@@ -60,7 +60,7 @@ fn around(body: &Surface, seen: &Seen) -> (Vec<u32>, Vec<f64>) {
 }
 
 #[test]
-#[ignore = "slow: 8 s"]
+#[ignore = "deep: 8 s"]
 fn round_and_square_watermelons_have_the_stripes_of_their_image() {
     let ball = surface(sphere(RADIUS, 3.0).expect("good sizes"));
     let cube = surface(rounded_cube(190.0, 34.0, 3.0).expect("good sizes"));
@@ -76,7 +76,7 @@ fn round_and_square_watermelons_have_the_stripes_of_their_image() {
 }
 
 #[test]
-#[ignore = "slow: 12 s"]
+#[ignore = "deep: 12 s"]
 fn a_greater_radius_gives_broader_stripes_of_as_many_cells() {
     let ball = surface(sphere(RADIUS, 3.0).expect("good sizes"));
     let melons: Vec<Seen> = [1.0, 2.0, 3.0]

@@ -273,7 +273,6 @@ fn exponential_growth_amplifies_the_growth_rate_in_the_outline() {
 }
 
 #[test]
-#[ignore = "slow: 8 s"]
 fn every_form_becomes_a_leaf() {
     for form in &FORMS {
         let leaf = crate::leaf::Leaf::grow(&form.plan());

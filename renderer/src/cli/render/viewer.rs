@@ -223,7 +223,6 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "slow: 6 s"]
     fn a_viewer_that_takes_nothing_is_given_up() {
         let listener = TcpListener::bind("127.0.0.1:0").expect("a free port");
         let address = listener.local_addr().expect("it is bound").to_string();

@@ -193,7 +193,7 @@ fn every_level_of_instructions_finds_the_same_bits() {
 }
 
 #[test]
-#[ignore = "slow: 10⁸ rays, 40 s on two cores"]
+#[ignore = "deep: 10⁸ rays, 40 s on two cores"]
 fn no_ray_of_a_hundred_million_leaves_a_closed_curved_leaf() {
     // Two curved blades that share their margin, 5 cm long: a closed surface around the rays'
     // origins.
