@@ -6,7 +6,13 @@ use std::path::Path;
 use std::process::Command;
 
 /// What the program is made of, seen from this crate's folder.
-const SOURCES: [&str; 4] = ["../../Cargo.lock", "../../Cargo.toml", "../../leafmodel", ".."];
+const SOURCES: [&str; 5] = [
+    "../../Cargo.lock",
+    "../../Cargo.toml",
+    "../../leafmodel",
+    "../../scenes",
+    "..",
+];
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
@@ -29,7 +35,9 @@ fn commit() -> Option<String> {
     for source in SOURCES {
         println!("cargo::rerun-if-changed={source}");
     }
-    let status = [&["status", "--porcelain", "--"][..], &SOURCES].concat();
+    // A file that git does not know is part of nothing that is built; a scene of the user's may lie there.
+    let status = ["status", "--porcelain", "--untracked-files=no", "--"];
+    let status = [&status[..], &SOURCES].concat();
     let dirty = if git(&status)?.is_empty() { "" } else { "-dirty" };
     Some(format!(" ({head}{dirty})"))
 }

@@ -283,7 +283,7 @@ mod tests {
     fn the_page_of_measures_names_each_of_them() {
         let page = concat!(
             env!("CARGO_MANIFEST_DIR"),
-            "/../docs/src/theory/measures.md"
+            "/fixtures/measures.md"
         );
         let page = std::fs::read_to_string(page).expect("the book is part of the repository");
         for (key, definition) in DEFINITIONS.into_iter().chain(KINDS) {
