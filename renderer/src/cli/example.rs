@@ -11,7 +11,11 @@ use crate::image::atomic::folder_of;
 
 pub(super) fn run(arguments: &ExampleArguments) -> Result<(), Failure> {
     let Some(name) = &arguments.name else {
-        let width = SCENES.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
+        let width = SCENES
+            .iter()
+            .map(|scene| scene.name.len())
+            .max()
+            .unwrap_or(0);
         for scene in SCENES {
             say(format!("{:<width$}  {}", scene.name, scene.about()));
         }
@@ -21,7 +25,10 @@ pub(super) fn run(arguments: &ExampleArguments) -> Result<(), Failure> {
         let known = SCENES.map(|scene| scene.name).join(", ");
         Failure::bad(format!("there is no example `{name}`; there are: {known}"))
     })?;
-    let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from(scene.name));
+    let folder = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(scene.name));
     let shown = folder.display();
     if fs::symlink_metadata(&folder).is_ok() {
         return Err(Failure::bad(format!(
