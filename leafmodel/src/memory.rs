@@ -27,6 +27,7 @@ pub fn untouched<T>(elements: Vec<T>) -> Vec<T> {
 }
 
 /// Bytes of a huge page.
+#[cfg(target_os = "linux")]
 const HUGE_PAGE: usize = 1 << 21;
 
 #[cfg(target_os = "linux")]

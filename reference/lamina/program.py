@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 import subprocess
+import sysconfig
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -49,17 +50,18 @@ def program() -> Path:
         if found is None:
             raise FileNotFoundError(f"the environment variable LAMINA names no program: {named}")
         return Path(found)
-    found = shutil.which("lamina")
-    if found is not None:
-        return Path(found)
+    # The wheel's own program is of this package's version; another on the path may be older.
+    for folder in (sysconfig.get_path("scripts"), None):
+        found = shutil.which("lamina", path=folder)
+        if found is not None:
+            return Path(found)
     root = Path(__file__).resolve().parents[2]
     built = Path(os.environ.get("CARGO_TARGET_DIR") or root / "target") / "release" / "lamina"
     if built.is_file():
         return built
     raise FileNotFoundError(
-        "no program `lamina`: install it (cargo install --path renderer/program), or name it in "
-        "the "
-        "environment variable LAMINA"
+        "no program `lamina`: install it (pip install lamina-render), or name it in the environment "
+        "variable LAMINA"
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import re
 import sys
 import tomllib
 from collections.abc import Callable
@@ -17,7 +18,8 @@ from lamina import denoise, print, report
 from lamina.extras import MODULES
 from lamina.mitsuba import variant
 
-DECLARED = tomllib.loads(Path(__file__).resolve().parents[1].joinpath("pyproject.toml").read_text())
+HERE = Path(__file__).resolve().parents[1]
+DECLARED = tomllib.loads(HERE.joinpath("pyproject.toml").read_text())
 VEIN = np.zeros((1, 2))
 LEAF = lamina.Grown(VEIN, VEIN, VEIN, VEIN, VEIN, VEIN, VEIN, [], {}, None, None)  # type: ignore[arg-type]
 # By extra: a call that needs it.
@@ -34,9 +36,10 @@ COMMANDS: dict[str, Callable[[list[str]], int]] = {"denoise": denoise.main, "pri
 def test_every_extra_has_packages_and_every_script_a_function() -> None:
     assert set(DECLARED["project"]["optional-dependencies"]) == set(MODULES)
     assert set(CALLS) | set(COMMANDS) == set(MODULES)
-    for script in DECLARED["project"]["scripts"].values():
-        module, _, name = script.partition(":")
-        assert callable(getattr(importlib.import_module(module), name)), script
+    for script in HERE.joinpath("data", "scripts").iterdir():
+        module = re.search(r"^from (lamina\.\w+) import main$", script.read_text(), re.MULTILINE)
+        assert module is not None, script
+        assert callable(importlib.import_module(module[1]).main), script
 
 
 @pytest.fixture

@@ -33,11 +33,13 @@ mod check;
 mod check_bsdf;
 mod columns;
 mod compare_networks;
+mod example;
 mod export;
 mod fit;
 mod fit_veins;
 mod grow;
 mod instruments;
+mod licenses;
 mod measure;
 mod merge;
 mod needs;
@@ -142,6 +144,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str)
         Command::Measure(measure) => measure::run(measure),
         Command::CompareNetworks(compare) => compare_networks::run(compare),
         Command::Trace(picture) => trace::run(picture),
+        Command::Example(example) => example::run(example),
         Command::Schema(schema) => schema::run(schema),
         Command::Sweep(sweep) => sweep::run(sweep),
         Command::FitVeins(fit) => fit_veins::run(fit),
@@ -150,6 +153,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str)
             Ok(())
         }
         Command::Man(man) => shell::man(man),
+        Command::Licenses => {
+            licenses::run();
+            Ok(())
+        }
     })
 }
 

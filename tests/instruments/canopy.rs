@@ -2,7 +2,7 @@
 
 use renderer::instruments::{Direction, InstrumentError, notes};
 
-use super::{NORMAL, built, figures, of, rays};
+use super::{NORMAL, built, figures, figures_of, of, rays};
 
 /// Discs afloat over ground.
 pub(super) fn discs(radius: f64, lai: f64, [low, high]: [f64; 2]) -> String {

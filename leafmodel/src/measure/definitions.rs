@@ -281,10 +281,7 @@ mod tests {
 
     #[test]
     fn the_page_of_measures_names_each_of_them() {
-        let page = concat!(
-            env!("CARGO_MANIFEST_DIR"),
-            "/../docs/src/theory/measures.md"
-        );
+        let page = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/measures.md");
         let page = std::fs::read_to_string(page).expect("the book is part of the repository");
         for (key, definition) in DEFINITIONS.into_iter().chain(KINDS) {
             // A row may name several by their ends: `areole_area_mm2_mean`, `_median`.

@@ -2,6 +2,7 @@
 
 mod check_bsdf;
 mod compare_networks;
+mod example;
 mod fit;
 mod fit_veins;
 mod grow;
@@ -22,6 +23,7 @@ use crate::film::MOST_SAMPLES;
 
 pub use check_bsdf::CheckBsdfArguments;
 pub use compare_networks::{Alignment, CompareNetworksArguments, Group, Groups};
+pub use example::ExampleArguments;
 pub use fit::FitArguments;
 pub use fit_veins::FitVeinsArguments;
 pub use grow::{CaptionedKinds, GrowArguments, VeinColour};
@@ -37,29 +39,29 @@ pub use trace::{ThresholdKind, TraceArguments};
 /// What `lamina` prints when nothing is asked for: what it is, the first command, the guide.
 pub const GREETING: &str = "\
 Lamina renders leaves: grown from biology, lit by spectra, recorded as light.
-Render the first leaf:  lamina render scenes/first-leaf/scene.toml
+Render the first leaf:  lamina example first-leaf && lamina render first-leaf/scene.toml
 Check a scene file:     lamina check SCENE.toml
 All commands:           lamina help
 The guide starts at:    docs/src/guide.md";
 
 const RENDER_EXAMPLES: &str = "\
 Examples:
-  lamina render scenes/first-leaf/scene.toml --spp 16 --out draft
-  lamina render scenes/first-leaf/scene.toml -D picture.tone=linear -D leaves.aspen.seed=3
-  lamina render scenes/first-leaf/scene.toml --spp 4096 --noise 0.01 --time 600
-  lamina render scenes/first-leaf/scene.toml --spp 4096 --resume";
+  lamina render first-leaf/scene.toml --spp 16 --out draft
+  lamina render first-leaf/scene.toml -D picture.tone=linear -D leaves.aspen.seed=3
+  lamina render first-leaf/scene.toml --spp 4096 --noise 0.01 --time 600
+  lamina render first-leaf/scene.toml --spp 4096 --resume";
 
 const MERGE_EXAMPLES: &str = "\
 Examples:
-  lamina render scenes/first-leaf/scene.toml --spp 64 --samples 0..32 --out a
-  lamina render scenes/first-leaf/scene.toml --spp 64 --samples 32..64 --out b
+  lamina render first-leaf/scene.toml --spp 64 --samples 0..32 --out a
+  lamina render first-leaf/scene.toml --spp 64 --samples 32..64 --out b
   lamina merge a.part b.part --out leaf";
 
 const CHECK_EXAMPLES: &str = "\
 Examples:
-  lamina check scenes/first-leaf/scene.toml
-  lamina check scenes/first-leaf/scene.toml -D leaves.aspen.length_mm=120
-  lamina check scenes/fly-agaric/scene.toml --build";
+  lamina check first-leaf/scene.toml
+  lamina check first-leaf/scene.toml -D leaves.aspen.length_mm=120
+  lamina check trillium/scene.toml --build";
 
 const TONEMAP_EXAMPLES: &str = "\
 Examples:
@@ -96,6 +98,9 @@ pub struct Arguments {
 /// The subcommands.
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
+    /// Write a scene that the program carries into a folder
+    #[command(after_help = example::EXAMPLES)]
+    Example(ExampleArguments),
     /// Render a scene to STEM.exr and STEM.png, or STEM.jpg
     #[command(after_help = RENDER_EXAMPLES)]
     Render(RenderArguments),
@@ -152,6 +157,8 @@ pub enum Command {
     Completions(CompletionsArguments),
     /// Write manual pages
     Man(ManArguments),
+    /// Print the licences of the program and of what it is built from
+    Licenses,
 }
 
 /// A scene file with overrides.

@@ -337,7 +337,7 @@ fn slips_in_words_are_told_with_their_places() {
 
 #[test]
 fn errors_of_the_scene_are_told_where_the_sweep_causes_them() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/flat-leaf/scene.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/flat-leaf/scene.toml");
     let words = [
         "film.spectral.spp=4,many",
         "camera.perspective.fov=3",

@@ -12,7 +12,7 @@ struct Case {
 }
 
 fn cases() -> Vec<Case> {
-    let text = include_str!("../../../../tests/data/prospect_d_reference.csv");
+    let text = include_str!("../../../fixtures/prospect_d_reference.csv");
     let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
     let mut cases: Vec<Case> = Vec::new();
     for row in rows {

@@ -144,7 +144,7 @@ fn reflectance(nm: f64) -> impl Fn(&Contents) -> f64 {
 
 #[test]
 fn each_number_lies_within_its_range_and_its_source_is_in_the_bibliography() {
-    let bibliography = include_str!("../../../../docs/references.bib");
+    let bibliography = include_str!("../../../fixtures/references.bib");
     for leaf in all_coloured() {
         assert!(find(leaf.preset).is_some(), "{}", leaf.preset);
         let green = leaf

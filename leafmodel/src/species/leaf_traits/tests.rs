@@ -100,7 +100,7 @@ fn grown_outlines_are_as_wide_as_floras_say_and_widest_where_they_say() {
 
 #[test]
 fn every_source_is_in_the_bibliography() {
-    let bibliography = include_str!("../../../../docs/references.bib");
+    let bibliography = include_str!("../../../fixtures/references.bib");
     for traits in all() {
         let quantities = traits.quantities().map(|(_, _, q)| q.from);
         let spans = traits.spans().map(|(_, _, span)| span.from);

@@ -11,7 +11,7 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   lamina grow poplar --out poplar.png poplar.graphml
   lamina grow birch --set seed=7 --out birch.ply --measure birch.json
-  lamina grow scenes/first-leaf/scene.toml#aspen --frames 24 --out aspen.png
+  lamina grow first-leaf/scene.toml#aspen --frames 24 --out aspen.png
   lamina grow poplar --frames 72 --sources --colour age --size 800 --out poplar.gif
   lamina grow birch-autumn --ages 48 --size 600 --out autumn.apng";
 

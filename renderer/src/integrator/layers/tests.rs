@@ -91,8 +91,8 @@ fn a_pixel_of_colour_takes_at_most_160_bytes() {
     assert!(colour.bytes_a_pixel() as f64 + of_its_block <= 160.0);
 }
 
-const GUIDE: &str = include_str!("../../../../docs/src/guide.md");
-const PATHS: &str = include_str!("../../../../docs/src/theory/paths.md");
+const GUIDE: &str = include_str!("../../../fixtures/guide.md");
+const PATHS: &str = include_str!("../../../fixtures/paths.md");
 
 /// The channels of a layer as written in the book.
 fn shown(layer: &FilmLayer) -> String {

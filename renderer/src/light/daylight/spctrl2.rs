@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn irradiance_is_that_of_pvlib_in_every_band() {
-        let text = include_str!("../../../../tests/data/daylight_reference.csv");
+        let text = include_str!("../../../fixtures/daylight_reference.csv");
         let cases: Vec<Vec<f64>> = text
             .lines()
             .filter_map(|line| line.strip_prefix("# case "))

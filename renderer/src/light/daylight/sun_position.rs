@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn the_sun_stands_where_the_nrel_algorithm_has_it() {
-        let table = include_str!("../../../../tests/data/sun_position_reference.csv");
+        let table = include_str!("../../../fixtures/sun_position_reference.csv");
         let mut places = 0;
         for line in table
             .lines()
