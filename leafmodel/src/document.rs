@@ -25,6 +25,7 @@ pub mod overrides;
 pub mod path;
 pub mod reader;
 pub mod report;
+pub mod rows;
 pub mod schema;
 pub mod sections;
 pub mod source;

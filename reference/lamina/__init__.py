@@ -12,8 +12,9 @@ with units and coordinates.
     problems = lamina.check("scene.toml")
     pictures = lamina.sweep("sweep.toml", store="pictures.zarr")
 
-The program is the one that the environment variable `LAMINA` names, else the one that was installed with this package, else the one
-on the path, else cargo's release build of the repository that holds this package.
+The program is the one that the environment variable `LAMINA` names, else the one that was installed
+with this package, else the one on the path, else cargo's release build of the repository that holds
+this package.
 """
 
 from lamina.checking import Problem, check

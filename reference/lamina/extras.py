@@ -13,7 +13,7 @@ DISTRIBUTION = "lamina-render"
 # By the name of the extra: the modules that must be there. `pyproject.toml` names their packages.
 MODULES = {
     "graph": ("networkx",),
-    "sweep": ("zarr", "distributed"),
+    "sweep": ("zarr", "distributed", "tqdm"),
     "report": ("jinja2",),
     "netcdf": ("scipy",),
     "denoise": ("mitsuba_oidn", "scipy"),

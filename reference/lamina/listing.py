@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
 import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from lamina.program import LaminaError, Value, overrides, program, written
+from lamina.program import Value, overrides, start, written
 
 
 @dataclass(frozen=True)
@@ -54,16 +53,7 @@ def list_tasks(what: str | Path, words: Sequence[str], file: Path) -> Listing:
     folder = file.parent
     with tempfile.NamedTemporaryFile(dir=folder, prefix=f".{file.name}-", delete=False) as out:
         try:
-            done = subprocess.run(
-                [program(), "sweep", str(what), *words, "--list"],
-                stdout=out,
-                stderr=subprocess.PIPE,
-                text=True,
-                encoding="utf-8",
-                check=False,
-            )
-            if done.returncode != 0:
-                raise LaminaError(done.stderr.strip(), done.returncode)
+            start(["sweep", str(what), *words, "--list"], stdout=out).result()
             Path(out.name).replace(file)
         except BaseException:
             Path(out.name).unlink(missing_ok=True)

@@ -13,6 +13,7 @@ import xarray as xr
 from lamina.extras import require
 from lamina.listing import list_tasks
 from lamina.program import LaminaError, Value, overrides, program, run
+from lamina.progress import bar
 from lamina.rendered import read
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ def render_in_parts(
     parts: int,
     seed: int | None = None,
     threads: int = 1,
+    progress: bool | None = None,
 ) -> xr.Dataset:
     """Renders a scene in `parts` ranges of its `spp` samples on the workers of a client of Dask
     distributed, adds them up with `lamina merge`, and gives the picture.
@@ -36,9 +38,12 @@ def render_in_parts(
     `out` is the stem of the EXR and the PNG, which have the bytes of a render in one go. Workers
     need the folder of `out`: parts go into `OUT.parts` and stay there until the picture is whole,
     so that a call after a failure does only what is not done. Each part grows the scene's leaves
-    anew. Raises LaminaError, and ValueError for more parts than samples.
+    again. `progress` shows a bar of the parts that are done, or none; by default it is shown in
+    terminals and notebooks. Raises LaminaError, and ValueError for more parts than samples.
     """
     require("sweep", "lamina.render_in_parts")
+    from distributed import as_completed
+
     if not 1 <= parts <= spp:
         raise ValueError(f"{parts} parts of {spp} samples: take 1 to {spp}")
     stem = Path(out).resolve()
@@ -61,13 +66,15 @@ def render_in_parts(
         for (first, end), file in zip(ranges, files, strict=True)
         if not file.exists()
     ]
-    for future in futures:
-        try:
-            future.result()
-        except LaminaError:
-            raise
-        except Exception as failure:
-            raise LaminaError(f"a part was not rendered: {failure!r}", 1) from failure
+    with bar(parts, "parts", parts - len(futures), progress) as shown:
+        for future in as_completed(futures):  # type: ignore[no-untyped-call]
+            try:
+                future.result()
+            except LaminaError:
+                raise
+            except Exception as failure:
+                raise LaminaError(f"a part was not rendered: {failure!r}", 1) from failure
+            shown.update()
     run(["merge", *files, "--out", stem])
     shutil.rmtree(folder)
     return read(stem.with_name(stem.name + ".exr"))

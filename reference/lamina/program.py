@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import subprocess
 import sysconfig
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from subprocess import PIPE, Popen
+from typing import IO, Any
 
 import numpy as np
 
@@ -60,27 +61,91 @@ def program() -> Path:
     if built.is_file():
         return built
     raise FileNotFoundError(
-        "no program `lamina`: install it (pip install lamina-render), or name it in the environment "
-        "variable LAMINA"
+        "no program `lamina`: install it (pip install lamina-render), or name it in the "
+        "environment variable LAMINA"
     )
+
+
+def start(
+    arguments: Sequence[str | Path], command: str | None = None, stdout: IO[bytes] | int = PIPE
+) -> Started:
+    """Starts the program, which ends with this process, however this one ends.
+
+    `command` is another machine's program, which is run if this one has it at the same place.
+    """
+    here = command is not None and Path(command).is_file()
+    # A signal at the death of a parent would come at the end of the thread that starts the program;
+    # a pipe closes with the process. Python lets no other program inherit its ends.
+    reading, held = os.pipe()
+    HELD.add(held)
+    try:
+        process = Popen(
+            [command if here and command else program(), "--end-with-stdin", *arguments],
+            stdin=reading,
+            stdout=stdout,
+            stderr=PIPE,
+            text=True,
+            encoding="utf-8",
+        )
+    except BaseException:
+        let_go(held)
+        raise
+    finally:
+        os.close(reading)
+    return Started(process, held)
+
+
+@dataclass(frozen=True)
+class Started:
+    """The program, running."""
+
+    process: Popen[str]
+    held: int
+    """The end of the pipe that keeps it running."""
+
+    def result(self) -> str:
+        """What it printed, once it has ended. Raises LaminaError if it failed.
+
+        Whatever interrupts the waiting ends the program, which saves its work before it leaves.
+        """
+        try:
+            out, told = self.process.communicate()
+        finally:
+            let_go(self.held)
+            self.process.wait()
+        if self.process.returncode != 0:
+            text = told.strip() or (out or "").strip()
+            raise LaminaError(text, self.process.returncode)
+        return out
+
+
+HELD: set[int] = set()
+"""The ends of pipes that keep programs running, which this process alone may hold."""
+
+
+def let_go(held: int) -> None:
+    """Closes the end of a pipe: the program behind it ends, if it has not yet."""
+    if held in HELD:
+        HELD.remove(held)
+        os.close(held)
+
+
+def let_all_go() -> None:
+    """Closes the pipes in a process that was forked: it would hold what its parent lets go."""
+    for held in tuple(HELD):
+        let_go(held)
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=let_all_go)
 
 
 def run(arguments: Sequence[str | Path], command: str | None = None) -> str:
     """Runs the program, gives what it printed. Raises LaminaError if it fails.
 
-    `command` is another machine's program, which is run if this one has it at the same place.
+    `command` is as in `start`.
     """
-    here = command is not None and Path(command).is_file()
-    done = subprocess.run(
-        [command if here and command else program(), *arguments],
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
-    )
-    if done.returncode != 0:
-        raise LaminaError(done.stderr.strip() or done.stdout.strip(), done.returncode)
-    return done.stdout
+    return start(arguments, command).result()
 
 
 def version() -> str:

@@ -11,29 +11,32 @@ import numpy as np
 import OpenImageIO as oiio
 import xarray as xr
 
+from lamina.conventions import PIXELS, WAVELENGTH, about, without_fill_values
 from lamina.program import Value, overrides, run
 
 # Spectral EXR layout of Fichet, Pacanowski and Wilkie (JCGT 10:3, 2021): emissive, unpolarised; the
 # decimal point is a comma.
 BAND = re.compile(r"^(?P<layer>\w+\.)?S0\.(?P<whole>\d+),(?P<part>\d+)nm$")
 
-# Layers of three channels: name of the variable, its unit, its axis and that axis' labels.
+# Layers of three channels: name of the variable, its unit, what it is, its axis, the axis' labels.
 TRIPLES = {
-    "": ("colour", "1", "channel", "RGB"),
-    "variance": ("colour_variance", "1", "channel", "RGB"),
-    "albedo": ("albedo", "1", "channel", "RGB"),
-    "N": ("normal", "1", "axis", "XYZ"),
-    "P": ("position", "m", "axis", "XYZ"),
+    "": ("colour", "1", "linear sRGB", "channel", "RGB"),
+    "variance": ("colour_variance", "1", "variance of the mean colour", "channel", "RGB"),
+    "albedo": ("albedo", "1", "albedo of what is seen first", "channel", "RGB"),
+    "N": ("normal", "1", "normal of what is seen first", "axis", "XYZ"),
+    "P": ("position", "m", "place of what is seen first", "axis", "XYZ"),
 }
 SINGLES = {
-    "A": ("coverage", "1"),
-    "albedo.Y": ("mean_albedo", "1"),
-    "depth.Z": ("depth", "m"),
-    "height.Z": ("height", "m"),
-    "id.object": ("object", "1"),
-    "samples.Y": ("samples", "1"),
-    "variance.Y": ("luminance_variance", "1"),
+    "A": ("coverage", "1", "fraction of the pixel that objects cover"),
+    "albedo.Y": ("mean_albedo", "1", "albedo of what is seen first, mean over the bands"),
+    "depth.Z": ("depth", "m", "distance of what is seen first from the camera"),
+    "height.Z": ("height", "m", "height of what is seen first"),
+    "id.object": ("object", "1", "number of the object that is seen first"),
+    "samples.Y": ("samples", "1", "samples of the pixel"),
+    "variance.Y": ("luminance_variance", "1", "variance of the mean luminance"),
 }
+# Of axes of words.
+LABELS = {"channel": "channel of colour", "axis": "axis of the scene"}
 RADIANCE = "W m-2 sr-1 nm-1"
 
 
@@ -99,32 +102,53 @@ def read(file: str | Path) -> xr.Dataset:
             centre = float(f"{band['whole']}.{band['part']}")
             spectral.setdefault(layer, []).append((centre, number))
         elif name in SINGLES:
-            key, unit = SINGLES[name]
-            layers[key] = xr.DataArray(pixels[:, :, number], dims=("y", "x"), attrs={"units": unit})
+            key, unit, words = SINGLES[name]
+            layers[key] = xr.DataArray(
+                pixels[:, :, number], dims=("y", "x"), attrs={"units": unit, "long_name": words}
+            )
     if spectral and "luminance_variance" in layers:
         layers["luminance_variance"].attrs["units"] = f"({RADIANCE})2"
     for layer, bands in spectral.items():
         bands.sort()
         name = "radiance" if not layer else f"radiance_{layer}"
+        is_variance = layer == "variance"
         layers[name] = xr.DataArray(
             pixels[:, :, [number for _, number in bands]],
             dims=("y", "x", "wavelength"),
-            coords={"wavelength": ("wavelength", [band for band, _ in bands], {"units": "nm"})},
-            attrs={"units": f"({RADIANCE})2" if layer == "variance" else RADIANCE},
+            coords={"wavelength": ("wavelength", [band for band, _ in bands], WAVELENGTH)},
+            attrs={
+                "units": f"({RADIANCE})2" if is_variance else RADIANCE,
+                "long_name": "variance of the mean spectral radiance"
+                if is_variance
+                else "spectral radiance",
+            },
         )
     numbers = {name: number for number, name in enumerate(spec.channelnames)}
-    for layer, (name, unit, axis, labels) in TRIPLES.items():
+    for layer, (name, unit, words, axis, labels) in TRIPLES.items():
         channels = [f"{layer}.{label}" if layer else label for label in labels]
         if all(channel in numbers for channel in channels):
             layers[name] = xr.DataArray(
                 pixels[:, :, [numbers[channel] for channel in channels]],
                 dims=("y", "x", axis),
-                coords={axis: list(labels)},
-                attrs={"units": unit},
+                coords={axis: (axis, list(labels), {"long_name": LABELS[axis]})},
+                attrs={"units": unit, "long_name": words},
             )
+    for name in ("radiance", "colour"):
+        if f"{name}_variance" in layers:
+            layers[name].attrs["ancillary_variables"] = f"{name}_variance"
     told = {
         attribute.name.removeprefix("lamina:"): attribute.value
         for attribute in spec.extra_attribs
         if attribute.name.startswith("lamina:")
     }
-    return xr.Dataset(layers, attrs={"software": spec.get_string_attribute("Software"), **told})
+    software, name = spec.get_string_attribute("Software"), str(told.get("sceneName", "picture"))
+    made = f"render of {name}, seed {told.get('seed')}, {told.get('spp')} samples per pixel"
+    picture = xr.Dataset(
+        layers,
+        coords={
+            axis: (axis, np.arange(count), PIXELS[axis])
+            for axis, count in zip(("y", "x"), pixels.shape, strict=False)
+        },
+        attrs={**about(name, software, made), "software": software, **told},
+    )
+    return without_fill_values(picture)

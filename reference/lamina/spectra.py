@@ -1,50 +1,93 @@
-"""Reflectance and transmittance of a leaf."""
+"""Reflectance and transmittance of leaves."""
 
 from __future__ import annotations
 
-import io
+import csv
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
+from lamina.conventions import WAVELENGTH, without_fill_values
 from lamina.program import run
 
-# Argument of `optics`, flag of the program, unit.
+# Argument of `optics`, which is the column of the program's table too, and its unit.
 CONTENTS = {
-    "structure": ("--n", "1"),
-    "chlorophyll": ("--cab", "ug cm-2"),
-    "carotenoids": ("--car", "ug cm-2"),
-    "anthocyanins": ("--ant", "ug cm-2"),
-    "betacyanins": ("--betacyanins", "ug cm-2"),
-    "betaxanthins": ("--betaxanthins", "ug cm-2"),
-    "brown": ("--brown", "1"),
-    "water": ("--cw", "cm"),
-    "dry_matter": ("--cm", "g cm-2"),
+    "structure": "1",
+    "chlorophyll": "ug cm-2",
+    "carotenoids": "ug cm-2",
+    "anthocyanins": "ug cm-2",
+    "betacyanins": "ug cm-2",
+    "betaxanthins": "ug cm-2",
+    "brown": "1",
+    "water": "cm",
+    "dry_matter": "g cm-2",
 }
 
 
-def optics(preset: str | None = None, **contents: float) -> xr.Dataset:
-    """`reflectance` and `transmittance` of a leaf by PROSPECT-D over `wavelength` (400–2500 nm).
+def optics(
+    preset: str | None = None,
+    *,
+    wavelengths: Sequence[float] | None = None,
+    **contents: ArrayLike,
+) -> xr.Dataset:
+    """`reflectance` and `transmittance` of leaves by PROSPECT-D over `wavelength`.
 
     `preset` is one of those that `lamina optics --list` names; contents that are given take the
     place of its own: `structure` (1 and more), `chlorophyll`, `carotenoids`, `anthocyanins`,
-    `betacyanins`, `betaxanthins` (µg/cm²), `brown`, `water` (cm), `dry_matter` (g/cm²). Raises
-    TypeError for another name, LaminaError for a value out of its range.
+    `betacyanins`, `betaxanthins` (µg/cm²), `brown`, `water` (cm), `dry_matter` (g/cm²). A number
+    holds for all leaves; lists and arrays of one dimension have a value for each leaf, and the
+    result has the dimension `leaf` and the contents as its coordinates. All leaves are computed by
+    one call of the program, at `wavelengths` (nm) or at each nanometre from 400 to 2500.
+
+    Raises TypeError for another name, ValueError for arrays of different lengths, LaminaError for
+    a value out of its range.
     """
-    arguments: list[str] = ["optics", "--out", "-"]
-    if preset is not None:
-        arguments += ["--preset", preset]
-    for name, value in contents.items():
+    for name in contents:
         if name not in CONTENTS:
             raise TypeError(f"optics() has no {name!r}; it has {', '.join(CONTENTS)}")
-        # One word, so that a negative number is not taken for a flag.
-        arguments.append(f"{CONTENTS[name][0]}={float(value)!r}")
-    table = np.loadtxt(io.StringIO(run(arguments)), delimiter=",", skiprows=2)
-    wavelengths = ("wavelength", table[:, 0], {"units": "nm"})
-    quantities = {
-        name: ("wavelength", table[:, column], {"units": "1"})
-        for name, column in (("reflectance", 1), ("transmittance", 2))
-    }
-    told: dict[str, float | str] = {} if preset is None else {"preset": preset}
-    told |= {name: float(value) for name, value in contents.items()}
-    return xr.Dataset(quantities, coords={"wavelength": wavelengths}, attrs=told)
+    given = {name: np.asarray(value, float) for name, value in contents.items()}
+    columns = dict(zip(given, np.broadcast_arrays(*given.values()), strict=True))
+    shape = next((column.shape for column in columns.values()), ())
+    if len(shape) > 1:
+        raise ValueError(f"contents of shape {shape}: give numbers, and arrays of one dimension")
+    count = shape[0] if shape else 1
+    with tempfile.TemporaryDirectory() as folder:
+        table, array = Path(folder, "leaves.csv"), Path(folder, "spectra.npy")
+        with table.open("w", encoding="utf-8", newline="") as file:
+            rows = csv.writer(file)
+            rows.writerow(["leaf", *columns])
+            values = [np.broadcast_to(column, count).tolist() for column in columns.values()]
+            rows.writerows(zip(range(count), *values, strict=True))
+        arguments: list[str | Path] = ["optics", "--table", table, "--out", array]
+        if preset is not None:
+            arguments += ["--preset", preset]
+        nanometres = np.arange(400.0, 2501.0)
+        if wavelengths is not None:
+            nanometres = np.asarray(wavelengths, float)
+            arguments.append("--nm=" + ",".join(map(repr, nanometres.tolist())))
+        run(arguments)
+        spectra = np.load(array)
+    dims = ("leaf", "wavelength") if shape else ("wavelength",)
+    found = xr.Dataset(
+        {
+            name: (
+                dims,
+                spectra[:, place] if shape else spectra[0, place],
+                {"units": "1", "long_name": f"directional-hemispherical {name} of a leaf"},
+            )
+            for place, name in enumerate(("reflectance", "transmittance"))
+        },
+        coords={"wavelength": ("wavelength", nanometres, WAVELENGTH)},
+        attrs={} if preset is None else {"preset": preset},
+    )
+    for name, value in given.items():
+        if value.ndim:
+            attrs = {"units": CONTENTS[name], "long_name": f"{name.replace('_', ' ')} of the leaf"}
+            found.coords[name] = ("leaf", columns[name], attrs)
+        else:
+            found.attrs[name] = float(value)
+    return without_fill_values(found)

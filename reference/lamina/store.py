@@ -17,6 +17,7 @@ import numpy as np
 import xarray as xr
 import zarr
 
+from lamina.conventions import about, units, without_fill_values
 from lamina.listing import Listing
 from lamina.program import Value
 
@@ -30,10 +31,15 @@ def create(
     path: Path, listing: Listing, layers: Mapping[str, xr.DataArray], batch: int
 ) -> zarr.Group:
     """A new store for the tasks of a listing, each with layers as those given."""
+    software = f"Lamina {listing.version}"
+    made = "pictures" if listing.kind == "render" else "leaves"
+    keys = ", ".join(key["key"] for key in listing.keys)
     attributes = {
-        "software": f"Lamina {listing.version}",
+        **about(f"Sweep of {made} over {keys}", software, "lamina.sweep"),
+        "software": software,
         "kind": listing.kind,
-        "keys": listing.keys,
+        # As text, because NetCDF has no attributes of attributes.
+        "keys": json.dumps(listing.keys),
         "batch": batch,
     }
     group = zarr.create_group(str(path), zarr_format=FORMAT, attributes=attributes)
@@ -57,7 +63,7 @@ def create(
         chunks=(batch,),
         dtype=np.uint64,
         fill_value=0,
-        attributes={"_ARRAY_DIMENSIONS": ["task"]},
+        attributes={"_ARRAY_DIMENSIONS": ["task"], "long_name": "id of the task if it is done"},
     )
     inputs(group, listing)
     zarr.consolidate_metadata(str(path), zarr_format=FORMAT)
@@ -74,9 +80,10 @@ def coordinates(group: zarr.Group, name: str, values: xr.DataArray) -> None:
 def inputs(group: zarr.Group, listing: Listing) -> None:
     """The identity of each task and the values of its keys, in place of those that are there."""
     dims = {"_ARRAY_DIMENSIONS": ["task"]}
-    column(group, "id", np.array([f"{identity:016x}" for identity in listing.ids]), dims)
+    identities = np.array([f"{identity:016x}" for identity in listing.ids])
+    column(group, "id", identities, {**dims, "long_name": "hash of all that the task depends on"})
     for key in listing.keys:
-        attrs = {**dims, **({"units": key["unit"]} if key["unit"] else {})}
+        attrs = {**dims, "long_name": key["key"], **units(key["unit"])}
         column(group, key["key"], array_of(listing.columns[key["key"]]), attrs)
 
 
@@ -116,7 +123,7 @@ def reopen(path: Path, listing: Listing) -> zarr.Group:
     if "id" not in group or "batch" not in group.attrs:
         raise ValueError(f"{path} is no store of a sweep: name another one")
     known = [int(str(identity), 16) for identity in part(group, "id")]
-    is_same = known == listing.ids[: len(known)] and group.attrs["keys"] == listing.keys
+    is_same = known == listing.ids[: len(known)] and group.attrs["keys"] == json.dumps(listing.keys)
     if not is_same:
         raise ValueError(
             f"{path} holds the results of another sweep, scene or version: name another store, or "
@@ -166,9 +173,12 @@ def results(path: Path) -> xr.Dataset:
         str(path), zarr_format=FORMAT, chunks=None, mask_and_scale=False
     )
     identities = np.array([int(str(identity), 16) for identity in data.id.values], np.uint64)
-    done = ("task", np.asarray(data.done.values, np.uint64) == identities)
+    is_done = np.asarray(data.done.values, np.uint64) == identities
+    done = ("task", is_done, {"long_name": "whether the task is done"})
     for layer in data.variables.values():
         # What no task has filled is no number, which needs no telling.
         layer.attrs.pop("_FillValue", None)
-    names = [key["key"] for key in data.attrs["keys"]]
-    return data.drop_vars("done").set_coords(["id", *names]).assign_coords(done=done)
+    names = [key["key"] for key in json.loads(data.attrs["keys"])]
+    return without_fill_values(
+        data.drop_vars("done").set_coords(["id", *names]).assign_coords(done=done)
+    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from uuid import uuid4
@@ -11,14 +11,21 @@ from uuid import uuid4
 import numpy as np
 import xarray as xr
 
+from lamina.conventions import measured
 from lamina.extras import require
 from lamina.grown import numbers_of
 from lamina.listing import Listing, flags, list_tasks, tasks_at
 from lamina.program import LaminaError, Value, program, run
+from lamina.progress import bar
 from lamina.rendered import read
 
 if TYPE_CHECKING:
     from distributed import Client
+
+# Store, name of the call, file of tasks, offset and number of a batch's first, count, program.
+Call = tuple[str, str, str, int, int, int, str]
+# A task that failed: number, reason, exit status.
+Failed = tuple[int, str, int]
 
 # Results that a worker holds at a time, bytes.
 MOST_BYTES = 64 << 20
@@ -39,6 +46,7 @@ def sweep(
     noise: float | None = None,
     batch: int | None = None,
     threads: int | None = None,
+    progress: bool | None = None,
 ) -> xr.Dataset:
     """Does the tasks of a sweep and gives their results.
 
@@ -49,7 +57,8 @@ def sweep(
     With a `client` of Dask distributed its workers do the tasks, `threads` each (1); without one
     this process does, with all processors. Workers need this package, the program in the same
     version, and the folder of `store`: results go there, not through the scheduler. A worker hands
-    in `batch` tasks at a time.
+    in `batch` tasks at a time. `progress` shows a bar of the tasks that are done, or none; by
+    default it is shown in terminals and notebooks.
 
     `store` is a Zarr store, which is made, or taken up: what is done in it is not done again. Its
     bytes depend on the sweep alone, whatever was killed or repeated on the way. The dataset has
@@ -85,10 +94,13 @@ def sweep(
         (str(place), call, str(listing.file), listing.offsets[start], start, length, command)
         for start in starts
     ]
-    if client is None:
-        failed = [failure for call in calls for failure in work(*call, threads)]
-    else:
-        failed = on_cluster(client, calls, threads or 1)
+    failed: list[Failed] = []
+    with bar(len(listing.ids), "tasks", int((~is_open).sum()), progress) as shown:
+        batches = in_turn(calls, threads) if client is None else on_cluster(client, calls, threads)
+        for start, of_batch in batches:
+            failed += of_batch
+            shown.update(int(is_open[start : start + length].sum()))
+    if client is not None:
         # Halves that killed workers have left.
         for half in place.rglob("*.partial"):
             half.unlink(missing_ok=True)
@@ -128,22 +140,27 @@ def without_samples(arguments: list[str]) -> list[str]:
     return kept
 
 
+def in_turn(calls: list[Call], threads: int | None) -> Iterator[tuple[int, list[Failed]]]:
+    """Does batches one after the other; the first task of each, and those that failed."""
+    for call in calls:
+        yield call[4], work(*call, threads)
+
+
 def on_cluster(
-    client: Client, calls: list[tuple[Any, ...]], threads: int
-) -> list[tuple[int, str, int]]:
-    """Lets workers do batches; the tasks that failed."""
+    client: Client, calls: list[Call], threads: int | None
+) -> Iterator[tuple[int, list[Failed]]]:
+    """Lets workers do batches; the first task of each, as they end, and those that failed."""
     from distributed import as_completed
 
-    futures = [client.submit(work, *call, threads, pure=False, retries=2) for call in calls]
+    futures = [client.submit(work, *call, threads or 1, pure=False, retries=2) for call in calls]
     starts = {future.key: call[4] for future, call in zip(futures, calls, strict=True)}
-    failed: list[tuple[int, str, int]] = []
     for future in as_completed(futures):  # type: ignore[no-untyped-call]
+        start = starts[future.key]
         if future.status == "finished":
-            failed += future.result()
+            yield start, future.result()
         else:
-            failed.append((starts[future.key], repr(future.exception()), 1))
+            yield start, [(start, repr(future.exception()), 1)]
         future.release()
-    return failed
 
 
 def work(
@@ -155,7 +172,7 @@ def work(
     count: int,
     command: str,
     threads: int | None,
-) -> list[tuple[int, str, int]]:
+) -> list[Failed]:
     """Does the open tasks of a batch and writes them; gives those that failed, with why.
 
     It may be done several times, and by several workers at a time: they write the same bytes.
@@ -169,7 +186,7 @@ def work(
     identities = np.array([int(task["id"], 16) for task in listed], np.uint64)
     version = str(group.attrs["software"]).removeprefix("Lamina ")
     was_done = bool(done.any())
-    failed: list[tuple[int, str, int]] = []
+    failed: list[Failed] = []
     blocks: dict[str, stores.Array] = {}
     for index in np.flatnonzero(done != identities):
         try:
@@ -211,7 +228,10 @@ def layers_of(
             measures = Path(folder, "measures.json")
             run([*arguments, "--measure", measures], command)
             numbers = numbers_of(measures.read_text(encoding="utf-8"))
-            return {name: xr.DataArray(np.float64(value)) for name, value in numbers.items()}
+            return {
+                name: xr.DataArray(np.float64(value), attrs=measured(name))
+                for name, value in numbers.items()
+            }
         run([*arguments, "--out", Path(folder, "picture")], command)
         picture = read(Path(folder, "picture.exr"))
     if picture.attrs["software"] != f"Lamina {version}":

@@ -302,7 +302,7 @@ def test_problems_of_a_scene_are_told_with_their_places() -> None:
 
 def test_what_the_program_refuses_is_an_error_with_its_words() -> None:
     assert "poplar" in str(refused(lambda: lamina.grow("popplar")))
-    assert "at least 0" in str(refused(lambda: lamina.optics(water=-1)))
+    assert "outside 0 to 1 cm" in str(refused(lambda: lamina.optics(water=-1)))
     failure = refused(lambda: lamina.render("nowhere.toml"))
     assert "nowhere.toml" in str(failure) and failure.code == 2
     try:

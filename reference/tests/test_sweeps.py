@@ -77,7 +77,7 @@ def test_results_are_those_of_single_renders() -> None:
         )
         assert dict(pictures.sizes)["task"] == 4 and bool(pictures.done.all())
         assert pictures[RADIUS].values.tolist() == [0.5, 0.5, 1.5, 1.5]
-        assert pictures[RADIUS].attrs["units"] == "pixels"
+        assert pictures[RADIUS].attrs["units"] == "1"
         assert pictures.seed.values.tolist() == [1, 2, 1, 2]
         for task in range(4):
             values = SMALL | {RADIUS: radii[task // 2]}

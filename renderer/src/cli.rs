@@ -124,6 +124,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str)
             };
         }
     };
+    if arguments.end_with_stdin {
+        signals::end_with_stdin();
+    }
     let Some(command) = arguments.command else {
         say(GREETING);
         return exit_code(Ok(()));

@@ -11,6 +11,7 @@ use super::error::ImportError;
 use super::fields::{EdgeField, NodeField};
 use super::graph::{Builder, Text};
 use super::is_blank;
+use crate::document::rows::delimiter;
 
 /// Reads a table of edges, and one of nodes if there is one.
 ///
@@ -244,15 +245,9 @@ impl<'t> Table<'t> {
         what: &'static str,
         is_known: &dyn Fn(&str) -> bool,
     ) -> Result<Self, ImportError> {
-        let first = text
-            .lines()
-            .find(|line| !line.starts_with('#') && !line.trim().is_empty());
-        let first = first.unwrap_or_default();
-        let count = |c: char| first.chars().filter(|x| *x == c).count();
-        let delimiter = [',', ';', '\t'].into_iter().rev().max_by_key(|&c| count(c));
-        let delimiter = delimiter.unwrap_or(',');
+        let delimiter = delimiter(text);
         let mut rows = ReaderBuilder::new()
-            .delimiter(delimiter as u8)
+            .delimiter(delimiter)
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
             .from_reader(text.trim_start_matches('\u{feff}').as_bytes());
@@ -270,7 +265,7 @@ impl<'t> Table<'t> {
         Ok(Self {
             header,
             rows,
-            has_decimal_commas: delimiter != ',',
+            has_decimal_commas: delimiter != b',',
             row: StringRecord::new(),
         })
     }

@@ -71,6 +71,7 @@ Examples:
 const OPTICS_EXAMPLES: &str = "\
 Examples:
   lamina optics --cab 45 --car 10 --cw 0.011 --cm 0.006 --out leaf.csv
+  lamina optics --table leaves.csv --out spectra.csv --preset sun-green
   lamina optics --preset birch-yellow --colour
   lamina optics --preset sun-green --layers layers.csv";
 
@@ -93,6 +94,10 @@ pub struct Arguments {
     /// What is to be done; without it the greeting is printed.
     #[command(subcommand)]
     pub command: Option<Command>,
+    /// End, with the work saved, when the standard input closes: for programs that start this one,
+    /// because their end of it closes however they end
+    #[arg(long, global = true, hide_short_help = true)]
+    pub end_with_stdin: bool,
 }
 
 /// The subcommands.

@@ -267,8 +267,9 @@ fn contents(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
     text
 }
 
-fn quoted(name: &str) -> String {
-    if name.contains([',', '"', '\n']) {
+/// A name as a field of a table. A line that begins with `#` would be a comment.
+pub(super) fn quoted(name: &str) -> String {
+    if name.contains([',', '"', '\n', '#']) {
         format!("\"{}\"", name.replace('"', "\"\""))
     } else {
         name.to_owned()

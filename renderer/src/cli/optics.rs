@@ -6,6 +6,7 @@ mod colour;
 mod figures;
 mod layers;
 mod leaf;
+mod table;
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -32,6 +33,9 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     if arguments.figures {
         say(figures::table());
         return Ok(());
+    }
+    if let (Some(file), Some(out)) = (&arguments.table, &arguments.out) {
+        return table::run(arguments, file, out);
     }
     let chosen = leaf::choose(arguments)?;
     let files = [
@@ -66,17 +70,12 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
         check_writable(file)?;
     }
     let Chosen { contents, .. } = chosen;
-    if contents.mixes_betalains_and_anthocyanins() {
-        eprintln!(
-            "warning: this leaf holds betalains and anthocyanins, which never occur in the same plant: {}",
-            Contents::NEVER_TOGETHER
-        );
-    }
+    warn_of_mixtures(&[contents]);
     if arguments.about {
         say(chosen.about());
     }
     if let Some(file) = &arguments.out {
-        hand_over(file, &table(&contents, &chosen.line()))?;
+        hand_over(file, &spectrum(&contents, &chosen.line()))?;
     }
     match &arguments.layers {
         Some(Some(file)) => hand_over(file, &layers::table(&contents, &chosen.line()))?,
@@ -112,6 +111,25 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Warns of leaves that no plant has.
+fn warn_of_mixtures(leaves: &[Contents]) {
+    let count = leaves
+        .iter()
+        .filter(|leaf| leaf.mixes_betalains_and_anthocyanins())
+        .count();
+    if count > 0 {
+        let who = if leaves.len() == 1 {
+            "this leaf holds".to_owned()
+        } else {
+            format!("{count} of {} leaves hold", leaves.len())
+        };
+        eprintln!(
+            "warning: {who} betalains and anthocyanins, which never occur in the same plant: {}",
+            Contents::NEVER_TOGETHER
+        );
+    }
+}
+
 /// Writes a table to a file or to the standard output.
 fn hand_over(file: &Path, table: &str) -> Result<(), Failure> {
     if is_stdout(file) {
@@ -141,15 +159,15 @@ fn check_ending(file: &Path, ending: &str, what: &str) -> Result<(), Failure> {
 }
 
 /// R and T at every nanometre of PROSPECT-D's table; a comment says what wrote it, of which leaf.
-fn table(contents: &Contents, leaf: &str) -> String {
+fn spectrum(contents: &Contents, leaf: &str) -> String {
     let mut table = format!("# Lamina {PROGRAM}, PROSPECT-D: {leaf}\nwavelength_nm,R,T\n");
     for nm in 400..=2500 {
         let at = ProspectD::coefficients_extrapolated(f64::from(nm));
         let optics = at.reflectance_transmittance(contents);
-        // Seventeen digits reproduce the number exactly. Writing to a String cannot fail.
+        // As many digits as give back the number. Writing to a String cannot fail.
         let _ = writeln!(
             table,
-            "{nm},{:.17},{:.17}",
+            "{nm},{},{}",
             optics.reflectance, optics.transmittance
         );
     }

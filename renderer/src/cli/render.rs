@@ -251,7 +251,9 @@ fn build_world(
 
 /// The command that goes on from a checkpoint.
 fn how_to_go_on(checkpoint: &Path, line: &[OsString]) -> String {
-    let mut words: Vec<String> = line.iter().map(|word| quoted(word)).collect();
+    // A person who copies the command has no program behind its standard input.
+    let words = line.iter().filter(|word| *word != "--end-with-stdin");
+    let mut words: Vec<String> = words.map(|word| quoted(word)).collect();
     if !words.iter().any(|word| word == "--resume") {
         words.push("--resume".to_owned());
     }
@@ -285,6 +287,7 @@ mod tests {
             "my scene.toml",
             "-D",
             "a.b=\"it's\"",
+            "--end-with-stdin",
             "",
         ];
         let line = line.map(OsString::from);

@@ -102,6 +102,20 @@ fn is_ignored(signal: i32) -> bool {
     mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
+/// Ends the program, as SIGTERM does, once the standard input closes. Its other end is held by the
+/// process that started this one, and closes however that process ends, SIGKILL included.
+pub(super) fn end_with_stdin() {
+    std::thread::spawn(|| {
+        // What is written there has no meaning, and what cannot be read counts as closed.
+        let _ = std::io::copy(&mut std::io::stdin(), &mut std::io::sink());
+        #[cfg(unix)]
+        let _ =
+            rustix::process::kill_process(rustix::process::getpid(), rustix::process::Signal::TERM);
+        #[cfg(not(unix))]
+        std::process::exit(130);
+    });
+}
+
 /// Lets a write beyond the limit of file sizes (`ulimit -f`) fail as any other, instead of ending
 /// the program.
 pub(super) fn survive_file_limits() {

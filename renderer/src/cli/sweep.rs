@@ -34,19 +34,18 @@ use crate::sweep::{Sweep, Target, Words, is_sweep_file};
 
 pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let sweep = opened(arguments)?;
-    let range = match arguments.tasks {
-        None => 0..sweep.len(),
-        Some(tasks) if tasks.end <= sweep.len() => tasks.first..tasks.end,
-        Some(tasks) => {
-            return Err(Failure::bad(format!(
-                "--tasks {}..{}: the sweep has {} tasks, from 0 to {}",
-                tasks.first,
-                tasks.end,
-                sweep.len(),
-                sweep.len() - 1
-            )));
-        }
-    };
+    let count = sweep.len();
+    let range = arguments.tasks.map_or(0..count, |tasks| tasks.of(count));
+    if range.end > count {
+        let (first, end, last) = (range.start, range.end, count - 1);
+        return Err(Failure::bad(format!(
+            "--tasks {first}..{end}: the sweep has {count} tasks, from 0 to {last}"
+        )));
+    }
+    if range.is_empty() {
+        eprintln!("this part of the {count} tasks is empty");
+        return Ok(());
+    }
     let Some(folder) = &arguments.out else {
         return list::print(&sweep, arguments, range);
     };
@@ -56,7 +55,7 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     std::fs::create_dir_all(&made).map_err(refused)?;
     let table = folder.join(match arguments.tasks {
         None => "sweep.csv".to_owned(),
-        Some(tasks) => format!("sweep-{}-{}.csv", tasks.first, tasks.end),
+        Some(_) => format!("sweep-{}-{}.csv", range.start, range.end),
     });
     check_writable(&table)?;
     check_writable(&made.join("record"))?;

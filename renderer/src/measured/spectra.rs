@@ -6,6 +6,7 @@
 //! recognised and told. [`of_files`] joins files of one spectrum each to a leaf.
 
 use csv::StringRecord;
+use leafmodel::document::rows::delimiter;
 
 use super::columns::{Column, Measure, columns};
 use super::series::Series;
@@ -265,20 +266,6 @@ fn between(points: &[(f64, f64)], nm: f64) -> f64 {
     }
     let (x0, y0) = points[above - 1];
     y0 + (y1 - y0) * (nm - x0) / (x1 - x0)
-}
-
-/// The separator that the line of names has most of.
-fn delimiter(text: &str) -> u8 {
-    let names = text
-        .lines()
-        .find(|line| !line.starts_with('#') && !line.trim().is_empty());
-    let names = names.unwrap_or_default();
-    let count = |separator: u8| names.bytes().filter(|byte| *byte == separator).count();
-    // The last of equals is taken, so that the comma wins.
-    [b'\t', b';', b',']
-        .into_iter()
-        .max_by_key(|separator| count(*separator))
-        .unwrap_or(b',')
 }
 
 fn number(record: &StringRecord, names: &StringRecord, column: usize) -> Result<f64, String> {

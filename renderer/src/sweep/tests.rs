@@ -264,7 +264,7 @@ const SLIPS: &[(&str, &str, [&str; 3])] = &[
         "a,b\n1,2\n3\n",
         [
             "rows.csv:3:1",
-            "a row of 1 values under 2 keys",
+            "a row of 1 values under 2 names",
             "one value for each key",
         ],
     ),

@@ -8,6 +8,7 @@ use leafmodel::optics::{Constituent, PerConstituent};
 /// `lamina optics`: a preset, PROSPECT-D's inputs and betalains, and what is to be told of them.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 #[command(group = ArgGroup::new("wanted").args(["list", "figures", "out", "colour", "layers", "angles", "about"]).required(true).multiple(true))]
+#[command(group = ArgGroup::new("by_wavelength").args(["angles", "table"]))]
 pub struct OpticsArguments {
     /// Start from the contents of a preset; numbers that are given take the place of its own
     #[arg(long, value_name = "NAME")]
@@ -19,33 +20,39 @@ pub struct OpticsArguments {
     #[arg(long, exclusive = true)]
     pub figures: bool,
     /// Structure N, number of plates, at least 1 [default: 1.5]
-    #[arg(long, value_parser = at_least_one)]
+    #[arg(long, value_parser = in_range(Constituent::Structure))]
     pub n: Option<f64>,
     /// Chlorophyll a + b, µg/cm² [default: 40]
-    #[arg(long, value_parser = at_least_zero)]
+    #[arg(long, value_parser = in_range(Constituent::Chlorophyll))]
     pub cab: Option<f64>,
     /// Carotenoids, µg/cm² [default: 8]
-    #[arg(long, value_parser = at_least_zero)]
+    #[arg(long, value_parser = in_range(Constituent::Carotenoids))]
     pub car: Option<f64>,
     /// Anthocyanins, µg/cm² [default: 0]
-    #[arg(long, value_parser = at_least_zero)]
+    #[arg(long, value_parser = in_range(Constituent::Anthocyanins))]
     pub ant: Option<f64>,
     /// Betacyanins (betanin), µg/cm²; not in PROSPECT-D [default: 0]
-    #[arg(long, value_name = "BETACYANINS", value_parser = at_least_zero)]
+    #[arg(long, value_name = "BETACYANINS", value_parser = in_range(Constituent::Betacyanins))]
     pub betacyanins: Option<f64>,
     /// Betaxanthins (indicaxanthin), µg/cm²; not in PROSPECT-D [default: 0]
-    #[arg(long, value_name = "BETAXANTHINS", value_parser = at_least_zero)]
+    #[arg(long, value_name = "BETAXANTHINS", value_parser = in_range(Constituent::Betaxanthins))]
     pub betaxanthins: Option<f64>,
     /// Brown pigments, PROSPECT's unit [default: 0]
-    #[arg(long, value_parser = at_least_zero)]
+    #[arg(long, value_parser = in_range(Constituent::Brown))]
     pub brown: Option<f64>,
     /// Water, cm [default: 0.01]
-    #[arg(long, value_parser = at_least_zero)]
+    #[arg(long, value_parser = in_range(Constituent::Water))]
     pub cw: Option<f64>,
     /// Dry matter, g/cm² [default: 0.009]
-    #[arg(long, value_parser = at_least_zero)]
+    #[arg(long, value_parser = in_range(Constituent::DryMatter))]
     pub cm: Option<f64>,
-    /// Table to write: `wavelength_nm,R,T`; `-` is the standard output
+    /// A leaf in each row: columns are named as these options (`cab`) or as `lamina fit --out` names
+    /// them (`chlorophyll_ug_per_cm2`), `leaf` or `id` names the leaf, and options or the preset
+    /// give what has no column; --out is then `leaf,wavelength_nm,R,T`, or an array of NumPy
+    #[arg(long, value_name = "LEAVES.csv", requires = "out", conflicts_with_all = ["colour", "layers", "angles", "about"])]
+    pub table: Option<PathBuf>,
+    /// Table to write: `wavelength_nm,R,T`; `-` is the standard output; with --table also `.npy`,
+    /// float64 by leaf, R and T, wavelength
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
     /// Print the colours of R and T under D65 (XYZ by CIE 1931 2°, sRGB), or write them as JSON
@@ -60,8 +67,9 @@ pub struct OpticsArguments {
     /// table; `-` is the standard output
     #[arg(long, value_name = "FILE.csv")]
     pub angles: Option<PathBuf>,
-    /// Wavelengths of that table, nm, 400 to 2500 [default: 450,550,680,800]
-    #[arg(long, value_name = "NM", value_delimiter = ',', requires = "angles", value_parser = in_table)]
+    /// Wavelengths of --angles [default: 450,550,680,800] or --table [default: each nanometre], 400 to
+    /// 2500
+    #[arg(long, value_name = "NM", value_delimiter = ',', requires = "by_wavelength", value_parser = in_table)]
     pub nm: Vec<f64>,
     /// Give means over ranges of directions in that table instead, beside what so many photons find,
     /// 1000 to 1000000000, with standard errors
@@ -98,19 +106,14 @@ fn in_table(text: &str) -> Result<f64, String> {
     }
 }
 
-fn at_least_zero(text: &str) -> Result<f64, String> {
-    at_least(0.0, text)
-}
-
-fn at_least_one(text: &str) -> Result<f64, String> {
-    at_least(1.0, text)
-}
-
-fn at_least(least: f64, text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    if value.is_finite() && value >= least {
-        Ok(value)
-    } else {
-        Err(format!("write a finite number of at least {least}"))
+/// A number in the range of a constituent.
+fn in_range(of: Constituent) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| {
+        let [low, high] = of.range();
+        let value = text.parse().map_err(|_| "not a number".to_owned())?;
+        let is_allowed = (low..=high).contains(&value);
+        is_allowed
+            .then_some(value)
+            .ok_or_else(|| format!("write a number from {low} to {high}"))
     }
 }

@@ -1,5 +1,6 @@
 //! `lamina sweep` as written.
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -11,6 +12,7 @@ Examples:
   lamina sweep sweep.toml --out made
   lamina sweep scenes/flat-leaf/scene.toml --over materials.leaf.leaf.contents.chlorophyll_ug_per_cm2=10..70/7 --out made
   lamina sweep birch --over kill_distance_segments=1,2,4 --seeds 5 --out made
+  lamina sweep sweep.toml --out made --tasks 3/20
   lamina sweep sweep.toml --list";
 
 /// `lamina sweep`.
@@ -42,8 +44,8 @@ pub struct SweepArguments {
     /// Print the tasks as JSON lines instead of doing them, the first line for what they share
     #[arg(long, conflicts_with = "out")]
     pub list: bool,
-    /// Only the tasks number A to B − 1, from 0
-    #[arg(long, value_name = "A..B", value_parser = TaskRange::parse)]
+    /// Only the tasks number A to B − 1, from 0; or part K of N equal parts, K from 0, for job arrays
+    #[arg(long, value_name = "A..B|K/N", value_parser = TaskRange::parse)]
     pub tasks: Option<TaskRange>,
     /// Tasks at a time
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
@@ -56,23 +58,68 @@ pub struct SweepArguments {
     pub cache: Option<PathBuf>,
 }
 
-/// Numbers of tasks, from `first` to `end − 1`.
+/// Some of the tasks of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TaskRange {
-    /// The first one.
-    pub first: usize,
-    /// The number behind the last one, greater than `first`.
-    pub end: usize,
+pub enum TaskRange {
+    /// From `first` to `end − 1`, at least one.
+    Numbers {
+        /// The first one.
+        first: usize,
+        /// The number behind the last one.
+        end: usize,
+    },
+    /// Part `number`, from 0, of `of` parts of equal size.
+    Part {
+        /// Which part, less than `of`.
+        number: usize,
+        /// The number of parts.
+        of: usize,
+    },
 }
 
 impl TaskRange {
     fn parse(text: &str) -> Result<Self, String> {
-        let ends = text.split_once("..");
-        let ends = ends.and_then(|(first, end)| first.parse().ok().zip(end.parse().ok()));
-        match ends {
-            Some((first, end)) if first < end => Ok(Self { first, end }),
-            Some(_) | None => {
-                Err("write A..B with A < B, as in 0..50 for the first 50 tasks".to_owned())
+        let pair = |separator: &str| {
+            let (first, second) = text.split_once(separator)?;
+            first.parse().ok().zip(second.parse().ok())
+        };
+        match (pair(".."), pair("/")) {
+            (Some((first, end)), _) if first < end => Ok(Self::Numbers { first, end }),
+            (_, Some((number, of))) if number < of => Ok(Self::Part { number, of }),
+            _ => Err(
+                "write A..B with A < B, as in 0..50 for the first 50 tasks, or K/N with K < N, as in \
+                 0/20 for the first of 20 parts"
+                    .to_owned(),
+            ),
+        }
+    }
+
+    /// The numbers among so many tasks; they may end beyond the last one, and a part may be empty.
+    pub fn of(self, tasks: usize) -> Range<usize> {
+        match self {
+            Self::Numbers { first, end } => first..end,
+            Self::Part { number, of } => {
+                // As wide as the product needs.
+                let border = |part: usize| (tasks as u128 * part as u128 / of as u128) as usize;
+                border(number)..border(number + 1)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_of_equal_size_and_all_tasks_together() {
+        for (tasks, of) in [(7, 3), (3, 7), (usize::MAX, 5)] {
+            let part = |number| TaskRange::Part { number, of }.of(tasks);
+            let parts: Vec<Range<usize>> = (0..of).map(part).collect();
+            assert_eq!((parts[0].start, parts[of - 1].end), (0, tasks));
+            for (part, next) in parts.iter().zip(&parts[1..]) {
+                assert_eq!(part.end, next.start);
+                assert!(part.len().abs_diff(next.len()) <= 1);
             }
         }
     }

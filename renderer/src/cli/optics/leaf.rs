@@ -52,13 +52,22 @@ fn unknown_preset(wanted: &str) -> Failure {
 }
 
 impl Chosen {
+    /// The name of a content's option, without dashes.
+    pub(super) fn option(&self, of: Constituent) -> &'static str {
+        self.given[of].0.trim_start_matches('-')
+    }
+
+    /// Whether an option gives a content.
+    pub(super) fn is_given(&self, of: Constituent) -> bool {
+        self.given[of].1.is_some()
+    }
+
     /// Preset and numbers in a line.
     pub(super) fn line(&self) -> String {
         let mut words = Vec::new();
         words.extend(self.preset.map(|preset| preset.name.to_owned()));
         for (constituent, value) in *self.contents {
-            let (option, _) = self.given[constituent];
-            words.push(format!("{} {value}", option.trim_start_matches('-')));
+            words.push(format!("{} {value}", self.option(constituent)));
         }
         words.join(" ")
     }

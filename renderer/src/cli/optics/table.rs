@@ -1,0 +1,261 @@
+//! `lamina optics --table`: a leaf in each row of a table, and the spectra of all of them.
+
+mod output;
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use leafmodel::document::context::{Context, QUOTED};
+use leafmodel::document::error::DocumentError;
+use leafmodel::document::limits::Limits;
+use leafmodel::document::nearest::nearest;
+use leafmodel::document::report::DocumentErrors;
+use leafmodel::document::rows::{Field, Rows};
+use leafmodel::document::source::{Sources, escaped};
+use leafmodel::optics::{Constituent, Contents, ProspectD};
+
+use super::leaf::{self, Chosen};
+use super::warn_of_mixtures;
+use crate::cli::arguments::OpticsArguments;
+use crate::cli::places::check_outputs;
+use crate::cli::{Failure, note_output, say};
+use crate::image::atomic;
+
+/// Names of the column that names leaves.
+const IDENTITIES: [&str; 5] = ["leaf", "id", "name", "sample", "case"];
+/// Columns of `lamina fit` that are no contents, beside those of standard errors.
+const OF_FITS: [&str; 3] = ["face_contrast", "rms", "values"];
+
+const EMPTY: &str = "has an empty value";
+
+/// The leaves of a table.
+struct Leaves {
+    /// The name of the column that names them.
+    column: String,
+    names: Vec<String>,
+    contents: Vec<Contents>,
+}
+
+pub(super) fn run(arguments: &OpticsArguments, table: &Path, out: &Path) -> Result<(), Failure> {
+    let is_stdout = super::is_stdout(out);
+    let is_array = out.extension().is_some_and(|ending| ending == "npy");
+    if !is_stdout {
+        if !is_array {
+            super::check_ending(out, "csv", "--table writes .npy or a table")?;
+        }
+        check_outputs(&[out], &[table.to_owned()], "the command")?;
+    }
+    let bytes = std::fs::read_to_string(table);
+    let text = bytes.map_err(|error| Failure::bad(format!("{}: {error}", table.display())))?;
+    let leaves = read(&leaf::choose(arguments)?, table, &text)?;
+    drop(text);
+    warn_of_mixtures(&leaves.contents);
+    let wavelengths: Vec<f64> = if arguments.nm.is_empty() {
+        (400..=2500).map(f64::from).collect()
+    } else {
+        arguments.nm.clone()
+    };
+    let at: Vec<_> = wavelengths
+        .iter()
+        .map(|&nm| ProspectD::coefficients_extrapolated(nm))
+        .collect();
+    if is_stdout {
+        let mut stdout = std::io::stdout().lock();
+        note_output(output::csv(&leaves, &wavelengths, &at, &mut stdout));
+    } else {
+        let written = atomic::replace(out, |file| {
+            if is_array {
+                output::npy(&leaves, &at, file)
+            } else {
+                output::csv(&leaves, &wavelengths, &at, file)
+            }
+        });
+        written.map_err(Failure::system)?;
+        say(out.display());
+    }
+    eprintln!(
+        "PROSPECT-D, table of Feret, Gitelson, Noble and Jacquemoud (2017): {} leaves at {} wavelengths",
+        leaves.contents.len(),
+        at.len()
+    );
+    Ok(())
+}
+
+/// What a column holds.
+#[derive(Clone, Copy, PartialEq)]
+enum Column {
+    Name,
+    Content(Constituent),
+    Other,
+}
+
+/// The leaves of the table, or all that is wrong with it.
+fn read(chosen: &Chosen, file: &Path, text: &str) -> Result<Leaves, DocumentErrors> {
+    let shown = escaped(&file.display().to_string(), 4 * QUOTED);
+    let cx = Context::new(Sources::default(), ".".into());
+    let rows = Rows::of(&cx, shown.as_str(), text);
+    let mut records = rows.records();
+    let names = records.next().unwrap_or_default();
+    let columns = columns(&cx, &names, chosen);
+    let named_by = columns.iter().position(|column| *column == Column::Name);
+    let mut leaves = Leaves {
+        column: named_by.map_or_else(|| "leaf".to_owned(), |at| names[at].text.clone()),
+        names: Vec::new(),
+        contents: Vec::new(),
+    };
+    let mut seen = HashSet::new();
+    for fields in records {
+        let mut contents = chosen.contents;
+        for ((field, column), name) in fields.iter().zip(&columns).zip(&names) {
+            match *column {
+                Column::Content(of) => {
+                    if let Some(value) = number(&cx, of, name, field, rows.have_decimal_commas()) {
+                        contents[of] = value;
+                    }
+                }
+                Column::Name if field.text.is_empty() => {
+                    let error = impossible(name, EMPTY.to_owned(), "give each leaf a name");
+                    cx.error(&field.at, error);
+                }
+                Column::Name if !seen.insert(field.text.clone()) => {
+                    let problem = format!("there is another leaf `{}`", safe(field));
+                    let error = impossible(name, problem, "give each leaf a name of its own");
+                    cx.error(&field.at, error);
+                }
+                Column::Name | Column::Other => {}
+            }
+        }
+        let number = leaves.contents.len() + 1;
+        let name = named_by.map_or_else(|| number.to_string(), |at| fields[at].text.clone());
+        leaves.names.push(name);
+        leaves.contents.push(contents);
+    }
+    if leaves.contents.is_empty() && cx.error_count() == 0 {
+        cx.error_of_the_file(DocumentError::BadFile {
+            path: shown,
+            problem: "has no leaves".to_owned(),
+            help: "write names of columns into its first line, and a line for each leaf".to_owned(),
+        });
+    }
+    let (sources, errors, _) = cx.into_parts();
+    if errors.is_empty() {
+        Ok(leaves)
+    } else {
+        Err(DocumentErrors::new(sources.into(), errors))
+    }
+}
+
+/// What the columns hold. A content may be called as its option, as `lamina fit` calls it, or by
+/// PROSPECT's letters.
+fn columns(cx: &Context, names: &[Field], chosen: &Chosen) -> Vec<Column> {
+    let mut columns = Vec::with_capacity(names.len());
+    for name in names {
+        let is = |known: &str| known.eq_ignore_ascii_case(&name.text);
+        let is_content = |of: &Constituent| {
+            [chosen.option(*of), of.name(), of.key(), of.symbol()]
+                .into_iter()
+                .any(is)
+        };
+        let column = if let Some(of) = Constituent::ALL.into_iter().find(is_content) {
+            Column::Content(of)
+        } else if IDENTITIES.into_iter().any(is) {
+            Column::Name
+        } else {
+            Column::Other
+        };
+        let conflict = |second: String| DocumentError::Conflict {
+            first: safe(name),
+            second,
+        };
+        match column {
+            Column::Other => {
+                if !OF_FITS.into_iter().any(is) && !name.text.ends_with("_standard_error") {
+                    cx.error(&name.at, unknown(name, chosen));
+                }
+            }
+            Column::Content(of) if chosen.is_given(of) => {
+                cx.error(&name.at, conflict(format!("--{}", chosen.option(of))));
+            }
+            Column::Content(_) | Column::Name => {
+                if let Some(earlier) = columns.iter().position(|other| *other == column) {
+                    cx.error(&name.at, conflict(safe(&names[earlier])));
+                }
+            }
+        }
+        columns.push(column);
+    }
+    columns
+}
+
+fn unknown(name: &Field, chosen: &Chosen) -> DocumentError {
+    let options = Constituent::ALL.map(|of| chosen.option(of));
+    let known = || {
+        ["leaf"]
+            .into_iter()
+            .chain(options)
+            .chain(Constituent::ALL.map(Constituent::name))
+    };
+    DocumentError::UnknownKey {
+        key: safe(name),
+        block: "the table".to_owned(),
+        nearest: nearest(&name.text, known()).map(str::to_owned),
+        known: known().collect::<Vec<_>>().join(", "),
+    }
+}
+
+/// A content as a number in its range; an error otherwise.
+fn number(
+    cx: &Context,
+    of: Constituent,
+    name: &Field,
+    field: &Field,
+    has_decimal_commas: bool,
+) -> Option<f64> {
+    let [low, high] = of.range();
+    let limits = Limits::closed(low, high);
+    let key = safe(name);
+    let written = if has_decimal_commas {
+        field.text.replace(',', ".")
+    } else {
+        field.text.clone()
+    };
+    let error = match written.parse::<f64>() {
+        Ok(value) if limits.contain(value) => return Some(value),
+        Ok(value) if value.is_finite() => DocumentError::OutOfRange {
+            key,
+            value: safe(field),
+            range: format!("{limits} {}", of.unit()).trim_end().to_owned(),
+            help: limits.advice(value),
+        },
+        Ok(_) => DocumentError::NotFinite {
+            key,
+            value: safe(field),
+        },
+        Err(_) => {
+            let problem = if field.text.is_empty() {
+                EMPTY.to_owned()
+            } else {
+                format!("`{}` is not a number", safe(field))
+            };
+            impossible(name, problem, &format!("write a number from {limits}"))
+        }
+    };
+    cx.error(&field.at, error);
+    None
+}
+
+fn impossible(name: &Field, problem: String, help: &str) -> DocumentError {
+    DocumentError::Impossible {
+        key: safe(name),
+        problem,
+        help: help.to_owned(),
+    }
+}
+
+/// A field as messages show it.
+fn safe(field: &Field) -> String {
+    escaped(&field.text, QUOTED)
+}
+
+#[cfg(test)]
+mod tests;
