@@ -61,7 +61,10 @@ pub fn means_and_errors<const N: usize>(text: &str, seeds: u64) -> [(f64, f64); 
 }
 
 fn mean_and_error_in(pictures: &[Rendered], channel: usize) -> (f64, f64) {
-    let means: Vec<f64> = pictures.iter().map(|picture| mean_of(picture, channel)).collect();
+    let means: Vec<f64> = pictures
+        .iter()
+        .map(|picture| mean_of(picture, channel))
+        .collect();
     mean_and_error_of(&means)
 }
 
