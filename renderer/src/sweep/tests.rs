@@ -265,7 +265,7 @@ const SLIPS: &[(&str, &str, [&str; 3])] = &[
         [
             "rows.csv:3:1",
             "a row of 1 values under 2 names",
-            "one value for each key",
+            "one value for each name",
         ],
     ),
     (
