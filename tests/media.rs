@@ -49,8 +49,7 @@ fn assert_agrees(what: &str, (mean, error): (f64, f64), expected: f64, most: f64
 fn a_clear_absorbing_box_obeys_beer_and_lambert_without_noise() {
     let medium = "absorption_per_m = { table = [[550, 1], [800, 4]] }";
     let picture = picture_of(&scene("", &format!("{}{SKY}", slab(1.0, medium))), 1);
-    let found: [_; 2] = means_and_errors(&text, 8);
-    for (found, absorption) in found.into_iter().zip([1.0, 4.0]) {
+    for (channel, absorption) in [1.0, 4.0].into_iter().enumerate() {
         let expected = f64::exp(-0.5 * absorption);
         let means = picture.film.map(|pixel| pixel.mean(channel));
         for mean in means {
