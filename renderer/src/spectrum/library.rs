@@ -46,7 +46,7 @@ pub fn surface(number: usize) -> Vec<(f64, f64)> {
 /// The reflectance of bare soil of a moisture of 0 (dry) to 1 (wet): pairs of a wavelength in nm, 360
 /// to 2500, and a fraction.
 ///
-/// `ρ = m ρ_wet + (1 − m) ρ_dry`, where ρ_dry and ρ_wet are means over the same 100 soils
+/// `ρ = m ρ_wet + (1 − m) ρ_dry`, where `ρ_dry` and `ρ_wet` are means over the same 100 soils
 /// (\[wadoux2021\], \[minasny2011\]).
 pub fn soil(moisture: f64) -> Vec<(f64, f64)> {
     let mixed = |[dry, wet]: [f64; 2]| moisture * wet + (1.0 - moisture) * dry;

@@ -48,7 +48,7 @@ pub struct OpticsArguments {
     pub cm: Option<f64>,
     /// A leaf in each row: columns are named as these options (`cab`) or as `lamina fit --out` names
     /// them (`chlorophyll_ug_per_cm2`), `leaf` or `id` names the leaf, and options or the preset
-    /// give what has no column; --out is then `leaf,wavelength_nm,R,T`, or an array of NumPy
+    /// give what has no column; --out is then `leaf,wavelength_nm,R,T`, or an `.npy` array
     #[arg(long, value_name = "LEAVES.csv", requires = "out", conflicts_with_all = ["colour", "layers", "angles", "about"])]
     pub table: Option<PathBuf>,
     /// Table to write: `wavelength_nm,R,T`; `-` is the standard output; with --table also `.npy`,

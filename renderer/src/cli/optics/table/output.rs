@@ -34,7 +34,7 @@ pub(super) fn csv(
     })
 }
 
-/// A file of NumPy's: `float64[leaf, 2, wavelength]`, reflectance before transmittance.
+/// An `.npy` file: `float64[leaf, 2, wavelength]`, reflectance before transmittance.
 ///
 /// # Source
 ///
