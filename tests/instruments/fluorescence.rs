@@ -58,6 +58,7 @@ fn figure<'r>(rows: &'r [Row], quantity: &str, part: &str, face: &str, nm: f64) 
 }
 
 #[test]
+#[ignore = "deep: 20 s of a processor"]
 fn a_sphere_over_a_fluorescing_leaf_reads_the_matrices_of_its_contents() {
     // Under coats too: they hold at the normal of the adaxial face.
     for faces in [BARE, "adaxial = { eta = 1.3, alpha = 0.4 }"] {
