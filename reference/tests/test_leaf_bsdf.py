@@ -49,6 +49,7 @@ def test_coat_albedo_is_the_integral_over_directions() -> None:
             assert abs(direct - table) < 5e-5, (coat, theta, direct, table)
 
 
+@pytest.mark.deep
 def test_leaf_is_sampled_as_its_pdf_says() -> None:
     cases = list(itertools.product(COATS[:4], VIEWS))
     level = 1.0 - (1.0 - 0.01) ** (1.0 / len(cases))
@@ -81,6 +82,7 @@ def test_normal_incidence_gives_back_r_and_t() -> None:
             assert off < 4.0 * error[part].max() + 1e-4, (coats, part, got[part], want)
 
 
+@pytest.mark.deep
 def test_lossless_leaf_loses_nothing_at_any_angle() -> None:
     for coats, wi, (r, t) in itertools.product(COATS, VIEWS, ((0.5, 0.5), (0.8, 0.2))):
         got, error = throughputs(measured(coats, r, t), wi)
