@@ -144,6 +144,7 @@ fn the_abaxial_face_and_light_that_passes_tell_the_contents_too() {
 }
 
 #[test]
+#[ignore = "deep: 4 s"]
 fn intervals_hold_the_truth_as_often_as_they_say_under_noise_of_one_percent() {
     let mut counter = 0;
     // Box and Muller's transform.

@@ -273,6 +273,7 @@ fn exponential_growth_amplifies_the_growth_rate_in_the_outline() {
 }
 
 #[test]
+#[ignore = "deep: 5 s"]
 fn every_form_becomes_a_leaf() {
     for form in &FORMS {
         let leaf = crate::leaf::Leaf::grow(&form.plan());
