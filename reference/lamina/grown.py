@@ -100,7 +100,7 @@ def grow(
 
 
 def frames(leaf: str | Path, count: int, values: Mapping[str, Value] | None = None) -> list[Grown]:
-    """A leaf at `count` times of its growth, the last of which is the grown leaf.
+    """A leaf at `count` times of its growth; the last one is the grown leaf.
 
     Arguments are those of `grow`; the leaves are without measures. Raises LaminaError.
     """
