@@ -40,8 +40,8 @@ fn built(text: &str) -> (Description, World, Vec<usize>) {
     (scene, world, first)
 }
 
-/// Whether figures are asked for at their full precision, with `LAMINA_ANCHORS=all`; the suite follows
-/// less light.
+/// Whether figures are asked for at their full precision, with `LAMINA_ANCHORS=all`; `cargo full` alone
+/// follows less light.
 fn in_full() -> bool {
     std::env::var("LAMINA_ANCHORS").is_ok_and(|asked| asked == "all")
 }

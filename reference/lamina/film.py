@@ -25,7 +25,7 @@ MAGIC = b"\x76\x2f\x31\x01"
 
 
 class Refused(LaminaError):
-    """What the user can mend."""
+    """Input that the user can correct."""
 
     def __init__(self, text: str) -> None:
         super().__init__(text, 2)

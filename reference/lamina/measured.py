@@ -68,7 +68,7 @@ def read_figures(file: str | Path) -> dict[str, xr.Dataset]:
     `view_zenith` and `view_azimuth` (degrees), `face`, `depth` (µm), and `object`, `layer`,
     `constituent` or `instance`. Its standard error is the variable `NAME_standard_error`. Figures
     in diffuse light are `NAME_diffuse`, those of bands `NAME_in_band`, indices
-    `NAME_of_QUANTITY`. Units stand in the attribute `units`. Raises ValueError for a file that is
+    `NAME_of_QUANTITY`. Units are in the attribute `units`. Raises ValueError for a file that is
     no such table.
     """
     rows, told = rows_of(Path(file))
