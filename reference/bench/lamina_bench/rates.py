@@ -63,7 +63,7 @@ def ask(command: list[str]) -> dict:
 def commands(options: argparse.Namespace, tracer: Path) -> dict[str, list[str]]:
     """How each program is started, without its arguments."""
     lamina = ["cargo", "bench", "--quiet", "--manifest-path", str(ROOT / "Cargo.toml"),
-              "-p", "renderer", "--bench", "traversal", "--"]  # fmt: skip
+              "-p", "lamina-benches", "--bench", "traversal", "--"]  # fmt: skip
     if options.traversal:
         lamina = [str(options.traversal)]
     return {

@@ -1,5 +1,5 @@
 //! How long the maps of contents of a maple take at 2048 texels:
-//! `cargo bench -p leafmodel --bench contents`.
+//! `cargo bench -p lamina-benches --bench contents`.
 //!
 //! All threads. Pigments alone, with three layers, ageing, both, and both over a clonal mosaic that
 //! has grown; and the growing of that mosaic, which a map with one needs once.

@@ -1,4 +1,4 @@
-//! How long veins take to grow: `cargo bench -p leafmodel`.
+//! How long veins take to grow: `cargo bench -p lamina-benches`.
 //!
 //! One thread. The rows are those of Table 1 of Runions et al. 2005 at 10 units of the table to a
 //! segment, the poplar ten times finer, the broad leaf of the first scene, and a leaf that grows at
@@ -6,7 +6,7 @@
 //! shows how time grows with the number of nodes: each row has about ten times the nodes of the one
 //! before. "Slow growth" are leaves that grow little in a step, so that thousands of sources wait
 //! far ahead of the veins; the names of the large ones end in "large", and they take minutes in
-//! all: `cargo bench -p leafmodel --bench venation -- "slow growth"`.
+//! all: `cargo bench -p lamina-benches --bench venation -- "slow growth"`.
 
 use std::hint::black_box;
 use std::time::Duration;

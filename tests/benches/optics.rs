@@ -1,4 +1,4 @@
-//! What the optics of a leaf cost: `cargo bench -p lamina-renderer --bench optics`.
+//! What the optics of a leaf cost: `cargo bench -p lamina-benches --bench optics`.
 //!
 //! One thread, one leaf after the other of a list whose contents all differ, so time ÷ elements is
 //! the time of a leaf: R and T by the exact model at one wavelength, and at the wavelengths of a

@@ -1,4 +1,4 @@
-//! How long a picture of 12 megapixels takes to become a network: `cargo bench -p leafmodel --bench
+//! How long a picture of 12 megapixels takes to become a network: `cargo bench -p lamina-benches --bench
 //! tracing`. All threads.
 //!
 //! The picture is a drawing of the preset `poplar`, 4000 pixels long with its border, with noise.

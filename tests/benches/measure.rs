@@ -1,5 +1,5 @@
 //! How long it takes to measure a network of a million nodes, and to read it:
-//! `cargo bench -p leafmodel --bench measure`.
+//! `cargo bench -p lamina-benches --bench measure`.
 //!
 //! A net of 57,600 hexagons whose sides are six pieces each and whose corners are moved, so that no
 //! two areoles are alike; radii fall from the middle outwards.

@@ -1,4 +1,4 @@
-//! What a sample costs the film: `cargo bench -p lamina-renderer --bench film`.
+//! What a sample costs the film: `cargo bench -p lamina-benches --bench film`.
 //!
 //! One thread, a colour film of 256 × 256 pixels, 16 samples a pixel, so time ÷ elements is the
 //! time of a sample: among the first, that record position, normal and albedo, and among later

@@ -1,4 +1,4 @@
-//! How long outlines and their measures take: `cargo bench -p leafmodel --bench shape`.
+//! How long outlines and their measures take: `cargo bench -p lamina-benches --bench shape`.
 //!
 //! One thread. The growth algorithm's Figs. 3b and 8d, the same with curved veins and unlike
 //! halves, a maple of five lobes; and the measures of that.

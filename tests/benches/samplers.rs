@@ -1,4 +1,4 @@
-//! What random choices cost: `cargo bench -p lamina-renderer --bench samplers`.
+//! What random choices cost: `cargo bench -p lamina-benches --bench samplers`.
 //!
 //! One thread, 64 samples of one pixel, so time ÷ elements is the time of a sample, or of one choice
 //! of a sample: its random numbers for a camera ray and three bounces (four sets of four), its

@@ -1,4 +1,4 @@
-//! How long transport leaves take to grow: `cargo bench -p leafmodel --bench transport`.
+//! How long transport leaves take to grow: `cargo bench -p lamina-benches --bench transport`.
 //!
 //! One thread. Examples 1 and 2 of Xia 2007, a leaf of about ten thousand cells, and the first as
 //! an outline and veins; and the maple's blade filled with the cheapest veins.

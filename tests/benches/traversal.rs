@@ -1,6 +1,6 @@
 //! Rays per second, traversal alone.
 //!
-//! `cargo bench -p lamina-renderer --bench traversal` traces rays that bounce from a curved leaf and rays
+//! `cargo bench -p lamina-benches --bench traversal` traces rays that bounce from a curved leaf and rays
 //! from it to the sky, at each level of instructions that runs here: one leaf of 5,000 and of
 //! 500,000 triangles, and 1,000 instances.
 //!

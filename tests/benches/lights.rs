@@ -1,6 +1,6 @@
 //! Error and time of scenes with one, sixteen and a thousand lamps.
 //!
-//! `cargo bench -p lamina-renderer --bench lights [-- NAME…]` renders each scene with several seeds on one
+//! `cargo bench -p lamina-benches --bench lights [-- NAME…]` renders each scene with several seeds on one
 //! thread and prints the error of a picture (variance over seeds ÷ mean², the worst hundredth of
 //! the pixels left out), the rays of a path, the processor's time that a picture took, and the
 //! efficiency 1 ÷ (error × seconds), of which more is better.
@@ -159,7 +159,7 @@ struct Measured {
 }
 
 fn measure(text: &str) -> Measured {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/first-leaf");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/first-leaf");
     let loaded = parse(text, "bench.toml", &folder, &[]).expect("the bench writes its scenes well");
     let world = World::build(&loaded.description).expect("the bench writes its scenes well");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();

@@ -1,4 +1,4 @@
-//! How long mosaics take: `cargo bench -p leafmodel --bench mosaic`.
+//! How long mosaics take: `cargo bench -p lamina-benches --bench mosaic`.
 //!
 //! Two threads. The rows of Table I of the clonal mosaic's paper (\[binsfeld2011\]), each on a body
 //! of its own kind and to its last day: cells grow, and are tessellated and blended into tissue.
