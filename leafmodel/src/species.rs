@@ -35,7 +35,7 @@ mod developed;
 pub mod diagnosis;
 mod extended;
 #[cfg(test)]
-mod grown_once;
+pub(crate) mod grown_once;
 mod individuals;
 pub mod leaf_traits;
 mod list;

@@ -53,6 +53,17 @@ def appears(file: Path) -> None:
         time.sleep(0.01)
 
 
+def works(pid: int, seconds: float) -> None:
+    """Waits up to a minute until a process has used so much of a processor."""
+    until = time.monotonic() + 60
+    used = 0.0
+    while used < seconds:
+        assert time.monotonic() < until, f"{pid} has used {used} s of a processor"
+        time.sleep(0.05)
+        user = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[11]
+        used = int(user) / os.sysconf("SC_CLK_TCK")
+
+
 def children(pid: int) -> list[int]:
     """The processes that a process has started."""
     tasks = Path(f"/proc/{pid}/task").glob("*/children")
@@ -85,8 +96,8 @@ def test_a_render_ends_with_its_work_saved_when_python_is_killed(tmp_path: Path)
     stem = tmp_path / "kept"
     parent = subprocess.Popen([sys.executable, "-c", code, str(FURNACE), str(stem)])
     appears(tmp_path / ".kept.exr.lock")
-    time.sleep(1)
     [program] = children(parent.pid)
+    works(program, 0.8)
     parent.send_signal(signal.SIGKILL)
     parent.wait()
     assert ends(program, 2)

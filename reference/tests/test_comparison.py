@@ -97,6 +97,7 @@ def leaf_scene(plugin: str) -> mi.Scene:
     })  # fmt: skip
 
 
+@pytest.mark.deep
 def test_comparison_catches_one_percent_lost_in_the_leaf() -> None:
     mi.register_bsdf("lossy_leaf", LossyLeaf)
     right = render.render(leaf_scene("lamina_leaf"), 4, spp=1024, passes=32, seed=1)

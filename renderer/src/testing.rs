@@ -2,10 +2,12 @@
 
 use proptest::test_runner::{Config, RngSeed};
 
-/// Configuration for property tests with the same cases on every run.
+/// Properties are tried on the same cases on every run, on `LAMINA_CASES` times as many where that is set.
 pub(crate) fn fixed(cases: u32) -> Config {
+    let factor = std::env::var("LAMINA_CASES")
+        .map_or(1, |text| text.parse().expect("LAMINA_CASES is a count"));
     Config {
-        cases,
+        cases: cases * factor,
         rng_seed: RngSeed::Fixed(2005),
         failure_persistence: None,
         ..Config::default()

@@ -38,6 +38,7 @@ fn of_places(radius: f64) -> f64 {
 }
 
 #[test]
+#[ignore = "deep: 6 s"]
 fn level_and_upright_leaves_leave_the_gaps_of_their_projection() {
     // exp(−G LAI) from above, where G is the mean of cos θ: 8/3π of planophile, 4/3π of erectophile
     // leaves, ½ of spherical ones. Beta with µ = 1, ν = 1 is uniform: 2/π.

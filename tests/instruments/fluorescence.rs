@@ -105,6 +105,7 @@ fn a_sphere_over_a_fluorescing_leaf_reads_the_matrices_of_its_contents() {
 }
 
 #[test]
+#[ignore = "deep: 5 s"]
 fn a_spectrum_excites_the_sum_of_its_wavelengths_in_energy() {
     let text = format!(
         "{}{BENCH}faces = \"adaxial\"\nfluorescence = {{ spectrum = {{ table = [[400, 0.5], [750, \
@@ -150,6 +151,7 @@ fn a_spectrum_excites_the_sum_of_its_wavelengths_in_energy() {
 }
 
 #[test]
+#[ignore = "deep: 5 s"]
 fn a_level_leaf_without_end_over_soil_emits_what_two_plates_let_out() {
     let soil = 0.2;
     let text = format!(

@@ -341,7 +341,7 @@ fn waves() -> impl Strategy<Value = Vec<(f64, Wave)>> {
 }
 
 proptest! {
-    #![proptest_config(fixed(400))]
+    #![proptest_config(fixed(100))]
     #[test]
     fn any_plan_within_range_gives_a_leaf_or_says_why_not(
         form in (0.02..3.0, 0.05..0.95, 0.2..3.0, 0.2..3.0),

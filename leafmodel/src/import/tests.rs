@@ -11,11 +11,7 @@ use crate::venation::network::VenationNetwork;
 const PRESETS: [&str; 6] = ["birch", "poplar", "maple", "xia-1", "arcuate", "ginkgo"];
 
 fn grown(preset: &str) -> (Outline, VenationNetwork) {
-    let lamina = species::find(preset)
-        .expect("a preset")
-        .plan()
-        .grow_lamina();
-    let lamina = lamina.expect("presets grow");
+    let lamina = species::grown_once::lamina(preset);
     (lamina.outline, lamina.network)
 }
 

@@ -54,6 +54,7 @@ fn venations() -> [(&'static str, VenationPlan); 4] {
 }
 
 #[test]
+#[ignore = "deep: 9 s"]
 fn any_outline_goes_with_any_venation_and_becomes_a_blade() {
     for (outline_name, outline) in outlines() {
         for (venation_name, venation) in venations() {
