@@ -113,14 +113,18 @@ impl MosaicPattern {
         self.validate()?;
         let days = [self.plan.days];
         let mosaic = Mosaic::grow_until(surface, &self.plan, seed, &days, is_stopped)?.remove(0);
-        let field = self.field(&mosaic, self.blend_mm);
+        let field = self.field(&mosaic, self.blend_mm)?;
         Ok((mosaic, field))
     }
 
     /// The types of a mosaic of this plan at every point, blended over another width, mm.
-    pub fn field(&self, mosaic: &Mosaic, blend_mm: f64) -> TypeField {
-        let field = TypeField::of_mosaic(mosaic, self.plan.types.len(), blend_mm);
-        field.heeding(Arc::clone(&mosaic.surface), &self.plan.controls)
+    ///
+    /// # Errors
+    ///
+    /// [`MosaicError::WideBlend`].
+    pub fn field(&self, mosaic: &Mosaic, blend_mm: f64) -> Result<TypeField, PatternError> {
+        let field = TypeField::of_mosaic(mosaic, self.plan.types.len(), blend_mm)?;
+        Ok(field.heeding(Arc::clone(&mosaic.surface), &self.plan.controls))
     }
 
     /// Grows the mosaic on a leaf's lamina.
