@@ -59,14 +59,16 @@ mod trace;
 
 use std::ffi::OsString;
 use std::io::{self, ErrorKind, IsTerminal, Write as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use clap::{CommandFactory, FromArgMatches};
+use clap::FromArgMatches;
 
 use crate::scene::load::{self, Loaded};
 use arguments::{Arguments, Command, ExportCommand, GREETING, SceneArguments};
+use leafmodel::document::path;
 use leafmodel::document::report::DocumentErrors;
 use places::check_writable;
 
@@ -108,7 +110,7 @@ impl From<DocumentErrors> for Failure {
 pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str) -> ExitCode {
     signals::survive_file_limits();
     let line: Vec<OsString> = arguments.into_iter().collect();
-    let matches = Arguments::command()
+    let matches = Arguments::grammar()
         .version(version)
         .try_get_matches_from(&line);
     let arguments = match matches.and_then(|matches| Arguments::from_arg_matches(&matches)) {
@@ -126,6 +128,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str)
     };
     if arguments.end_with_stdin {
         signals::end_with_stdin();
+    }
+    if let Err(failure) = allow(&arguments.allow) {
+        return exit_code(Err(failure));
     }
     let Some(command) = arguments.command else {
         say(GREETING);
@@ -161,6 +166,33 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str)
             Ok(())
         }
     })
+}
+
+/// Lets documents name files in the folders that the command line and the environment name.
+fn allow(folders: &[PathBuf]) -> Result<(), Failure> {
+    let listed = std::env::var_os("LAMINA_ALLOW").unwrap_or_default();
+    let listed = std::env::split_paths(&listed).filter(|folder| !folder.as_os_str().is_empty());
+    let mut all: Vec<PathBuf> = Vec::new();
+    for (by, folder) in folders
+        .iter()
+        .map(|folder| ("--allow", folder.clone()))
+        .chain(listed.map(|folder| ("LAMINA_ALLOW", folder)))
+    {
+        let whole = std::fs::canonicalize(&folder);
+        let is_folder = whole.as_ref().is_ok_and(|whole| whole.is_dir());
+        match whole {
+            Ok(whole) if is_folder => all.push(whole),
+            Ok(_) => {
+                return Err(Failure::bad(format!(
+                    "{by}: {} is not a folder",
+                    folder.display()
+                )));
+            }
+            Err(error) => return Err(Failure::bad(format!("{by}: {}: {error}", folder.display()))),
+        }
+    }
+    path::allow(all);
+    Ok(())
 }
 
 /// Prints why a command failed; the exit code.
@@ -200,11 +232,21 @@ fn say(text: impl std::fmt::Display) {
 /// Why stdout could not be written, for the first time.
 static OUTPUT_ERROR: Mutex<Option<io::Error>> = Mutex::new(None);
 
+/// Whether the pipe that reads stdout was closed.
+static HAS_NO_READER: AtomicBool = AtomicBool::new(false);
+
+/// Whether nobody reads stdout any more, so that a long list may end.
+fn has_no_reader() -> bool {
+    HAS_NO_READER.load(Ordering::Relaxed)
+}
+
 fn note_output(result: io::Result<()>) {
-    // A pipe that is closed early (`lamina info x.exr | head`) is not an error.
-    if let Err(error) = result.and_then(|()| io::stdout().flush())
-        && error.kind() != ErrorKind::BrokenPipe
-    {
+    if let Err(error) = result.and_then(|()| io::stdout().flush()) {
+        // A pipe that is closed early (`lamina info x.exr | head`) is not an error.
+        if error.kind() == ErrorKind::BrokenPipe {
+            HAS_NO_READER.store(true, Ordering::Relaxed);
+            return;
+        }
         let mut first = OUTPUT_ERROR.lock().unwrap_or_else(PoisonError::into_inner);
         first.get_or_insert(error);
     }

@@ -71,7 +71,7 @@ mod walk;
 
 use thiserror::Error;
 
-pub use self::batches::{Budget, FEWEST_RAYS};
+pub use self::batches::{Budget, Effort, FEWEST_RAYS, Watch};
 pub use self::row::{Direction, Row, ViewAngles};
 use crate::geometry::GeometryError;
 use crate::scene::description::{Description, InstrumentKind};
@@ -223,16 +223,35 @@ pub fn read_out(
     first_set: usize,
     budget: &Budget,
 ) -> Result<Vec<Row>, InstrumentError> {
+    let effort = Effort {
+        budget: *budget,
+        watch: None,
+    };
+    read_out_watched(world, scene, number, first_set, &effort)
+}
+
+/// As [`read_out`], but may end early.
+///
+/// # Errors
+///
+/// As [`read_out`].
+pub fn read_out_watched(
+    world: &World,
+    scene: &Description,
+    number: usize,
+    first_set: usize,
+    effort: &Effort<'_>,
+) -> Result<Vec<Row>, InstrumentError> {
     let instrument = &scene.instruments[number];
     match &instrument.value.kind {
         InstrumentKind::Sphere(sample) => {
-            sphere::read_out(world, scene, (instrument, sample), first_set, budget)
+            sphere::read_out(world, scene, (instrument, sample), first_set, effort)
         }
         InstrumentKind::Gonio(gonio) => {
-            gonio::read_out(world, scene, (instrument, gonio), first_set, budget)
+            gonio::read_out(world, scene, (instrument, gonio), first_set, effort)
         }
         InstrumentKind::Canopy(canopy) => {
-            canopy::read_out(world, scene, (instrument, canopy), first_set, budget)
+            canopy::read_out(world, scene, (instrument, canopy), first_set, effort)
         }
         InstrumentKind::Depth(depth) => depth::read_out(world, scene, (instrument, depth)),
     }

@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     needs::check(&description, *memory)?;
     if *build {
         let _signals = Signals::listen()?;
-        return tell_world(scene, &description);
+        return tell_world(scene, &description, *memory);
     }
     read_files(&description)?;
     let film = &description.film;
@@ -117,8 +117,12 @@ fn read_files(description: &Description) -> Result<(), Failure> {
 }
 
 /// Builds the scene and prints its size.
-fn tell_world(scene: &SceneArguments, description: &Description) -> Result<(), Failure> {
-    let patience = Patience::building(description.leaves.len());
+fn tell_world(
+    scene: &SceneArguments,
+    description: &Description,
+    memory: Option<f64>,
+) -> Result<(), Failure> {
+    let patience = Patience::building(description.leaves.len(), memory);
     let world = World::build_with(description, &patience.options()).map_err(Failure::bad)?;
     drop(patience);
     for note in &world.notes {

@@ -13,8 +13,9 @@ pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
     let signals = Signals::listen()?;
     check_folder(&arguments.out)?;
     let scene = load_scene(&arguments.scene)?.description;
+    mitsuba::check(&scene).map_err(Failure::bad)?;
     needs::check_geometry(&scene, "export", arguments.memory)?;
-    let patience = Patience::building(scene.leaves.len());
+    let patience = Patience::building(scene.leaves.len(), arguments.memory);
     let world = World::build_with(&scene, &patience.options()).map_err(Failure::bad)?;
     drop(patience);
     // What is begun is written to its end, or not at all.

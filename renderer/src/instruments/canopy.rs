@@ -6,7 +6,7 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::batches::{Budget, Experiment, estimates};
+use super::batches::{Effort, Experiment, estimates};
 use super::detector::{self, Detectors, angles};
 use super::fluorescence::{self, Illumination, Manner};
 use super::lamp::{directions, towards};
@@ -169,7 +169,7 @@ pub(super) fn read_out(
     scene: &Description,
     (instrument, canopy): (&Named<Instrument>, &Canopy),
     first_set: usize,
-    budget: &Budget,
+    effort: &Effort<'_>,
 ) -> Result<Vec<Row>, InstrumentError> {
     let at = &instrument.value.at;
     let (stage, period) = Period::stage(within(world, canopy), world, at)?;
@@ -202,7 +202,7 @@ pub(super) fn read_out(
             });
         }
     }
-    let found = estimates(&lit, budget);
+    let found = estimates(&lit, effort);
     let seen = canopy.detector.as_ref().map(angles).unwrap_or_default();
     let mut all = Vec::new();
     for (figures, &direction) in found.chunks(sets).zip(&directions) {
@@ -237,7 +237,7 @@ pub(super) fn read_out(
         let read = (instrument.name.as_str(), reading);
         let (sample, manner) = ((&stage, &period), fluorescence_of(canopy));
         all.extend(fluorescence::read_out(
-            sample, &lights, read, &manner, budget,
+            sample, &lights, read, &manner, effort,
         ));
     }
     Ok(all)

@@ -8,7 +8,7 @@
 use glam::{Vec2, Vec3};
 
 use super::LANES;
-use super::batches::{Budget, Experiment, estimates};
+use super::batches::{Effort, Experiment, estimates};
 use super::row::{Direction, Row};
 use super::stage::Stage;
 use super::walk::{Course, Escaped, Event, Passage, Struck, Walk, Witness};
@@ -300,7 +300,7 @@ pub(super) fn read_out<L: Illumination, C: Course + Sync>(
     lights: &[Lit<'_, L>],
     (name, reading): (&str, &FluorescenceReading),
     manner: &Manner,
-    budget: &Budget,
+    effort: &Effort<'_>,
 ) -> Vec<Row> {
     let excitations = excitations(&reading.light);
     let unit = match reading.light {
@@ -331,7 +331,7 @@ pub(super) fn read_out<L: Illumination, C: Course + Sync>(
             }
         }
     }
-    let found = estimates(&readings, budget);
+    let found = estimates(&readings, effort);
     let mut found = found.chunks(emissions.len());
     let mut rows = Vec::new();
     for (_, incidence, face) in lights {

@@ -6,7 +6,7 @@
 
 use std::f64::consts::FRAC_1_PI;
 
-use super::batches::{Budget, Estimate, Experiment, estimates};
+use super::batches::{Effort, Estimate, Experiment, estimates};
 use super::detector::{self, Detectors, angles};
 use super::lamp::{Bench, FACES, Lamp};
 use super::row::{Direction, Row};
@@ -117,7 +117,7 @@ pub(super) fn read_out(
     scene: &Description,
     (instrument, gonio): (&Named<Instrument>, &Gonio),
     first_set: usize,
-    budget: &Budget,
+    effort: &Effort<'_>,
 ) -> Result<Vec<Row>, InstrumentError> {
     let at = &instrument.value.at;
     let bench = Bench::new(world, scene, &gonio.sample, at)?;
@@ -146,7 +146,7 @@ pub(super) fn read_out(
             wavelengths,
         })
         .collect();
-    let found = estimates(&lit, budget);
+    let found = estimates(&lit, effort);
     if found.iter().any(|figures| figures[0].value.is_nan()) {
         return Err(InstrumentError::NothingLit {
             at: at.clone(),

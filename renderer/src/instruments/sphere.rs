@@ -7,7 +7,7 @@
 
 use glam::Vec3;
 
-use super::batches::{Budget, Experiment, estimates};
+use super::batches::{Effort, Experiment, estimates};
 use super::constituents::{self, PARTS};
 use super::detector::check_layers;
 use super::fluorescence::{self, Illumination, Manner};
@@ -140,7 +140,7 @@ pub(super) fn read_out(
     scene: &Description,
     (instrument, sample): (&Named<Instrument>, &Sample),
     first_set: usize,
-    budget: &Budget,
+    effort: &Effort<'_>,
 ) -> Result<Vec<Row>, InstrumentError> {
     let at = &instrument.value.at;
     let bench = Bench::new(world, scene, sample, at)?;
@@ -159,7 +159,7 @@ pub(super) fn read_out(
             wavelengths,
         })
         .collect();
-    let found = estimates(&lit, budget);
+    let found = estimates(&lit, effort);
     if found.iter().any(|figures| figures[0].value.is_nan()) {
         return Err(InstrumentError::NothingLit {
             at: at.clone(),
@@ -197,7 +197,7 @@ pub(super) fn read_out(
             .collect();
         let read = (instrument.name.as_str(), reading);
         let sample = (&bench.stage, &Straight);
-        let own = fluorescence::read_out(sample, &lights, read, &FLUORESCENCE, budget);
+        let own = fluorescence::read_out(sample, &lights, read, &FLUORESCENCE, effort);
         all.extend(own);
     }
     Ok(all)

@@ -41,7 +41,7 @@ use std::rc::Rc;
 use leafmodel::document::context::Context;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, NamedList};
-use leafmodel::document::names::{Named, require_name};
+use leafmodel::document::names::{Named, require_title};
 use leafmodel::document::reader::Block;
 use leafmodel::document::schema::BlockSchema;
 use leafmodel::document::sections::Names;
@@ -152,7 +152,7 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
     keys.optional("name", &mut name, Text("a name"), about);
     if let (Some(name), Some(root)) = (name, keys.reader()) {
         let at = root.node("name").map_or(&root.at, |node| &node.at);
-        require_name(root.cx, &name, at);
+        require_title(root.cx, &name, at);
         scene.name = name;
     }
     let mut extrapolate = false;

@@ -5,6 +5,7 @@ mod error;
 mod light_colours;
 mod lights;
 mod materials;
+pub mod memory;
 pub(in crate::scene) mod meshes;
 mod middle;
 mod notes;
@@ -121,6 +122,8 @@ pub struct BuildOptions<'a> {
     pub at_rest: Option<&'a AtomicUsize>,
     /// Wavelengths of paths that are not the film's.
     pub wavelengths: Option<&'a WavelengthSampler>,
+    /// Most memory that meshes with their trees and the places of objects may take, bytes.
+    pub most_bytes: Option<f64>,
 }
 
 impl World {
@@ -217,8 +220,8 @@ impl World {
         }
         notes.extend(notes::on_coats(scene, &materials, &owners, range_nm));
         let pieces = Pieces { leaves, solids };
-        let (strewn, told) =
-            Strewing::new(&meshes, &pieces, objects_as_written, options.at_rest).all()?;
+        let strewing = Strewing::new(&meshes, &pieces, objects_as_written, options)?;
+        let (strewn, told) = strewing.all()?;
         notes.extend(told);
         let strewn_around = strewing::around(&strewn, origin);
         let Placed {

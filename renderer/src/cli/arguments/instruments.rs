@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{MOST_GIB, SceneArguments, between};
+use super::{MOST_GIB, MOST_SECONDS, SceneArguments, between};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
   lamina instruments bench.toml --out bench.csv
   lamina instruments bench.toml --error 1e-3 --only ball --out ball.json --plot ball.svg
+  lamina instruments bench.toml --error 1e-4 --time 600 --out bench.csv
   lamina instruments bench.toml --rays 1000000 -D objects.leaves.volume.seed=2 --out canopy.csv";
 
 /// Greatest number of rays: 2³⁶.
@@ -37,6 +38,9 @@ pub struct InstrumentsArguments {
     /// Standard error at which a figure is good enough; rays are added until all figures are
     #[arg(long, value_name = "SHARE", value_parser = error)]
     pub error: Option<f64>,
+    /// Stop following rays after this time; what has been measured is written
+    #[arg(long, value_name = "SECONDS", value_parser = between::<0, MOST_SECONDS>)]
+    pub time: Option<f64>,
     /// Seed of every random number
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
@@ -47,7 +51,7 @@ pub struct InstrumentsArguments {
     #[arg(long, value_name = "DIR")]
     pub cache: Option<PathBuf>,
     /// Memory that building the scene may take; the default is what the machine has free
-    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,
 }
 

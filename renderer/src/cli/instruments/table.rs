@@ -53,8 +53,14 @@ fn shown(number: Option<f64>) -> String {
     number.map(|number| number.to_string()).unwrap_or_default()
 }
 
-/// The figures, and what they were measured with.
-pub(super) fn json(scene: &Description, budget: &Budget, rows: &[Row]) -> String {
+/// The figures, and what they were measured with; `is_complete` says whether all instruments have
+/// followed all of their rays.
+pub(super) fn json(
+    scene: &Description,
+    budget: &Budget,
+    rows: &[Row],
+    is_complete: bool,
+) -> String {
     let figures = rows.iter().map(|row| {
         let incidence = match row.incidence {
             Direction::Beam(_) => row.incidence.to_string().parse::<f64>().ok().into(),
@@ -83,6 +89,7 @@ pub(super) fn json(scene: &Description, budget: &Budget, rows: &[Row]) -> String
         "seed": budget.seed,
         "rays": budget.rays,
         "target_error": budget.error,
+        "complete": is_complete,
         "figures": figures.collect::<Vec<_>>(),
     });
     format!("{report:#}\n")

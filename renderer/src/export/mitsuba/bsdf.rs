@@ -48,6 +48,19 @@ pub(super) fn layered(scene: &Description) -> Option<String> {
     })
 }
 
+/// Whether light that a material takes up comes out at other wavelengths. Measured spectra do not
+/// say what chlorophyll absorbs.
+pub(super) fn fluoresces(material: &Material) -> bool {
+    matches!(
+        material,
+        Material::Leaf {
+            tissue: LeafTissue::Held(_),
+            fluorescence: Some(_),
+            ..
+        }
+    )
+}
+
 /// The material with this number.
 pub(super) fn bsdf(
     scene: &Description,

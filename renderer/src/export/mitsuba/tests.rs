@@ -488,3 +488,33 @@ fn bodies_within_each_other_and_a_camera_in_a_body_are_refused() {
     let error = write(&scene, &world, &out).expect_err("the camera is in the air");
     assert!(matches!(error, ExportError::CameraInside), "{error}");
 }
+
+#[test]
+fn what_cannot_be_exported_shows_before_anything_is_grown() {
+    let folder = tempfile::tempdir().expect("a folder");
+    openexr::write(&map_picture(&map()), &folder.path().join("map.exr")).expect("a map");
+    let checked = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+        let loaded = load::parse(SCENE, "scene.toml", folder.path(), &overrides);
+        let scene = loaded.unwrap_or_else(|errors| panic!("{errors}"));
+        check(&scene.description).map_err(|error| error.to_string())
+    };
+    assert_eq!(checked(&[]), Ok(()));
+    for (overrides, part) in [
+        (
+            &[
+                "camera.perspective.f_number=4",
+                "camera.perspective.blades=5",
+            ][..],
+            "camera.perspective.blades",
+        ),
+        (
+            &["materials.mapped.leaf.optics=\"layers\""],
+            "materials.mapped.leaf.optics",
+        ),
+        (&["materials.mapped.leaf.fluorescence={}"], "fluoresces"),
+    ] {
+        let error = checked(overrides).expect_err(part);
+        assert!(error.contains(part), "{error}");
+    }
+}

@@ -10,6 +10,9 @@ use crate::geometry::{GeometryError, ImportError, MeshError};
 use crate::scene::assets::AssetError;
 use crate::scene::plants::{PlantError, SolidError};
 
+/// Bytes of a GiB.
+const GIB: f64 = 1024.0 * 1024.0 * 1024.0;
+
 /// Why a described scene cannot be built.
 #[derive(Debug, Error)]
 pub enum WorldError {
@@ -75,6 +78,20 @@ pub enum WorldError {
         object: String,
         /// Name of its material.
         material: String,
+    },
+    /// The meshes take more memory than is allowed.
+    #[error(
+        "the meshes of this scene have {triangles} triangles, which need about {:.1} GiB of memory while their trees are built, more \
+         than the {:.1} GiB that are allowed: make them coarser, or allow it with --memory {}",
+        .needed / GIB, .allowed / GIB, (.needed / GIB).ceil()
+    )]
+    Memory {
+        /// How many there are.
+        triangles: usize,
+        /// Memory that they need, bytes.
+        needed: f64,
+        /// Memory that is allowed, bytes.
+        allowed: f64,
     },
     /// There is no room for what is strewn.
     #[error("objects.{name}.scatter: {source}")]

@@ -5,11 +5,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DAffine3, DMat4, DVec3};
 
-use super::WorldError;
+use super::memory::Memory;
 use super::placing::Pieces;
+use super::{BuildOptions, WorldError};
 use crate::geometry::TriangleMesh;
 use crate::geometry::scatter::{
-    Amount, Body, Ground, MOST_THINGS, Rest, ScatterError, Strewn, Volume, VolumeError, triangles,
+    Amount, Body, Ground, Most, Rest, ScatterError, Strewn, Volume, VolumeError, triangles,
 };
 use crate::scene::description::{InstancePlace, Named, Object, ObjectShape, StrewnOn};
 
@@ -37,6 +38,7 @@ pub(super) struct Strewing<'a> {
     meshes: &'a [TriangleMesh],
     pieces: &'a Pieces,
     objects: &'a [Named<Object>],
+    memory: Memory,
     /// Counts what has come to rest.
     at_rest: Option<&'a AtomicUsize>,
     /// Places found so far.
@@ -52,15 +54,18 @@ impl<'a> Strewing<'a> {
         meshes: &'a [TriangleMesh],
         pieces: &'a Pieces,
         objects: &'a [Named<Object>],
-        at_rest: Option<&'a AtomicUsize>,
-    ) -> Self {
-        Self {
+        options: &BuildOptions<'a>,
+    ) -> Result<Self, WorldError> {
+        let mut memory = Memory::new(options.most_bytes);
+        memory.take_meshes(meshes)?;
+        Ok(Self {
             meshes,
             pieces,
             objects,
-            at_rest,
+            memory,
+            at_rest: options.at_rest,
             found: BTreeMap::new(),
-        }
+        })
     }
 
     /// The places of each object that is strewn or floats, by its number, and notes on them.
@@ -88,7 +93,7 @@ impl<'a> Strewing<'a> {
                         object.name
                     )
                 }));
-                self.found.insert(number, places);
+                self.keep(number, places);
             }
             if let Some(volume) = &object.value.volume {
                 let places = self.fill(&object.value, volume);
@@ -96,10 +101,23 @@ impl<'a> Strewing<'a> {
                     name: object.name.clone(),
                     source,
                 })?;
-                self.found.insert(number, places);
+                self.keep(number, places);
             }
         }
         Ok((self.found, notes))
+    }
+
+    /// Keeps the places of an object.
+    fn keep(&mut self, number: usize, places: Copies) {
+        let parts = self.most_parts(&self.objects[number].value);
+        self.memory.take_instances(places.len() * parts);
+        self.found.insert(number, places);
+    }
+
+    /// How many instances a place of an object takes at most.
+    fn most_parts(&self, object: &Object) -> usize {
+        let parts = |shape: &ObjectShape| self.pieces.of(*shape).len();
+        object.shapes.iter().map(parts).max().unwrap_or(1)
     }
 
     /// Refuses to strew on things that will be too many for their triangles, whichever are drawn.
@@ -151,13 +169,15 @@ impl<'a> Strewing<'a> {
                 at_rest.fetch_add(1, Ordering::Relaxed);
             }
         };
-        let places = strewn.plan.places_told(&ground, others, &bodies, &tell)?;
         let parts = group.map_or(1, <[_]>::len);
-        if places.len() * parts > MOST_THINGS {
-            return Err(ScatterError::TooMany {
-                wanted: (places.len() * parts) as f64,
-                most: MOST_THINGS,
-            });
+        let most = self.memory.most(parts * self.most_parts(object));
+        let places = strewn
+            .plan
+            .places_told(&ground, others, &bodies, most, &tell)?;
+        let most = Most::UNBOUND;
+        if places.len() * parts > most.things() {
+            let wanted = (places.len() * parts) as f64;
+            return Err(ScatterError::TooMany { wanted, most });
         }
         let heap = heap(strewn, &ground, &bodies, &places);
         let found = places.iter().flat_map(|place| {
@@ -178,7 +198,8 @@ impl<'a> Strewing<'a> {
                 .sum()
         };
         let areas: Vec<f64> = object.shapes.iter().map(area).collect();
-        let places = volume.places(&areas)?.into_iter();
+        let most = self.memory.most(self.most_parts(object));
+        let places = volume.places(&areas, most)?.into_iter();
         let places = places.map(|place| {
             let to_world = DMat4::from(place.to_world) * object.to_world;
             (place.body, to_world)

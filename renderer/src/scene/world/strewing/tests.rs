@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use crate::scene::load::parse;
-use crate::scene::world::World;
+use crate::scene::world::{BuildOptions, World};
 
 const STREWN: &str = r#"
 format = 1
@@ -126,4 +126,42 @@ fn what_is_too_fine_to_strew_on_is_told_before_anything_falls() {
         error.starts_with("objects.cards.scatter: `on`: the surface has over 20000000 triangles"),
         "{error}"
     );
+}
+
+#[test]
+fn places_and_meshes_that_need_more_memory_than_is_allowed_are_refused_before_they_are_made() {
+    let text = STREWN.replace(
+        "scatter = ",
+        "volume = { within_m = [0, 0, 0, 1, 1, 1], lai = 100 }\n#",
+    );
+    let built = |text: &str, overrides: &[String], most_bytes: f64| {
+        let loaded = parse(text, "scene.toml", Path::new("."), overrides);
+        let scene = loaded
+            .unwrap_or_else(|errors| panic!("{errors}"))
+            .description;
+        let options = BuildOptions {
+            most_bytes: Some(most_bytes),
+            ..BuildOptions::default()
+        };
+        let world = World::build_with(&scene, &options);
+        world.map(|_| ()).map_err(|error| error.to_string())
+    };
+    // A lump of 4 mm has some 2 cm²: half a million of them float in the box.
+    let error = built(&text, &[], 1e8).expect_err("more than there is memory for");
+    assert!(
+        error.starts_with("objects.crumbs.volume: `lai`: this takes ")
+            && error.contains("for which there is memory")
+            && error.contains("--memory"),
+        "{error}"
+    );
+    let fine = "meshes.crumb.lump={ radius_m=0.004, segments=256 }".to_owned();
+    let error = built(STREWN, &[fine], 1e7).expect_err("more than there is memory for");
+    assert!(
+        error.contains("triangles") && error.contains("--memory 1"),
+        "{error}"
+    );
+    let loose = STREWN.replace("settle = true, ", "");
+    built(&loose, &[], 2e6).expect("318 things fit");
+    let error = built(&loose, &[], 5e5).expect_err("more than there is memory for");
+    assert!(error.contains("objects.crumbs.scatter: `count`"), "{error}");
 }
