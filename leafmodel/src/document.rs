@@ -21,6 +21,7 @@ pub mod limits;
 pub mod names;
 pub mod nearest;
 pub mod opened;
+mod other_format;
 pub mod overrides;
 pub mod path;
 pub mod reader;

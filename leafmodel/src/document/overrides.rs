@@ -5,7 +5,7 @@ use toml::de::DeTable;
 use super::context::{Context, ENOUGH, QUOTED};
 use super::error::{DocumentError, LocatedError};
 use super::nearest::nearest;
-use super::opened::with_equals;
+use super::other_format::with_equals;
 use super::schema::{BlockSchema, EntrySchema, Is, Type};
 use super::sections::singular;
 use super::source::{Place, escaped};

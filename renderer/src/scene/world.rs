@@ -220,7 +220,8 @@ impl World {
         }
         notes.extend(notes::on_coats(scene, &materials, &owners, range_nm));
         let pieces = Pieces { leaves, solids };
-        let strewing = Strewing::new(&meshes, &pieces, objects_as_written, options)?;
+        let (most, at_rest) = (options.most_bytes, options.at_rest);
+        let strewing = Strewing::new(&meshes, &pieces, objects_as_written, most, at_rest)?;
         let (strewn, told) = strewing.all()?;
         notes.extend(told);
         let strewn_around = strewing::around(&strewn, origin);

@@ -5,9 +5,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DAffine3, DMat4, DVec3};
 
+use super::WorldError;
 use super::memory::Memory;
 use super::placing::Pieces;
-use super::{BuildOptions, WorldError};
 use crate::geometry::TriangleMesh;
 use crate::geometry::scatter::{
     Amount, Body, Ground, Most, Rest, ScatterError, Strewn, Volume, VolumeError, triangles,
@@ -54,16 +54,17 @@ impl<'a> Strewing<'a> {
         meshes: &'a [TriangleMesh],
         pieces: &'a Pieces,
         objects: &'a [Named<Object>],
-        options: &BuildOptions<'a>,
+        most_bytes: Option<f64>,
+        at_rest: Option<&'a AtomicUsize>,
     ) -> Result<Self, WorldError> {
-        let mut memory = Memory::new(options.most_bytes);
+        let mut memory = Memory::new(most_bytes);
         memory.take_meshes(meshes)?;
         Ok(Self {
             meshes,
             pieces,
             objects,
             memory,
-            at_rest: options.at_rest,
+            at_rest,
             found: BTreeMap::new(),
         })
     }
