@@ -12,6 +12,7 @@ mod layers;
 mod lights;
 mod media;
 mod optics;
+mod positions;
 mod presets;
 mod radiometry;
 mod random_plans;

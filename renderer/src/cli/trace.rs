@@ -120,6 +120,10 @@ fn carry_out(arguments: &TraceArguments, kinds: &[Kind], started: Instant) -> Re
     let settings = settings(arguments)?;
     let shown = arguments.picture.display();
     let traced = traced(&arguments.picture, &picture, &settings)?;
+    let points = traced.outline.points().iter().copied();
+    if let Some(note) = note_on_length(points, "--mm-per-pixel") {
+        eprintln!("{note}");
+    }
     for (path, kind) in arguments.out.iter().zip(kinds) {
         write(path, &kind.bytes(&traced, arguments.size)?)?;
     }
@@ -162,6 +166,22 @@ fn traced(path: &Path, picture: &Raster, settings: &Settings) -> Result<Traced, 
         eprintln!("note: {finding}");
     }
     Ok(traced)
+}
+
+/// A note on a leaf that is longer than any, mm, and so on the flag that says how large it is.
+pub(super) fn note_on_length(points: impl Iterator<Item = DVec2>, flag: &str) -> Option<String> {
+    /// The longest undivided leaves have less.
+    const LONGEST_MM: f64 = 4000.0;
+    let nowhere = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+    let [low, high] = points.fold(nowhere, |[low, high], p| [low.min(p), high.max(p)]);
+    let length_mm = (high - low).max_element();
+    (length_mm > LONGEST_MM).then(|| {
+        format!(
+            "note: the leaf is {:.1} m long, and the longest in nature have some {} m: check {flag}",
+            length_mm / 1000.0,
+            LONGEST_MM / 1000.0
+        )
+    })
 }
 
 /// Findings to tell: of parts that are apart, the longest few.
@@ -275,4 +295,25 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     result.map_err(Failure::system)?;
     say(path.display());
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_leaf_longer_than_any_is_noted_with_the_flag_that_makes_it_so() {
+        let leaf = |length_mm: f64| {
+            let points = [
+                DVec2::ZERO,
+                DVec2::new(30.0, 0.5 * length_mm),
+                length_mm * DVec2::Y,
+            ];
+            note_on_length(points.into_iter(), "--mm-per-pixel")
+        };
+        assert_eq!(leaf(3900.0), None);
+        let note = leaf(11_800.0).expect("it is too long");
+        assert!(note.starts_with("note: the leaf is 11.8 m long"), "{note}");
+        assert!(note.ends_with("check --mm-per-pixel"), "{note}");
+    }
 }

@@ -142,15 +142,9 @@ impl Witness<'_> for Tally<'_> {
     }
 }
 
-/// The box in the frame of a world.
-fn within(world: &World, canopy: &Canopy) -> [Vec2; 2] {
-    let origin = DVec3::new(world.origin.x, world.origin.y, 0.0).truncate();
-    canopy.within.map(|corner| (corner - origin).as_vec2())
-}
-
 /// What of a scene stands outside the box and is left out, a sentence for each object.
 pub(super) fn notes(world: &World, scene: &Description, canopy: &Canopy) -> Vec<String> {
-    let left_out = Period::left_out(within(world, canopy), world);
+    let left_out = Period::left_out(canopy.within, world);
     let note = |(object, count): (usize, usize)| {
         let numbers = 0..world.objects.len();
         let own = numbers.filter(|&number| world.objects[number].object == object);
@@ -172,7 +166,7 @@ pub(super) fn read_out(
     budget: &Budget,
 ) -> Result<Vec<Row>, InstrumentError> {
     let at = &instrument.value.at;
-    let (stage, period) = Period::stage(within(world, canopy), world, at)?;
+    let (stage, period) = Period::stage(canopy.within, world, at)?;
     let ground = (canopy.within[1] - canopy.within[0]).element_product();
     let ledger = Ledger::new(scene, &stage, canopy, ground);
     check(scene, (&stage, &period), canopy, &ledger, at)?;
@@ -333,8 +327,8 @@ fn factor_of(light: Direction) -> &'static str {
 fn is_covered(stage: &Stage<'_>, period: &Period, object: usize) -> bool {
     let numbers = 0..stage.objects.len() as u32;
     let own = numbers.filter(|&number| stage.objects[number as usize].object == object);
-    let own: Vec<(u32, Vec3)> = own.map(|number| (number, Vec3::ZERO)).collect();
-    let Ok(soil) = stage.geometry.with_places(&own) else {
+    let own: Vec<(u32, DVec3)> = own.map(|number| (number, DVec3::ZERO)).collect();
+    let Ok(soil) = stage.geometry.with_places(&own, stage.geometry.origin()) else {
         return false;
     };
     (0..SOIL_PROBES * SOIL_PROBES).all(|probe| {

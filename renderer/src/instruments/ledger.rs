@@ -102,7 +102,7 @@ impl Ledger {
             quantities.extend(named);
             (first, numbers)
         });
-        let origin = stage.world.origin.z;
+        let origin = stage.geometry.origin().z;
         Self {
             quantities,
             objects,

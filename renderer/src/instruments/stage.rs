@@ -1,8 +1,8 @@
 //! The part of a scene that an instrument sees.
 
-use glam::Vec3;
+use glam::DVec3;
 
-use crate::geometry::{Geometry, GeometryError};
+use crate::geometry::{Geometry, GeometryError, origin_near};
 use crate::material::Material;
 use crate::scene::world::{World, WorldObjects};
 
@@ -16,11 +16,16 @@ pub(super) struct Stage<'w> {
 }
 
 impl<'w> Stage<'w> {
-    /// These instances of a world, each moved by an offset, m.
-    pub(super) fn new(world: &'w World, places: &[(u32, Vec3)]) -> Result<Self, GeometryError> {
+    /// These instances of a world, each moved by an offset, m. Rays are traced around a point near
+    /// the given one, which is in their midst.
+    pub(super) fn new(
+        world: &'w World,
+        places: &[(u32, DVec3)],
+        middle: DVec3,
+    ) -> Result<Self, GeometryError> {
         Ok(Self {
             world,
-            geometry: world.geometry.with_places(places)?,
+            geometry: world.geometry.with_places(places, origin_near(middle))?,
             numbers: places.iter().map(|(number, _)| *number).collect(),
             objects: world.objects.pick(places.iter().map(|(number, _)| *number)),
         })
@@ -30,10 +35,15 @@ impl<'w> Stage<'w> {
     pub(super) fn of_object(world: &'w World, object: usize) -> Result<Self, GeometryError> {
         let numbers = 0..world.objects.len() as u32;
         let own = numbers.filter(|&number| world.objects[number as usize].object == object);
-        Self::new(
-            world,
-            &own.map(|number| (number, Vec3::ZERO)).collect::<Vec<_>>(),
-        )
+        let own: Vec<(u32, DVec3)> = own.map(|number| (number, DVec3::ZERO)).collect();
+        let boxes = own
+            .iter()
+            .map(|(number, _)| world.geometry.bounds_of(*number));
+        let nowhere = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (least, most) = boxes.fold(nowhere, |(least, most), (low, high)| {
+            (least.min(low), most.max(high))
+        });
+        Self::new(world, &own, 0.5 * (least + most))
     }
 
     /// The first object that a medium fills.

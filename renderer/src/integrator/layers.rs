@@ -177,7 +177,7 @@ pub const LAYERS: &[FilmLayer] = &[
             // the lens, so this is nearly the mean distance.
             by: |point, camera| camera.distance_of(point),
         },
-        about: "distance of the mean position from the middle of the lens, m; along parallel rays, from where they start",
+        about: "distance of the mean position from the middle of the lens, m; along parallel rays, from the plane through the camera",
     },
     FilmLayer {
         name: "samples",

@@ -84,6 +84,8 @@ impl Input {
             format!("{word}: {}", fault.line())
         };
         let mut remarks: Vec<String> = self.faults.iter().map(told).collect();
+        let places = self.network.nodes().iter().map(|node| node.position);
+        remarks.extend(trace::note_on_length(places, "--mm-per-unit"));
         let mut note = |text: &str| remarks.push(format!("note: {text}"));
         let is_told = |fault: &Fault| fault.kind == FaultKind::NoRadius;
         if !self.known.radii && !self.faults.iter().any(is_told) {

@@ -187,7 +187,7 @@ position_m = [0, 0, 0.1]
         let instance = world.geometry.instance(number as u32);
         let file = MeshFile {
             mesh: instance.mesh as usize,
-            mirrored: instance.to_world.matrix3.determinant() < 0.0,
+            mirrored: instance.linear.determinant() < 0.0,
         };
         let bytes = fs::read(out.join(file.path(&scene, &world))).expect("its mesh");
         let mesh = crate::geometry::import(&bytes, "ply", 1.0).expect("a mesh");
@@ -291,9 +291,10 @@ radiance_w_m2_sr_nm = 1
         let exported = crate::geometry::import(&bytes, "ply", 1.0).expect("a mesh");
         let instance = world.geometry.instance(instance as u32);
         let traced = world.geometry.mesh(instance.mesh);
+        let to_scene = instance.to_scene();
         for (theirs, ours) in exported.positions().iter().zip(traced.positions()) {
             let theirs = to_world.transform_point3(theirs.as_dvec3());
-            let ours = 1000.0 * instance.to_world.transform_point3(*ours).as_dvec3();
+            let ours = 1000.0 * to_scene.transform_point3(ours.as_dvec3());
             // Millimetres; coordinates reach 300 of them.
             assert!(theirs.distance(ours) < 2e-4, "{id}: {theirs} is not {ours}");
         }

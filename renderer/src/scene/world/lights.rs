@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use super::WorldError;
+use glam::DVec3;
+
 use crate::geometry::{Instance, TriangleMesh};
 use crate::light::Light;
 use crate::light::area::AreaLight;
@@ -16,13 +18,14 @@ use crate::scene::assets::{self, RgbPicture};
 use crate::scene::description;
 use crate::spectrum::Curve;
 
-/// The lights of a block of the scene; `instance_of` gives the only instance of an emitting object.
-/// What was changed of its picture is noted.
+/// The lights of a block of the scene, for rays around `origin`; `instance_of` gives the only instance
+/// of an emitting object. What was changed of its picture is noted.
 pub(super) fn build_lights<'i>(
     name: &str,
     light: &description::Light,
     meshes: &[TriangleMesh],
     instance_of: impl Fn(usize) -> &'i Instance,
+    origin: DVec3,
     notes: &mut Vec<String>,
 ) -> Result<Vec<Light>, WorldError> {
     Ok(vec![match light {
@@ -73,9 +76,10 @@ pub(super) fn build_lights<'i>(
             let instance = instance_of(*object);
             let mesh = &meshes[instance.mesh as usize];
             let radiance = Curve::from_description(radiance);
-            let mirrored = instance.to_world.matrix3.determinant() < 0.0;
+            let to_world = instance.around(origin);
+            let mirrored = to_world.matrix3.determinant() < 0.0;
             let triangles = corners(mesh, mirrored, |vertex| {
-                instance.to_world.transform_point3(mesh.positions()[vertex])
+                to_world.transform_point3(mesh.positions()[vertex])
             });
             Light::Area(match pattern {
                 None => AreaLight::new(&triangles, radiance),
@@ -98,7 +102,7 @@ pub(super) fn build_lights<'i>(
             penumbra_angle,
             intensity,
         } => Light::Spot(SpotLight::new(
-            position.as_vec3(),
+            (position - origin).as_vec3(),
             (look_at - position).normalize().as_vec3(),
             *cone_angle,
             *penumbra_angle,
@@ -212,7 +216,14 @@ mod tests {
             .unwrap_or_else(|errors| panic!("{errors}"))
             .description;
         let world = World::build(&scene).expect("it can be built");
-        assert!(world.notes.is_empty(), "{:?}", world.notes);
+        // The dot is behind the camera.
+        let [note] = &world.notes[..] else {
+            panic!("{:?}", world.notes);
+        };
+        assert!(
+            note.starts_with("camera: no object is in the picture"),
+            "{note}"
+        );
         let job = Job {
             width: 2,
             height: 2,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use glam::{DAffine3, DMat4, DVec3};
+use glam::{DAffine3, DMat4};
 
 use super::WorldError;
 use super::placing::Pieces;
@@ -19,19 +19,17 @@ type Copies = Vec<(u32, DMat4)>;
 /// The copies of each object, by its number.
 pub type Places = BTreeMap<usize, Copies>;
 
-/// Places in single precision, with the origin at `origin` in the scene.
-pub(super) fn around(places: &Places, origin: DVec3) -> BTreeMap<usize, Vec<InstancePlace>> {
-    let to_origin = DMat4::from_translation(-origin);
+/// The same places as those of files.
+pub(super) fn as_places(places: &Places) -> BTreeMap<usize, Vec<InstancePlace>> {
     let all = places.iter().map(|(object, places)| {
         let places = places.iter();
-        let places = places.map(|(shape, place)| InstancePlace::new(*shape, to_origin * *place));
+        let places = places.map(|(shape, place)| InstancePlace::new(*shape, *place));
         (*object, places.collect())
     });
     all.collect()
 }
 
-/// What the places of strewn objects depend on. It works in the scene's frame as written, in double
-/// precision, so that places do not depend on where the camera stands.
+/// What the places of strewn objects depend on, in double precision.
 #[derive(Debug)]
 pub(super) struct Strewing<'a> {
     meshes: &'a [TriangleMesh],

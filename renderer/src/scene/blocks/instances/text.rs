@@ -286,8 +286,10 @@ mod tests {
                     1, 2, 3, 90, 2, 3, 4, b # a leaf\r\n\n0,0,0,0,1,1,1,0";
         let places = read_all(text).expect("two good rows");
         // x = (2, 0, 0) turns to y, y = (0, 3, 0) to −x.
-        let expected = [0.0, 2.0, 0.0, -3.0, 0.0, 0.0, 0.0, 0.0, 4.0, 1.0, 2.0, 4.0];
-        assert_eq!(places[0].to_world, expected);
+        let linear = [0.0, 2.0, 0.0, -3.0, 0.0, 0.0, 0.0, 0.0, 4.0];
+        let turned = places[0].linear.to_cols_array();
+        assert_eq!(turned, linear);
+        assert_eq!(places[0].translation, DVec3::new(1.0, 2.0, 4.0));
         assert_eq!((places[0].shape, places[1].shape), (1, 0));
         assert_eq!(places.len(), 2);
     }
@@ -299,13 +301,9 @@ mod tests {
         let text = "x_m y_m z_m quaternion_w quaternion_x quaternion_y quaternion_z shape\n\
                     0 0 0 0.8660254037844387 0.5 0 0 a\n";
         let quaternion = read_all(text).expect("a rotation");
-        for (a, b) in angles.expect("a turn")[0]
-            .to_world
-            .iter()
-            .zip(quaternion[0].to_world)
-        {
-            assert!((a - b).abs() < 1e-6, "{a} is not {b}");
-        }
+        let [turned, by_quaternion] =
+            [&angles.expect("a turn"), &quaternion].map(|places| places[0].linear);
+        assert!(turned.abs_diff_eq(by_quaternion, 1e-6), "{turned}");
         let long = text.replace("0.866", "1.0");
         assert_eq!(
             read_all(&long).expect_err("no rotation")[0].1.code(),
@@ -323,7 +321,7 @@ mod tests {
         let places = read_all(&text).expect("good rows");
         assert!(text.len() > 3 * PIECE && places.len() == count);
         for (row, place) in places.iter().enumerate() {
-            assert_eq!(place.to_world[9], row as f32);
+            assert_eq!(place.translation.x, row as f64);
         }
         // Line numbers include the header and continue across pieces.
         let broken = text.replace(&format!("{:>30} 0 0 a", count - 2), "x 0 0 a");
