@@ -458,7 +458,11 @@ widest_at = 0.4
 falloff = 2.5
 [leaves.leaf.venation.arcuate]
 [leaves.leaf.contents]
+structure = 1.5
 chlorophyll_ug_per_cm2 = 35
+carotenoids_ug_per_cm2 = 9
+water_cm = 0.008
+dry_matter_g_per_cm2 = 0.005
 [objects.leaf]
 leaf = "leaf"
 scale = SCALE

@@ -9,8 +9,8 @@ format = 1
 size = [16, 16]
 spp = 1
 [camera.perspective]
-position_m = [0, -1, 1]
-look_at_m = [0, 0, 0]
+position_m = [2, -1, 1]
+look_at_m = [2, 0, 0.5]
 vertical_fov_deg = 40
 [lights.sky.constant]
 radiance_w_m2_sr_nm = 1
