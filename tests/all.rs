@@ -2,6 +2,7 @@
 //! takes longer than to run it.
 
 mod architecture;
+mod closed_bodies;
 mod determinism;
 mod drops;
 mod fluorescence;

@@ -4,6 +4,7 @@ mod anchors;
 mod arrangement;
 mod brf;
 mod canopy;
+mod closed;
 mod fluorescence;
 mod gonio;
 mod layered;

@@ -29,6 +29,7 @@ import mitsuba as mi
 import numpy as np
 import OpenImageIO as oiio
 
+from lamina.mitsuba import facet
 from lamina.mitsuba.coat import COUNT_AZIMUTH, COUNT_MU, Coat
 from lamina.mitsuba.lookup import Table, bits, cell, nearest
 from lamina.mitsuba.prospect import BETALAINS, CONTENTS, Prospect
@@ -394,6 +395,7 @@ class LeafBSDF(mi.BSDF):
 
     def sample(self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True) -> Any:
         """Draws a direction; gives it with value over density."""
+        si = facet.seen(si)
         cos_view = mi.Frame3f.cos_theta(si.wi)
         active = mi.Bool(active) & (cos_view != 0.0)
         adaxial = cos_view > 0.0
@@ -410,9 +412,9 @@ class LeafBSDF(mi.BSDF):
         local = dr.select(in_coat, mirrored, diffuse)
         active &= local.z > 0.0
         side = adaxial == (in_coat | reflected)
-        wo = self.returned(local, axes, side)
+        wo = facet.leaving(si, self.returned(local, axes, side))
 
-        value, pdf = self.value_and_pdf(si, wo, active)
+        value, pdf = facet.folded(self.value_and_pdf, si, wo, active)
         active &= pdf > 0.0
         bs = dr.zeros(mi.BSDFSample3f)
         bs.wo = wo
@@ -434,15 +436,15 @@ class LeafBSDF(mi.BSDF):
 
     def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
         """f times the cosine."""
-        return self.value_and_pdf(si, wo, mi.Bool(active))[0]
+        return self.eval_pdf(ctx, si, wo, active)[0]
 
     def pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
         """Density of `sample`."""
-        return self.value_and_pdf(si, wo, mi.Bool(active))[1]
+        return self.eval_pdf(ctx, si, wo, active)[1]
 
     def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
         """Both at once."""
-        return self.value_and_pdf(si, wo, mi.Bool(active))
+        return facet.folded(self.value_and_pdf, facet.seen(si), wo, mi.Bool(active))
 
     def traverse(self, callback: Any) -> None:
         """The leaf has no parameters that are changed after loading."""

@@ -20,7 +20,7 @@ import mitsuba as mi
 import numpy as np
 
 from lamina.exr import read_channels
-from lamina.mitsuba import solid_bsdf
+from lamina.mitsuba import facet, solid_bsdf
 from lamina.mitsuba.coat import Coat
 from lamina.mitsuba.leaf_bsdf import FACES, Double, LeafBSDF
 from lamina.mitsuba.lookup import Table, cell
@@ -223,11 +223,13 @@ class ReliefBSDF(LeafBSDF):
 
     def sample(self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True) -> Any:
         """Draws a direction by its cosine, to either side; gives it with value over density."""
+        si = facet.seen(si)
         active = mi.Bool(active) & (si.wi.z != 0.0)
         wo = mi.warp.square_to_cosine_hemisphere(sample2)
         is_above = sample1 < 0.5
         wo.z = dr.select(is_above, wo.z, -wo.z)
-        value, pdf = self.value_and_pdf(si, wo, active)
+        wo = facet.leaving(si, wo)
+        value, pdf = facet.folded(self.value_and_pdf, si, wo, active)
         active &= pdf > 0.0
         bs = dr.zeros(mi.BSDFSample3f)
         bs.wo = wo

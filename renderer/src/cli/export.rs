@@ -36,6 +36,20 @@ pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
              light; Lamina does not"
         );
     }
+    let leaking = mitsuba::leaking(&scene, &world);
+    if !leaking.is_empty() {
+        eprintln!(
+            "note: {} smooth and {} Mitsuba's own diffuse or dielectric BSDF, with which some light passes \
+             closed bodies at their outline and terminator: {}; leaves, solid tissue and plastic let none pass",
+            if leaking.len() == 1 {
+                "one object is"
+            } else {
+                "some objects are"
+            },
+            if leaking.len() == 1 { "has" } else { "have" },
+            leaking.join(", ")
+        );
+    }
     Ok(())
 }
 

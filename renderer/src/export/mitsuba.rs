@@ -150,6 +150,25 @@ pub fn check_ours(dir: &Path) -> Result<(), ExportError> {
     Ok(())
 }
 
+/// Names of the smooth objects whose material is a BSDF of Mitsuba's own: there light may pass a
+/// closed body, because the shading normal decides on which side of a triangle it is.
+pub fn leaking<'s>(scene: &'s Description, world: &World) -> Vec<&'s str> {
+    let mut objects: Vec<usize> = (0..world.objects.len() as u32)
+        .filter(|&number| {
+            let mesh = world.geometry.mesh(world.geometry.instance(number).mesh);
+            let object = world.objects[number as usize];
+            mesh.normals().is_some() && bsdf::is_stock(&world.materials[object.material])
+        })
+        .map(|number| world.objects[number as usize].object)
+        .collect();
+    objects.sort_unstable();
+    objects.dedup();
+    let names = objects.into_iter();
+    names
+        .map(|number| scene.objects[number].name.as_str())
+        .collect()
+}
+
 /// Writes the folder `dir` completely or not at all; an earlier export there is replaced.
 ///
 /// # Errors

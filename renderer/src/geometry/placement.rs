@@ -167,6 +167,16 @@ impl Placement {
         }
     }
 
+    /// A world direction in the local frame, whose products with local lengths are those of the
+    /// direction with lengths in the world.
+    #[inline]
+    pub(super) fn direction_to_local(&self, world: Vec3) -> Vec3 {
+        if self.carrier.is_shift {
+            return world;
+        }
+        (self.linear.transpose() * world.as_dvec3()).as_vec3()
+    }
+
     /// For each coordinate, the sum of the magnitudes of the terms that carry a world point into
     /// the local frame.
     pub(super) fn to_local_size(&self, world: Vec3) -> Vec3 {

@@ -15,8 +15,9 @@ use glam::{DVec3, Vec2};
 
 use super::row::ViewAngles;
 use super::stage::Stage;
-use super::walk::{Course, Escaped, Scattering};
+use super::walk::{Course, Escaped, Scattering, Staged};
 use super::{InstrumentError, LANES};
+use crate::bsdf::Scattered;
 use crate::geometry::frame::Frame;
 use crate::sampling::warp;
 use crate::scene::description::{Description, Detector, Estimator, Instrument};
@@ -178,6 +179,8 @@ impl Detectors {
             Estimator::Count => return,
         }
         let encounter = at.encounter;
+        let around = Staged(stage, course);
+        let facet = encounter.facet(&around);
         let [u, v, ..] = at.numbers;
         // The same place in all cones.
         let local = warp::cone(Vec2::new(u, v), self.opening);
@@ -187,13 +190,12 @@ impl Detectors {
             } else {
                 towards.frame.normal
             };
-            let wi = encounter.frame.to_local(direction);
-            let f = at.view.scatter(wi).f;
+            let (wi, Scattered { f, .. }) = facet.scatter((&encounter.frame, at.view), direction);
             let of_intensity = wi.z.abs()
                 * encounter.bsdf.flux_over_radiance(encounter.wo, wi)
                 * towards.of_intensity;
             let seen = at.weight * f * of_intensity;
-            if !seen.is_zero() && course.is_clear(stage, encounter.surface.spawn(direction)) {
+            if !seen.is_zero() && course.is_clear(stage, facet.spawn(direction)) {
                 add(number, seen);
             }
         }

@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3};
 
 use super::InstrumentError;
 use super::stage::Stage;
-use super::walk::Course;
+use super::walk::{Course, Straight};
 use crate::geometry::{GeometryError, Hit, Ray};
 use crate::scene::world::World;
 
@@ -52,6 +52,13 @@ impl Course for Period {
             gone += t_side;
         }
         (None, gone)
+    }
+
+    fn is_free(&self, stage: &Stage<'_>, way: &Ray) -> bool {
+        // What lies beyond the sides may be missing there.
+        let end = (way.origin() + way.direction() * way.t_max()).truncate();
+        let is_within = end.cmpge(self.least).all() && end.cmple(self.most).all();
+        is_within && Straight.is_free(stage, way)
     }
 
     fn is_clear(&self, stage: &Stage<'_>, mut ray: Ray) -> bool {

@@ -132,7 +132,7 @@ impl<const N: usize> Paths<'_, N> {
         let vertex = Vertex {
             paths: &paths,
             scatterer: Scatterer::Surface {
-                surface,
+                facet: encounter.facet(&self.world.geometry),
                 frame: &encounter.frame,
                 view: &view,
             },
@@ -163,7 +163,11 @@ impl<const N: usize> Paths<'_, N> {
         let mut leg = *leg;
         if vertex.bounce(numbers, 1.0, self.effort.roulette_below, &mut leg) {
             let drops = passage.drops;
-            let place = (surface, &encounter.frame, encounter.wo);
+            let place = (
+                encounter.facet(&self.world.geometry),
+                &encounter.frame,
+                encounter.wo,
+            );
             let passage = Passage {
                 flights: passage.flights + FLIGHTS_OF_A_PATH,
                 drops: (drops.film()).map_or(drops, |film| film.leave(drops, place, &mut leg)),

@@ -206,7 +206,8 @@ impl<const N: usize> Paths<'_, N> {
                     return;
                 };
                 if let Some(film) = film {
-                    passage.drops = film.leave(passage.drops, (surface, frame, wo), &mut next);
+                    let place = (encounter.facet(&world.geometry), frame, wo);
+                    passage.drops = film.leave(passage.drops, place, &mut next);
                 }
                 *leg = next;
                 continue;
@@ -231,7 +232,8 @@ impl<const N: usize> Paths<'_, N> {
                 passage = beyond;
             }
             if let Some(film) = film {
-                passage.drops = film.leave(passage.drops, (surface, frame, wo), leg);
+                let place = (encounter.facet(&world.geometry), frame, wo);
+                passage.drops = film.leave(passage.drops, place, leg);
             }
         }
     }

@@ -48,6 +48,17 @@ pub(super) fn layered(scene: &Description) -> Option<String> {
     })
 }
 
+/// Whether a material becomes a BSDF of Mitsuba's own that scatters.
+pub(super) fn is_stock(material: &material::Material) -> bool {
+    match material {
+        material::Material::Diffuse(_) => true,
+        material::Material::Dielectric(dielectric) => dielectric.eta != 1.0,
+        material::Material::Plastic(_)
+        | material::Material::Leaf(_)
+        | material::Material::Solid(_) => false,
+    }
+}
+
 /// The material with this number.
 pub(super) fn bsdf(
     scene: &Description,

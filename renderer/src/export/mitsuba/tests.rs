@@ -488,3 +488,41 @@ fn bodies_within_each_other_and_a_camera_in_a_body_are_refused() {
     let error = write(&scene, &world, &out).expect_err("the camera is in the air");
     assert!(matches!(error, ExportError::CameraInside), "{error}");
 }
+
+#[test]
+fn smooth_objects_of_mitsubas_own_bsdfs_are_reported_as_leaking() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut blocks = "
+[meshes.ball.sphere]
+radius_m = 0.01
+[meshes.cube.box]
+size_m = [0.01, 0.01, 0.01]
+[materials.paint.diffuse]
+reflectance = 0.5
+[materials.glass.dielectric]
+eta = 1.5
+[materials.air.dielectric]
+eta = 1
+[materials.glaze.plastic]
+reflectance = 0.5
+"
+    .to_owned();
+    for (number, (name, mesh, material)) in [
+        ("painted", "ball", "paint"),
+        ("flat", "cube", "paint"),
+        ("clear", "ball", "glass"),
+        ("absent", "ball", "air"),
+        ("pot", "ball", "glaze"),
+        ("leaf", "ball", "plain"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        blocks += &format!(
+            "[objects.{name}]\nmesh = \"{mesh}\"\nmaterial = \"{material}\"\n\
+             position_m = [0, {number}, 1]\n"
+        );
+    }
+    let (scene, world) = scene_with(&blocks, folder.path());
+    assert_eq!(leaking(&scene, &world), ["painted", "clear"]);
+}

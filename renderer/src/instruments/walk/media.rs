@@ -4,8 +4,9 @@ use glam::{Vec2, Vec3};
 
 use super::super::LANES;
 use super::super::stage::Stage;
-use super::{Course, Event, Leg, MOST_EVENTS, Met, ROULETTE_BELOW, Walk, Witness};
+use super::{Course, Event, Leg, MOST_EVENTS, ROULETTE_BELOW, Walk, Witness};
 use crate::geometry::{Hit, Ray};
+use crate::integrator::facet::{Facet, Surroundings};
 use crate::medium::{BodyPlace, Coefficients, Inside};
 use crate::sampling::stream::Stream;
 use crate::spectrum::Lanes;
@@ -35,14 +36,19 @@ impl Passage {
     }
 
     /// Light leaves the surface that it has met, in a direction.
-    pub(super) fn leave(&mut self, stage: &Stage<'_>, met: &Met<'_>, ray: &mut Ray) {
-        let surface = &met.encounter.surface;
+    pub(super) fn leave(
+        &mut self,
+        stage: &Stage<'_>,
+        facet: Facet<'_, impl Surroundings>,
+        ray: &mut Ray,
+    ) {
+        let surface = facet.surface;
         if let Some(body) = stage.objects[surface.instance as usize].body {
             let place = stage.objects.body_place(surface.instance);
             let direction = ray.direction();
             self.inside
-                .leave_boundary(place, body, surface.geometric_normal, direction);
-            *ray = surface.spawn_whole(direction);
+                .leave_boundary(place, body, surface.shading_normal, direction);
+            *ray = facet.spawn_whole(direction);
         }
     }
 }

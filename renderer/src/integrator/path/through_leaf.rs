@@ -10,6 +10,7 @@ use crate::bsdf::View;
 use crate::geometry::Hit;
 use crate::geometry::frame::Frame;
 use crate::geometry::surface::SurfacePoint;
+use crate::integrator::facet::Facet;
 use crate::integrator::leaf_walk::LeafWalk;
 use crate::material::leaf::Inside;
 use crate::sampling::stream::Stream;
@@ -64,13 +65,18 @@ impl<const N: usize> Paths<'_, N> {
                 position: at.surface.position,
                 normal: at.surface.shading_normal,
             };
-            if let Some(view) = walk.view() {
+            let facet = Facet {
+                around: &world.geometry,
+                surface: &at.surface,
+            };
+            let view = walk.view().map(View::Face);
+            if let Some(view) = &view {
                 let vertex = Vertex {
                     paths: self,
                     scatterer: Scatterer::Surface {
-                        surface: &at.surface,
+                        facet,
                         frame: &at.outward,
-                        view: &View::Face(view),
+                        view,
                     },
                     receiver,
                     is_lit: true,
@@ -100,12 +106,20 @@ impl<const N: usize> Paths<'_, N> {
                         }
                         throughput *= 1.0 / survival;
                     }
+                    let towards = facet.leaving(leaving.towards);
+                    // Light of one facet may have been mirrored into the same direction.
+                    let density = |own: f32| {
+                        let view = view.as_ref().filter(|_| facet.is_near_gap(towards));
+                        view.map_or(own, |view| {
+                            facet.scatter((&at.outward, view), towards).1.pdf
+                        })
+                    };
                     return Some(Leg {
-                        ray: leaving.surface.spawn(leaving.towards),
+                        ray: facet.spawn(towards),
                         cone: Cone::scattered(width),
                         throughput,
                         bounce: Bounce {
-                            pdf: leaving.pdf.unwrap_or(f32::INFINITY),
+                            pdf: leaving.pdf.map_or(f32::INFINITY, density),
                             from: receiver,
                             light_samples,
                         },
