@@ -67,7 +67,7 @@ use clap::{CommandFactory, FromArgMatches};
 
 use crate::scene::load::{self, Loaded};
 use arguments::{Arguments, Command, ExportCommand, GREETING, SceneArguments};
-use leafmodel::document::report::DocumentErrors;
+use leafmodel::document::report::{DocumentErrors, Warning};
 use places::check_writable;
 
 /// Why a command failed.
@@ -219,9 +219,14 @@ fn output_failure() -> Option<Failure> {
 /// Loads a scene and prints its warnings.
 fn load_scene(arguments: &SceneArguments) -> Result<Loaded, Failure> {
     let loaded = load::load(&arguments.scene, &arguments.overrides)?;
-    let colour = colour();
-    for warning in &loaded.warnings {
-        eprint!("{}", warning.render(colour));
-    }
+    warn(&loaded.warnings);
     Ok(loaded)
+}
+
+/// Prints warnings, each on lines of its own.
+fn warn(warnings: &[Warning]) {
+    let colour = colour();
+    for warning in warnings {
+        eprintln!("{}", warning.render(colour));
+    }
 }

@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use crate::cli::arguments::InstrumentsArguments;
 use crate::cli::progress::Patience;
-use crate::cli::{Failure, colour, needs, places, say};
+use crate::cli::{Failure, needs, places, say, warn};
 use crate::image::atomic;
 use crate::instruments::{Budget, Row, notes, read_out, sets_of};
 use crate::scene::description::Description;
@@ -26,9 +26,7 @@ const MOST_RAYS: u64 = 1 << 32;
 pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
     let given = &arguments.scene;
     let loaded = load::load_for_instruments(&given.scene, &given.overrides)?;
-    for warning in &loaded.warnings {
-        eprint!("{}", warning.render(colour()));
-    }
+    warn(&loaded.warnings);
     let scene = loaded.description;
     let mut inputs = loaded.inputs;
     inputs.push(given.scene.clone());
