@@ -253,13 +253,14 @@ fn settings(arguments: &TraceArguments) -> Result<Settings, Failure> {
 
 /// A picture as grey values, if there is memory to trace it.
 fn read(path: &Path, allowed: Option<f64>) -> Result<Raster, Failure> {
-    let picture = scan::read_grey(path).map_err(Failure::bad)?;
-    let pixels = f64::from(picture.width) * f64::from(picture.height);
+    let (width, height) = scan::size(path).map_err(Failure::bad)?;
+    let pixels = f64::from(width) * f64::from(height);
     needs::compare(
         "tracing",
         &[(BYTES_A_PIXEL * pixels, "the picture")],
         allowed,
     )?;
+    let picture = scan::read_grey(path).map_err(Failure::bad)?;
     let values = picture.layers.into_iter().next();
     let values = values.map_or_else(Vec::new, |layer| layer.data);
     Raster::new(picture.width as usize, picture.height as usize, values)

@@ -233,9 +233,9 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
     }
     for light in &scene.lights {
         if let Light::Area { .. } = light.value
-            && let Some(file) = light.value.picture()
+            && let Some((file, layer)) = light.value.picture()
         {
-            let picture = assets::shining(file)?;
+            let picture = assets::shining(file, layer)?;
             let size = [picture.width, picture.texels.len() / picture.width];
             let picture = surroundings::weights(size, &picture.texels);
             let path = folder.join(units::weights_file(&light.name));

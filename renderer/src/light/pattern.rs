@@ -37,9 +37,11 @@ impl Pattern {
         colour.map(|value| value * bell)
     }
 
-    /// Mean of red, green and blue of the factor at texture coordinates.
+    /// Mean of red, green and blue of the factor at texture coordinates, without their signs:
+    /// colours outside of Rec. 709 have channels below 0.
     pub fn brightness(&self, uv: Vec2) -> f32 {
-        self.at(uv).iter().sum::<f32>() / 3.0
+        let factors = self.at(uv).map(f32::abs);
+        factors.iter().sum::<f32>() / 3.0
     }
 }
 

@@ -23,7 +23,7 @@ pub enum Beyond {
 }
 
 impl Texels {
-    /// A picture from texels, each ≥ 0 and finite, `width` per row.
+    /// A picture from finite texels, `width` per row.
     pub fn new(texels: Vec<[f32; 3]>, width: usize) -> Self {
         Self {
             width,

@@ -306,6 +306,14 @@ fn report(keys: &Keys<'_>, key: &str, error: DocumentError) {
     keys.report(&[key], error);
 }
 
+/// The key `layer` of a picture.
+fn picture_layer(layer: &mut Option<String>, keys: &mut Keys<'_>) {
+    const LAYER: Text = Text("the name of a layer of the EXR");
+    let about = "The layer of an EXR whose channels R, G and B, or Y alone, are used: `sky` has `sky.R`. \
+        Without it the channels without a layer are.";
+    keys.optional("layer", layer, LAYER, about);
+}
+
 /// A key with the path of a file that must exist.
 fn file(
     keys: &mut Keys<'_>,

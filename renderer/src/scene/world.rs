@@ -28,6 +28,7 @@ use self::light_colours::{check_white, light_colours};
 use self::lights::build_lights;
 use self::materials::{Known, build_materials};
 use self::meshes::build_mesh;
+pub use self::notes::on_mesh;
 pub use self::placing::{Pieces, WorldObject, WorldObjects};
 use self::placing::{Placed, place};
 pub use self::strewing::Places;
@@ -171,7 +172,7 @@ impl World {
         let wavelengths = options.wavelengths.cloned().unwrap_or_else(of_film);
         let range_nm = wavelengths.range_nm();
         let mut known = Known::on(wavelengths.grid());
-        let mut materials = build_materials(scene, &colours, &mut known)?;
+        let mut materials = build_materials(scene, &colours, &mut known, &mut notes)?;
         let names = scene.materials.iter().map(|named| named.name.as_str());
         notes.extend(notes::on_maps(names.zip(&materials)));
         notes.extend(notes::on_missing_uvs(scene, &meshes, &materials));
@@ -342,16 +343,7 @@ fn build_meshes(
     let (mut meshes, mut colours) = (Vec::new(), Vec::new());
     for (number, mesh) in scene.meshes.iter().enumerate() {
         let built = build_mesh(&mesh.name, &mesh.value, scene.wants_colours_of(number))?;
-        if built.mesh.dropped().total() > 0 {
-            notes.push(format!("meshes.{}: {}", mesh.name, built.mesh.dropped()));
-        }
-        if !built.left_out.is_empty() {
-            let parts = built.left_out.join(", ");
-            notes.push(format!(
-                "meshes.{}: left out of its file: {parts}",
-                mesh.name
-            ));
-        }
+        notes.extend(on_mesh(&mesh.name, &built.mesh, &built.left_out));
         meshes.push(built.mesh);
         colours.push(built.colours);
     }
