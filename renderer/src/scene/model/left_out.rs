@@ -9,6 +9,9 @@ use gltf_json::validation::Checked;
 
 use super::shown;
 
+/// Most extensions that are named.
+const MOST_NAMED: usize = 10;
+
 /// Extensions that are read, or change nothing of what is.
 const HARMLESS: [&str; 3] = [
     "KHR_texture_transform",
@@ -34,16 +37,22 @@ pub(super) fn of_document(root: &Root) -> BTreeSet<String> {
             "morph targets",
         );
         let mut attributes = primitive.attributes.keys();
-        let has_colours = attributes.any(|key| matches!(key, Checked::Valid(Semantic::Colors(_))));
-        add(has_colours, "colours of vertices");
+        let is_further =
+            |key: &Checked<Semantic>| matches!(key, Checked::Valid(Semantic::Colors(1..)));
+        add(attributes.any(is_further), "further colours of vertices");
     }
     for material in &root.materials {
         of_material(material, &mut add);
     }
-    let extensions = root.extensions_used.iter().map(String::as_str);
+    let extensions = root.extensions_used.iter().chain(&root.extensions_required);
+    let extensions = extensions.map(String::as_str);
     let extensions: BTreeSet<&str> = extensions.filter(|name| !HARMLESS.contains(name)).collect();
-    for name in extensions.into_iter().take(10) {
+    let count = extensions.len();
+    for name in extensions.into_iter().take(MOST_NAMED) {
         left_out.insert(format!("extension {}", shown(name)));
+    }
+    if count > MOST_NAMED {
+        left_out.insert(format!("{} extensions more", count - MOST_NAMED));
     }
     left_out
 }
@@ -56,10 +65,13 @@ fn of_material(material: &Material, add: &mut impl FnMut(bool, &str)) {
         is_metal,
         "metal (its base colour is taken as that of paint)",
     );
+    let is_rough = colour.roughness_factor.0 == 1.0 && colour.metallic_roughness_texture.is_none();
+    add(!is_rough, "roughness (that of the scene's material holds)");
     add(
-        material.alpha_mode != Checked::Valid(AlphaMode::Opaque),
-        "transparency",
+        material.alpha_mode == Checked::Valid(AlphaMode::Blend),
+        "partial transparency (alpha mode BLEND is taken as opaque)",
     );
+    add(material.occlusion_texture.is_some(), "maps of occlusion");
     add(material.normal_texture.is_some(), "maps of normals");
     let glows = material.emissive_factor.0.iter().any(|part| *part > 0.0);
     add(glows, "emitted light");
