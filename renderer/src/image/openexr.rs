@@ -17,8 +17,8 @@ use exr::meta::{BlockDescription, MetaData, magic_number};
 use exr::prelude::{Compression, ReadChannels, ReadLayers, Vec2};
 
 use super::{
-    Attribute, ImageError, Layer, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, atomic, check_held,
-    check_size,
+    Attribute, ImageError, Layer, MOST_BYTES, MOST_EXPANSION, MOST_TEXTURE_BYTES, Picture, atomic,
+    check_held, check_size,
 };
 
 /// Attributes that describe the structure of the file. They cannot be set and are not reported.
@@ -39,6 +39,10 @@ const STRUCTURAL: [&str; 15] = [
     "type",
     "version",
 ];
+
+/// Most bytes of pixels in a display window that is larger than the data window, however small the
+/// file is: those of a sky of 2048 × 1024 pixels.
+const MOST_EMPTY: u64 = 24 << 20;
 
 /// Name of the channel that holds spectral radiance at a wavelength.
 ///
@@ -365,6 +369,17 @@ fn check_headers(meta: &MetaData, held: usize, most: u64) -> Result<(), ImageErr
             let (width, height) = (size.0 as u64, size.1 as u64);
             check_size(width, height, channels, of_a_pixel, most)?;
             total = total.saturating_add((width * height).saturating_mul(of_a_pixel));
+        }
+        let size = header.shared_attributes.display_window.size;
+        let shown = (size.0 as u64 * size.1 as u64).saturating_mul(channels * 4);
+        if size != header.layer_size && shown > MOST_EMPTY.max(held as u64 * MOST_EXPANSION) {
+            let (width, height) = (size.0, size.1);
+            return Err(ImageError::Malformed {
+                what: format!(
+                    "its display window of {width} × {height} pixels is too large for {held} bytes: save it \
+                     with a smaller one, or with pixels in all of it"
+                ),
+            });
         }
         // The values of the file become those of the picture where both have one size.
         let size = header.layer_size;

@@ -137,12 +137,12 @@ const SHARES: Allowed = Allowed {
     range: "0 to 1",
 };
 
-fn channel(
+fn channel<'p>(
     file: &Path,
-    picture: &Picture,
+    picture: &'p Picture,
     name: &'static str,
     allowed: &Allowed,
-) -> Result<Vec<f32>, AssetError> {
+) -> Result<&'p [f32], AssetError> {
     let layer = picture
         .layers
         .iter()
@@ -166,7 +166,7 @@ fn channel(
             range: allowed.range,
         });
     }
-    Ok(layer.data.clone())
+    Ok(&layer.data)
 }
 
 /// A contents map: an EXR with a channel for each [`Constituent`]; its first row is v = 0.
@@ -397,10 +397,10 @@ fn stored(
         path: file.to_owned(),
         source: Box::new(source),
     })?;
-    let texels = red.into_iter().zip(green).zip(blue);
+    let texels = red.iter().zip(green).zip(blue);
     let picture = RgbPicture {
         width: picture.width as usize,
-        texels: texels.map(|((r, g), b)| [r, g, b]).collect(),
+        texels: texels.map(|((r, g), b)| [*r, *g, *b]).collect(),
         below: 0.0,
         outside: 0.0,
     };

@@ -409,6 +409,15 @@ fn a_display_window_that_claims_too_much_is_refused_unread() {
         matches!(refused, ImageError::TooLarge { width: 60_000, .. }),
         "{refused}"
     );
+    assert!(decode(&parts([0, 0, 2048, 1024], &[("", [0, 0], [1, 1])])).is_ok());
+    let bytes = parts([0, 0, 8192, 4096], &[("", [0, 0], [1, 1])]);
+    let refused = decode(&bytes).map(|_| ()).expect_err("a pixel of as many");
+    assert!(
+        refused
+            .to_string()
+            .contains("display window of 8192 × 4096"),
+        "{refused}"
+    );
 }
 
 #[test]
