@@ -12,8 +12,8 @@ use glam::DMat3;
 use leafmodel::document::source::escaped;
 
 use super::{
-    Attribute, ImageError, Layer, MOST_TEXTURE_BYTES, Picture, jpeg, openexr, portable_network,
-    primaries, radiance, read_file,
+    Attribute, ImageError, Layer, MOST_TEXTURE_BYTES, Picture, REC709, jpeg, openexr,
+    portable_network, primaries, radiance, read_file,
 };
 
 /// The channels of colours.
@@ -78,6 +78,33 @@ pub fn to_rec709(picture: &Picture) -> Result<Option<DMat3>, ImageError> {
 /// A colour through a map, if there is one.
 pub fn mapped(map: Option<DMat3>, colour: [f32; 3]) -> [f32; 3] {
     map.map_or(colour, |map| primaries::mapped(map, colour))
+}
+
+/// A picture with its channels `R`, `G` and `B` in linear sRGB.
+///
+/// # Errors
+///
+/// As [`to_rec709`].
+pub fn in_rec709(mut picture: Picture) -> Result<Picture, ImageError> {
+    let Some(map) = to_rec709(&picture)? else {
+        return Ok(picture);
+    };
+    let place = |name| picture.layers.iter().position(|layer| layer.name == name);
+    if let [Some(red), Some(green), Some(blue)] = CHANNELS.map(place) {
+        for pixel in 0..picture.layers[red].data.len() {
+            let places = [red, green, blue];
+            let colour = places.map(|layer| picture.layers[layer].data[pixel]);
+            for (layer, value) in places.into_iter().zip(primaries::mapped(map, colour)) {
+                picture.layers[layer].data[pixel] = value;
+            }
+        }
+    }
+    for (name, value) in &mut picture.attributes {
+        if name == "chromaticities" {
+            *value = REC709;
+        }
+    }
+    Ok(picture)
 }
 
 /// The colours of a layer: those of its channels `R`, `G` and `B`, or grey if it has luminance `Y`
@@ -170,6 +197,32 @@ mod tests {
         assert_eq!(colour(&many, Some("sky")), [4.0, 5.0, 6.0]);
         assert_eq!(colour(&many, Some("view.fog")), [7.0; 3]);
         assert_eq!(colour(&layered(&["Y"]), None), [1.0; 3]);
+    }
+
+    #[test]
+    fn colours_of_rec_2020_are_compared_as_those_of_rec_709() {
+        let layer = |name: &str, value: f32| Layer {
+            name: name.to_owned(),
+            data: vec![value],
+        };
+        let primaries = Attribute::Chromaticities(primaries::REC2020);
+        let picture = Picture {
+            width: 1,
+            height: 1,
+            layers: vec![
+                layer("B", 0.0),
+                layer("G", 0.0),
+                layer("N.R", 1.0),
+                layer("R", 1.0),
+            ],
+            attributes: vec![("chromaticities".to_owned(), primaries)],
+        };
+        let picture = in_rec709(picture).expect("real primaries");
+        let found: Vec<f32> = picture.layers.iter().map(|layer| layer.data[0]).collect();
+        for (found, expected) in found.into_iter().zip([-0.0182, -0.1246, 1.0, 1.6605]) {
+            assert!((found - expected).abs() < 1e-3, "{found}, not {expected}");
+        }
+        assert_eq!(picture.attribute("chromaticities"), Some(&REC709));
     }
 
     #[test]

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use gltf_json::Root;
+use gltf_json::accessor::Type;
 use gltf_json::material::{AlphaMode, Material};
 use gltf_json::mesh::Semantic;
 use gltf_json::validation::Checked;
+use gltf_json::{Accessor, Index, Root};
 
 use super::shown;
 
@@ -13,11 +14,7 @@ use super::shown;
 const MOST_NAMED: usize = 10;
 
 /// Extensions that are read, or change nothing of what is.
-const HARMLESS: [&str; 3] = [
-    "KHR_texture_transform",
-    "KHR_mesh_quantization",
-    "KHR_materials_unlit",
-];
+const HARMLESS: [&str; 2] = ["KHR_texture_transform", "KHR_mesh_quantization"];
 
 /// What is left out, in words.
 pub(super) fn of_document(root: &Root) -> BTreeSet<String> {
@@ -40,6 +37,19 @@ pub(super) fn of_document(root: &Root) -> BTreeSet<String> {
         let is_further =
             |key: &Checked<Semantic>| matches!(key, Checked::Valid(Semantic::Colors(1..)));
         add(attributes.any(is_further), "further colours of vertices");
+        let material = primitive
+            .material
+            .map(|material| &root.materials[material.value()]);
+        let is_masked = material.is_some_and(|of| of.alpha_mode == Checked::Valid(AlphaMode::Mask));
+        let colours = primitive
+            .attributes
+            .get(&Checked::Valid(Semantic::Colors(0)));
+        let has_alpha =
+            |of: &Index<Accessor>| root.accessors[of.value()].type_ == Checked::Valid(Type::Vec4);
+        add(
+            is_masked && colours.is_some_and(has_alpha),
+            "alpha of vertices in masks",
+        );
     }
     for material in &root.materials {
         of_material(material, &mut add);
