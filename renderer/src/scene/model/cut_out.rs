@@ -14,6 +14,12 @@ use crate::material::colour_map::ColourTexture;
 /// Most triangles into which one part of a model is cut.
 pub(super) const MOST_TRIANGLES: usize = 1 << 23;
 
+/// Most triangles into which one triangle is cut.
+pub(super) const MOST_OF_ONE: usize = 1 << 18;
+
+/// Greatest size of a triangle that is cut, in texels: few pictures repeat so often.
+const LARGE: f32 = 131_072.0;
+
 /// Texels of which the least and the greatest are looked for one by one.
 const FEW: i64 = 256;
 
@@ -94,30 +100,73 @@ impl Mask {
         }
     }
 
-    /// Cuts a triangle; `None` if it would become more than `most`.
+    /// Cuts a triangle; `None` if it would become more than `most`, or than any may.
     pub(super) fn cut(&self, triangle: [Corner; 3], most: usize) -> Option<Cut> {
         let is_finite = triangle.iter().all(|corner| corner.uv.is_finite());
         if !is_finite || self.is_there(&triangle) == Some(true) {
             return Some(Cut::Whole);
         }
-        let mut parts = Vec::new();
+        if self.span(&triangle) > LARGE {
+            return None;
+        }
+        // They are counted before memory is taken for them.
+        let most = most.min(MOST_OF_ONE);
+        let (mut steps, mut count) = (0, 0);
+        let is_small = self.quarter(
+            triangle,
+            &mut |_| {
+                count += 1;
+                count <= most
+            },
+            &mut || {
+                steps += 1;
+                steps <= 3 * MOST_OF_ONE
+            },
+        );
+        if !is_small {
+            return None;
+        }
+        let mut parts = Vec::with_capacity(count);
+        self.quarter(
+            triangle,
+            &mut |part| {
+                parts.push(part);
+                true
+            },
+            &mut || true,
+        );
+        Some(Cut::Parts(parts))
+    }
+
+    /// Gives the parts of a triangle that are there to `take`, and asks `go_on` at each step; false
+    /// if one of them refused.
+    fn quarter(
+        &self,
+        triangle: [Corner; 3],
+        take: &mut dyn FnMut([Corner; 3]) -> bool,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> bool {
         let mut open = vec![triangle];
         while let Some(triangle) = open.pop() {
+            if !go_on() {
+                return false;
+            }
             match self.is_there(&triangle) {
-                Some(true) => parts.push(triangle),
-                Some(false) => {}
-                None if self.span(&triangle) <= SMALL => self.clip(triangle, &mut parts),
+                Some(true) if !take(triangle) => return false,
+                Some(_) => {}
+                None if self.span(&triangle) <= SMALL => {
+                    if !self.clipped(triangle).into_iter().flatten().all(&mut *take) {
+                        return false;
+                    }
+                }
                 None => {
                     let [a, b, c] = triangle;
                     let [ab, bc, ca] = [(a, b), (b, c), (c, a)].map(|(p, q)| p.between(q, 0.5));
                     open.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
                 }
             }
-            if parts.len() + open.len() > most {
-                return None;
-            }
         }
-        Some(Cut::Parts(parts))
+        true
     }
 
     /// Size of a triangle in texels.
@@ -175,8 +224,8 @@ impl Mask {
         cells.fold(nothing, union)
     }
 
-    /// Adds the part of a small triangle on whose edges alpha is linear.
-    fn clip(&self, triangle: [Corner; 3], parts: &mut Vec<[Corner; 3]>) {
+    /// The part of a small triangle that is there: a triangle or two.
+    fn clipped(&self, triangle: [Corner; 3]) -> [Option<[Corner; 3]>; 2] {
         let above = triangle.map(|corner| self.alpha.at(corner.uv)[0] - self.least);
         let mut polygon: Vec<Corner> = Vec::with_capacity(4);
         for (this, next) in [(0, 1), (1, 2), (2, 0)] {
@@ -188,9 +237,10 @@ impl Mask {
                 polygon.push(triangle[this].between(triangle[next], share));
             }
         }
-        for pair in polygon.get(1..).unwrap_or_default().windows(2) {
-            parts.push([polygon[0], pair[0], pair[1]]);
-        }
+        [1, 2].map(|second| {
+            let pair = polygon.get(second..second + 2)?;
+            Some([polygon[0], pair[0], pair[1]])
+        })
     }
 }
 

@@ -9,7 +9,7 @@ use gltf_json::Root;
 use gltf_json::material::AlphaMode;
 use gltf_json::validation::Checked;
 
-use super::cut_out::{Corner, Cut, MOST_TRIANGLES, Mask};
+use super::cut_out::{Corner, Cut, MOST_OF_ONE, MOST_TRIANGLES, Mask};
 use super::pictures::picture;
 use super::surfaces::Patch;
 use super::textures::{source, texture};
@@ -39,7 +39,8 @@ pub(super) fn cut_out(
         };
         cut(patch, mask).ok_or_else(|| {
             let what = format!(
-                "its alpha mask cuts a part into more than {MOST_TRIANGLES} triangles: use a smaller picture"
+                "its alpha mask cuts a part of the model into too many triangles (at most {MOST_TRIANGLES}, and \
+                 {MOST_OF_ONE} of one): use a smaller picture, or let it repeat less often"
             );
             ModelError::invalid(format!("materials[{number}]"), what)
         })?;
