@@ -223,10 +223,41 @@ fn load_scene(arguments: &SceneArguments) -> Result<Loaded, Failure> {
     Ok(loaded)
 }
 
-/// Prints warnings, each on lines of its own.
+/// Prints warnings.
 fn warn(warnings: &[Warning]) {
-    let colour = colour();
-    for warning in warnings {
-        eprintln!("{}", warning.render(colour));
+    eprint!("{}", reported(warnings, colour()));
+}
+
+/// Warnings, each on lines of its own.
+fn reported(warnings: &[Warning], colour: bool) -> String {
+    let lines = warnings.iter().map(|warning| warning.render(colour) + "\n");
+    lines.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_warning_ends_its_line() {
+        let scene = "format = 1\n[film.rgb]\nsize = [2, 2]\nspp = 1\n[camera.perspective]\n\
+            position_m = [0, 1, 0]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 40\n\
+            [lights.sky.constant]\nradiance_w_m2_sr_nm = 1\n[meshes.dot.sphere]\nradius_m = 0.1\n\
+            [materials.used.diffuse]\nreflectance = 0\n[materials.one.diffuse]\nreflectance = 0\n\
+            [materials.two.diffuse]\nreflectance = 0\n[objects.dot]\nmesh = \"dot\"\nmaterial = \"used\"\n";
+        let loaded = load::parse(scene, "scene.toml", Path::new("."), &[]);
+        let loaded = loaded.unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(loaded.warnings.len(), 2);
+        let text = reported(&loaded.warnings, false);
+        let first: Vec<&str> = text
+            .lines()
+            .filter(|line| line.contains("warning"))
+            .collect();
+        assert_eq!(first.len(), 2, "{text}");
+        assert!(
+            first.iter().all(|line| line.starts_with("warning[")),
+            "{text}"
+        );
+        assert!(text.ends_with('\n'), "{text}");
     }
 }
