@@ -68,6 +68,7 @@ use clap::{CommandFactory, FromArgMatches};
 use crate::scene::load::{self, Loaded};
 use arguments::{Arguments, Command, ExportCommand, GREETING, SceneArguments};
 use leafmodel::document::report::DocumentErrors;
+use leafmodel::document::source::printable;
 use places::check_writable;
 
 /// Why a command failed.
@@ -83,7 +84,7 @@ enum Failure {
 
 impl Failure {
     fn bad(error: impl std::fmt::Display) -> Self {
-        Self::BadInput(format!("error: {error}\n"))
+        Self::BadInput(format!("error: {}\n", printable(&error.to_string())))
     }
 
     fn written_twice(path: &Path) -> Self {
@@ -92,7 +93,7 @@ impl Failure {
     }
 
     fn system(error: impl std::fmt::Display) -> Self {
-        Self::System(format!("error: {error}\n"))
+        Self::System(format!("error: {}\n", printable(&error.to_string())))
     }
 }
 

@@ -57,6 +57,17 @@ fn both_faces_of_a_table_in_percent_and_micrometres_are_read_and_told() {
 }
 
 #[test]
+fn units_that_the_scene_gives_are_no_guess() {
+    let file = "file = \"leaves.csv\", leaf = \"oak\"";
+    let guessed = leaf(&format!("{{ {file} }}"));
+    let (tissue, _, said) = leaf(&format!(
+        "{{ {file}, wavelengths = \"um\", values = \"percent\" }}"
+    ));
+    assert_eq!(format!("{tissue:?}"), format!("{:?}", guessed.0));
+    assert!(said.is_empty(), "{said:?}");
+}
+
+#[test]
 fn files_of_spectrometers_are_read_for_each_spectrum() {
     let (tissue, faces, said) =
         leaf("{ reflectance = { file = \"oak.sig\" }, transmittance = { file = \"oak.txt\" } }");

@@ -2,6 +2,8 @@
 
 use glam::DVec2;
 
+use crate::document::source::quoted;
+
 use super::fields::Unit;
 use crate::shape::outline::Outline;
 
@@ -79,7 +81,7 @@ impl Draft {
     /// How a node is called in the file.
     pub(super) fn name(&self, node: u32) -> String {
         let name = self.names.get(node as usize);
-        name.map_or_else(|| node.to_string(), Clone::clone)
+        name.map_or_else(|| node.to_string(), |name| quoted(name))
     }
 
     /// A length of a place, millimetres where it has a unit.

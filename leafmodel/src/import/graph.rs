@@ -4,6 +4,8 @@ use std::collections::HashMap;
 
 use glam::DVec2;
 
+use crate::document::source::quoted;
+
 use super::draft::{ABSENT, Draft, DraftEdge};
 use super::error::ImportError;
 use super::fields::{EdgeField, NodeField, Unit, two_numbers};
@@ -41,13 +43,9 @@ impl<K: Fn() -> String, P: Fn() -> String> Text<'_, K, P> {
     }
 }
 
-/// A text in quotation marks, cut if it is long.
+/// A text in quotation marks, safe to print and cut if it is long.
 pub(super) fn shortened(text: &str) -> String {
-    const LONGEST: usize = 40;
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("\"{}…\"", &text[..end]),
-        None => format!("\"{text}\""),
-    }
+    format!("\"{}\"", quoted(text))
 }
 
 /// A graph that is being read: nodes first, then edges.
@@ -134,8 +132,9 @@ impl Builder {
             }
         }
         if !self.is_without_name {
-            let name = self.draft.name(node as u32);
+            let name = self.draft.names.last().cloned().unwrap_or_default();
             if self.numbers.insert(name.clone(), node as u32).is_some() {
+                let name = quoted(&name);
                 return Err(ImportError::NameTwice {
                     place: place(),
                     name,

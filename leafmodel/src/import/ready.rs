@@ -1,5 +1,6 @@
 //! From what a file tells to a network that can be measured.
 
+use crate::document::source::quoted;
 use glam::DVec2;
 
 use super::draft::{ABSENT, Draft};
@@ -146,7 +147,7 @@ impl Draft {
     fn senseless(&self) -> Vec<Fault> {
         let mut loose = Fault::new(FaultKind::LooseEnd);
         for (edge, node) in &self.loose {
-            loose.named(|| format!("{edge}: node {node}"));
+            loose.named(|| format!("{edge}: node {}", quoted(node)));
         }
         if loose.count == 0 {
             for (number, edge) in self.edges.iter().enumerate() {

@@ -12,6 +12,7 @@ mod optics;
 mod samples;
 mod shell;
 mod sweep;
+mod tables;
 mod tonemap;
 mod trace;
 
@@ -33,6 +34,7 @@ pub use optics::OpticsArguments;
 pub use samples::SampleRange;
 pub use shell::{CompletionsArguments, ManArguments};
 pub use sweep::{SweepArguments, TaskRange};
+pub use tables::{ReadingTablesArguments, TableArguments};
 pub use tonemap::TonemapArguments;
 pub use trace::{ThresholdKind, TraceArguments};
 

@@ -253,7 +253,7 @@ fn margin(path: &Path, arguments: &ReadingArguments) -> Result<Outline, Failure>
 }
 
 /// The text of a file.
-fn text_of(path: &Path) -> Result<String, Failure> {
+pub(in crate::cli) fn text_of(path: &Path) -> Result<String, Failure> {
     let bytes = std::fs::read(path)
         .map_err(|error| Failure::bad(format!("{}: {error}", path.display())))?;
     String::from_utf8(bytes).map_err(|error| {

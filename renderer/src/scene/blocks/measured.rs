@@ -4,12 +4,14 @@ use leafmodel::document::coverage::require_coverage;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::reader::Block;
-use leafmodel::document::value_kind::{FilePath, NamedFile, Text};
+use leafmodel::document::source::quoted;
+use leafmodel::document::value_kind::{FilePath, NamedFile, Text, Word};
 use leafmodel::document::values::listed;
 
 use super::spectrum::{SpectrumOf, TABLE_WAVELENGTHS_NM};
 use super::table_file::{bad_file, bytes, gap, report, tell, text};
 use crate::measured::Slack;
+use crate::measured::known::{Known, ValueUnit, WavelengthUnit};
 use crate::measured::spectra::{self, Leaf};
 use crate::measured::units;
 use crate::scene::description::{LeafFaces, LeafTissue, Spectrum};
@@ -89,14 +91,22 @@ fn of_table(keys: &mut Keys<'_>) -> Option<Measured> {
     let kind = Text("the name of a leaf of the table");
     let about = "Which of the table's leaves, if it has several.";
     keys.optional("leaf", &mut leaf, kind, about);
+    let mut known = Known::default();
+    let about = "Unit of its wavelengths, instead of a guess.";
+    let units = Word(&WavelengthUnit::ALL);
+    keys.optional("wavelengths", &mut known.wavelengths, units, about);
+    let about = "Unit of its values, instead of a guess.";
+    keys.optional("values", &mut known.values, Word(&ValueUnit::ALL), about);
     let block = keys.reader().filter(|_| keys.is_sound())?;
     let at = &block.node("file")?.at;
     let bytes = bytes(block.cx, &file.file, &file.written, at)?;
     let text = text(block.cx, &file.written, at, &bytes)?;
     let refuse = |fault| report(block.cx, &file.written, at, text, &fault);
-    let found = spectra::read(text).map_err(refuse).ok()?;
+    let found = spectra::read(text, &known).map_err(refuse).ok()?;
+    let help =
+        "if that is wrong, write `wavelengths = \"nm\"` or `values = \"fraction\"` beside the file";
     for note in &found.notes {
-        tell(block.cx, &file.written, at, note);
+        tell(block.cx, &file.written, at, note, help);
     }
     let leaf = chosen(block, &file.written, &found.leaves, leaf.as_deref())?;
     leaf.check(text, Slack::NONE).map_err(refuse).ok()?;
@@ -116,11 +126,16 @@ fn chosen<'l>(
         (Some(name), _) => leaves.iter().find(|leaf| leaf.name == name),
     };
     if found.is_none() {
-        let names = listed(leaves.iter().take(12).map(|leaf| leaf.name.as_str()));
+        let names: Vec<String> = leaves
+            .iter()
+            .take(12)
+            .map(|leaf| quoted(&leaf.name))
+            .collect();
+        let names = listed(names.iter().map(String::as_str));
         let key = if name.is_some() { "leaf" } else { "file" };
         let at = block.node(key).map_or(&block.at, |node| &node.at);
         let problem = match name {
-            Some(name) => format!("has no leaf `{}`", name.escape_debug()),
+            Some(name) => format!("has no leaf `{}`", quoted(name)),
             None => format!("has {} leaves", leaves.len()),
         };
         let help = format!("write `leaf` with one of its names: {names}");
@@ -150,7 +165,8 @@ fn spectra_of(block: &Block<'_>, file: &str, leaf: &Leaf) -> Option<Measured> {
         cx.error(at, bad_file(file, problem, help));
         return None;
     }
-    let hole = units::gap(&leaf.nm).and_then(|i| gap(cx, file, [leaf.nm[i - 1], leaf.nm[i]]));
+    let mut holes = units::gaps(&leaf.nm, units::WIDE_GAP);
+    let hole = holes.find_map(|i| gap(cx, file, [leaf.nm[i - 1], leaf.nm[i]]));
     if let Some(error) = hole {
         cx.error(at, error);
         return None;
