@@ -56,6 +56,9 @@ pub struct FitArguments {
     /// Measured and fitted spectra to write, and what is left
     #[arg(long, value_name = "FILE.csv")]
     pub spectra_out: Option<PathBuf>,
+    /// Covariances of the contents of each leaf to write; --out FILE.json holds them too
+    #[arg(long, value_name = "FILE.csv")]
+    pub covariance_out: Option<PathBuf>,
     /// Drawing of measured and fitted spectra of the first leaves to write
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,

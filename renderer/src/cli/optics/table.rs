@@ -24,7 +24,7 @@ use crate::image::atomic;
 /// Names of the column that names leaves.
 const IDENTITIES: [&str; 5] = ["leaf", "id", "name", "sample", "case"];
 /// Columns of `lamina fit` that are no contents, beside those of standard errors.
-const OF_FITS: [&str; 3] = ["face_contrast", "rms", "values"];
+const OF_FITS: [&str; 4] = ["face_contrast", "rms", "values", "reasons"];
 
 const EMPTY: &str = "has an empty value";
 
