@@ -283,29 +283,33 @@ impl<'t> Rows<'t> {
     /// Cuts the comment behind numbers, and parts a line by its own separator if it lacks the
     /// table's.
     fn loosen(&self, fields: &mut Vec<Field>) {
+        // A field with doubled quotes is written otherwise.
+        let is_exact = |field: &Field| self.text.get(field.span.clone()) == Some(&field.text);
         if let Some(at) = fields.iter().position(|field| field.text.contains('#')) {
+            let is_exact = is_exact(&fields[at]);
             let field = &mut fields[at];
             let kept = field.text.split('#').next().unwrap_or_default().trim_end();
-            field.span.end = field.span.start + kept.len();
-            field.text.truncate(kept.len());
-            let is_empty = field.text.is_empty();
-            fields.truncate(at + usize::from(!is_empty));
+            let length = kept.len();
+            field.text.truncate(length);
+            if is_exact {
+                field.span.end = field.span.start + length;
+            }
+            fields.truncate(at + usize::from(length > 0));
         }
-        if let [only] = fields.as_slice() {
+        if let [only] = fields.as_slice()
+            && is_exact(only)
+        {
             let own = Separator::of(&only.text);
-            let is_own = own != self.separator && own.count(&only.text) > 1;
-            if is_own {
+            if own != self.separator && own.count(&only.text) > 1 {
                 let form = Form {
                     separator: Some(own),
                     decimal: self.decimal,
                 };
+                let start = only.span.start;
                 let inner = Rows::written(&only.text, form);
-                let parts = inner
-                    .records()
-                    .filter_map(Result::ok)
-                    .flat_map(|row| row.fields);
+                let parts = inner.of_any_length().flat_map(|row| row.fields);
                 let moved = parts.map(|part| Field {
-                    span: part.span.start + only.span.start..part.span.end + only.span.start,
+                    span: part.span.start + start..part.span.end + start,
                     text: part.text,
                 });
                 *fields = moved.collect();

@@ -1,3 +1,5 @@
+use proptest::prelude::*;
+
 use super::*;
 
 fn fields(rows: &Rows<'_>) -> Vec<Vec<String>> {
@@ -139,6 +141,25 @@ fn rows_of_numbers_may_end_in_comments_and_have_separators_of_their_own() {
     for row in rows.records().flatten() {
         for field in row.fields {
             assert_eq!(text[field.span], field.text);
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn whatever_is_written_its_fields_lie_within_the_text(text in "[,;\t \"#\r\n1.é\u{feff}-]{0,40}") {
+        for rows in [Rows::of(&text), Rows::of(&text).of_numbers()] {
+            let mut line = 0;
+            for row in rows.of_any_length() {
+                prop_assert!(row.line >= line && row.line <= text.len() + 1);
+                line = row.line;
+                for field in row.fields {
+                    prop_assert!(text.get(field.span.clone()).is_some(), "{field:?}");
+                }
+            }
+            for ragged in rows.records().filter_map(Result::err) {
+                prop_assert!(text.get(ragged.span.clone()).is_some(), "{ragged:?}");
+            }
         }
     }
 }

@@ -321,24 +321,25 @@ fn intervals_hold_the_truth_under_noise_that_is_correlated_over_ten_nanometres()
 }
 
 #[test]
-#[ignore = "deep: 60 s"]
+#[ignore = "deep: 40 s"]
 fn intervals_hold_the_truth_under_correlated_noise_of_every_form() {
     let cases = [
         (Noise::Exponential, 1.0, 2500.0),
-        (Noise::Boxes, 1.0, 2500.0),
+        (Noise::Boxes, 2.0, 2500.0),
         (Noise::Mixed, 2.0, 2500.0),
         (Noise::Exponential, 2.0, 1000.0),
     ];
     for (noise, step_nm, last_nm) in cases {
+        let mut both = Coverage::default();
         for is_relative in [false, true] {
-            let coverage = covered(noise, step_nm, last_nm, is_relative, 40);
-            eprintln!("{noise:?} {step_nm} {last_nm} {is_relative}: {coverage:?}");
-            let fraction = coverage.fraction();
-            assert!(
-                (0.88..=0.985).contains(&fraction),
-                "{noise:?}: {coverage:?}"
-            );
+            let own = covered(noise, step_nm, last_nm, is_relative, 20);
+            both.inside += own.inside;
+            both.all += own.all;
         }
+        // Some 280 intervals, seven of a leaf together.
+        let fraction = both.fraction();
+        eprintln!("{noise:?} in steps of {step_nm} nm to {last_nm} nm: {fraction:.3}");
+        assert!((0.88..=0.98).contains(&fraction), "{noise:?}: {both:?}");
     }
 }
 
