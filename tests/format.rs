@@ -129,10 +129,7 @@ fn folder() -> TempDir {
     for (name, text) in measured() {
         write(name, &text);
     }
-    write(
-        "comma.csv",
-        "# decimal commas\nnm;R;T\n400;0,5;0,1\n800;0,6;0,1\n",
-    );
+    write("comma.csv", "# commas\nnm;R;T\n400;0,5;0,1\n800;0,6;0,1\n");
     folder
 }
 
