@@ -128,7 +128,7 @@ impl Opened {
             }
             Some(_) | None => {
                 let errors = with_syntax(&sources, self.syntax, errors);
-                Err(DocumentErrors::new(sources, errors))
+                Err(DocumentErrors::new(sources, errors).after(remarks))
             }
         }
     }

@@ -5,8 +5,8 @@ use leafmodel::leaf::LeafPlan;
 use leafmodel::plan_file::{LeafFile, LeafNotChosen, load_one_leaf};
 use leafmodel::species;
 
-use crate::cli::Failure;
 use crate::cli::arguments::{GrowArguments, file_and_leaf};
+use crate::cli::{Failure, colour};
 use crate::scene::assets::DECODER;
 use leafmodel::document::nearest::nearest;
 
@@ -77,6 +77,10 @@ pub(super) fn choose(wish: Wish<'_>, veins_alone: bool) -> Result<Chosen, NotCho
         }
         read(LeafFile::File { path: &path, leaf })
     }?;
+    let (chosen, warnings) = chosen;
+    for warning in warnings {
+        eprintln!("{}", warning.render(colour()));
+    }
     let mut plan = chosen.value;
     plan.seed = wish.seed.unwrap_or(plan.seed);
     Ok(Chosen {
