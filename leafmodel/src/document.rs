@@ -15,6 +15,7 @@
 pub mod assets;
 pub mod context;
 pub mod coverage;
+pub mod encoding;
 pub mod error;
 pub mod keys;
 pub mod limits;

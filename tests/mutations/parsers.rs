@@ -224,6 +224,16 @@ fn networks_as_tables() {
 }
 
 #[test]
+fn networks_as_gml() {
+    networks("gml", Format::Gml);
+}
+
+#[test]
+fn networks_as_lists_of_neighbours() {
+    networks("neighbours", Format::Neighbours);
+}
+
+#[test]
 fn networks_as_drawings() {
     networks("strokes", Format::Svg);
 }

@@ -37,11 +37,8 @@ pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportErro
             ),
         });
     }
-    let fields: Vec<Option<EdgeField>> = table
-        .header
-        .iter()
-        .map(|name| EdgeField::of(name))
-        .collect();
+    let is_of_skan = table.header.iter().any(|name| is_skans(name));
+    let fields = edge_fields(&table.header);
     let column = |wanted: &dyn Fn(EdgeField) -> bool| {
         fields.iter().position(|field| field.is_some_and(wanted))
     };
@@ -79,7 +76,12 @@ pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportErro
             if (is_place && nodes.is_some()) || (is_name && nodes.is_none()) {
                 continue;
             }
-            let value = table.number_text(value);
+            let is_course = matches!(field, EdgeField::Course(_) | EdgeField::CourseInRows(_));
+            let value = if is_course {
+                value.into()
+            } else {
+                table.number_text(value)
+            };
             let key = || name.clone();
             builder.edge_text(
                 field,
@@ -102,7 +104,8 @@ pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportErro
             builder.edge_with_places_is_done(both, place)?;
         }
     }
-    let mut draft = builder.draft;
+    let mut draft = builder.done();
+    draft.is_y_down |= is_of_skan;
     draft.segment_mm = edges
         .lines()
         .take_while(|line| line.starts_with('#'))
@@ -111,6 +114,24 @@ pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportErro
         in_order_of_numbers(&mut draft);
     }
     Ok(draft)
+}
+
+/// Whether a column is a row or a column of a skeleton of skan.
+fn is_skans(name: &str) -> bool {
+    ["coord", "image-coord", "image_coord"]
+        .iter()
+        .any(|start| name.starts_with(start))
+}
+
+/// What the columns of a table of edges hold. Skeletons of skan have places in pixels beside those
+/// in the unit of their lengths; these count.
+fn edge_fields(header: &[String]) -> Vec<Option<EdgeField>> {
+    let has_places = header.iter().any(|name| name.starts_with("coord"));
+    let fields = header.iter().map(|name| {
+        let is_pixel = has_places && name.starts_with("image");
+        EdgeField::of(name).filter(|_| !is_pixel)
+    });
+    fields.collect()
 }
 
 /// The length of a segment out of a line `# segment_mm = 0.12`.
@@ -149,7 +170,9 @@ fn is_of_nodes(header: &[String]) -> bool {
     let has_places = header
         .iter()
         .any(|name| matches!(NodeField::of(name), Some(NodeField::Coordinate(..))));
-    has_places && header.iter().all(|name| EdgeField::of(name).is_none())
+    let is_of_edges =
+        |name: &String| !matches!(EdgeField::of(name), None | Some(EdgeField::Nothing));
+    has_places && !header.iter().any(is_of_edges)
 }
 
 fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {

@@ -1,5 +1,8 @@
 //! What is written is read back, what others write is read, and what is wrong is told.
 
+mod courses;
+mod drawings;
+
 use super::*;
 use crate::export;
 use crate::measure::{Blade, Known, Measures, Subject, Value, measure};

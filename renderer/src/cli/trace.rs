@@ -120,6 +120,10 @@ fn carry_out(arguments: &TraceArguments, kinds: &[Kind], started: Instant) -> Re
     let settings = settings(arguments)?;
     let shown = arguments.picture.display();
     let traced = traced(&arguments.picture, &picture, &settings)?;
+    let density = traced.network.vein_length_mm() / traced.outline.area();
+    if let Some(warning) = implausible_density(Some(density), "--mm-per-pixel") {
+        eprintln!("{warning}");
+    }
     for (path, kind) in arguments.out.iter().zip(kinds) {
         write(path, &kind.bytes(&traced, arguments.size)?)?;
     }
@@ -158,10 +162,26 @@ pub(super) fn with_usual_settings(picture: &Path, mm_per_pixel: f64) -> Result<T
 fn traced(path: &Path, picture: &Raster, settings: &Settings) -> Result<Traced, Failure> {
     let traced = trace(picture, settings);
     let traced = traced.map_err(|error| Failure::bad(format!("{}: {error}", path.display())))?;
+    for finding in &traced.findings {
+        if matches!(finding.kind, FindingKind::Moved { .. }) {
+            eprintln!("warning: {finding}");
+        }
+    }
     for finding in told(&traced.findings) {
         eprintln!("note: {finding}");
     }
     Ok(traced)
+}
+
+/// A warning about a length of veins per area, mm/mm², that no leaf has; `flag` gives the scale.
+pub(super) fn implausible_density(density: Option<f64>, flag: &str) -> Option<String> {
+    const DENSEST: f64 = 50.0;
+    density.filter(|density| *density > DENSEST).map(|density| {
+        format!(
+            "warning: there are {density:.0} mm of veins in each mm², and hardly a leaf has more than 25: \
+             check the scale ({flag})"
+        )
+    })
 }
 
 /// Findings to tell: of parts that are apart, the longest few.
@@ -175,17 +195,21 @@ fn told(findings: &[Finding]) -> Vec<String> {
         | FindingKind::Crossings { .. }
         | FindingKind::Thin { .. }
         | FindingKind::Petiole
-        | FindingKind::BaseGuessed => None,
+        | FindingKind::BaseGuessed
+        | FindingKind::Moved { .. } => None,
     };
     let (mut apart, others): (Vec<&Finding>, Vec<&Finding>) = findings
         .iter()
         .partition(|finding| length(finding).is_some());
+    let others = others
+        .into_iter()
+        .filter(|finding| !matches!(finding.kind, FindingKind::Moved { .. }));
     apart.sort_by(|a, b| {
         length(b)
             .unwrap_or(0.0)
             .total_cmp(&length(a).unwrap_or(0.0))
     });
-    let mut lines: Vec<String> = others.iter().map(ToString::to_string).collect();
+    let mut lines: Vec<String> = others.map(ToString::to_string).collect();
     lines.extend(apart.iter().take(MOST).map(ToString::to_string));
     if apart.len() > MOST {
         let rest = apart[MOST..].iter().filter_map(|finding| length(finding));
