@@ -410,7 +410,7 @@ fn lines_one_pixel_wide_are_traced_in_any_direction() {
 }
 
 #[test]
-fn a_wide_midrib_is_followed_from_the_base_to_its_tip_past_all_its_secondaries() {
+fn a_wide_midrib_is_followed_from_the_base_to_its_tip() {
     use crate::shape::outline::Outline;
     use crate::venation::network::{VeinEdge, VeinNode};
 
@@ -470,9 +470,6 @@ fn a_wide_midrib_is_followed_from_the_base_to_its_tip_past_all_its_secondaries()
         (found / length - 1.0).abs() < 0.02,
         "{found} mm is not {length}"
     );
-    for side in ["secondary_vein_count_left", "secondary_vein_count_right"] {
-        assert_eq!(measures.number(side), Some(5.0), "{side}");
-    }
     assert!(
         !traced
             .findings
