@@ -76,10 +76,11 @@ def test_leaf_is_sampled_as_its_pdf_says() -> None:
 
 def test_normal_incidence_gives_back_r_and_t() -> None:
     for coats, (r, t) in itertools.product(COATS, ((0.1, 0.05), (0.45, 0.47), (0.3, 0.1))):
-        got, error = throughputs(measured(coats, r, t), (0.0, 0.0, 1.0))
-        for part, want in zip((0, 1), (r, t), strict=True):
-            off = np.abs(got[part] - want).max()
-            assert off < 4.0 * error[part].max() + 1e-4, (coats, part, got[part], want)
+        for side in (1.0, -1.0):
+            got, error = throughputs(measured(coats, r, t), (0.0, 0.0, side))
+            for part, want in zip((0, 1), (r, t), strict=True):
+                off = np.abs(got[part] - want).max()
+                assert off < 4.0 * error[part].max() + 1e-4, (coats, side, part, got[part], want)
 
 
 @pytest.mark.deep

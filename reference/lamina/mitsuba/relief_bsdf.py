@@ -212,9 +212,24 @@ class ReliefBSDF(LeafBSDF):
         e_light = dr.select(same, own.albedo(cosine), other.albedo(cosine))
         tissue = self.tissue(si, active)
         reflected = dr.select(adaxial, tissue.r_a, tissue.r_b) / Double(1.0 - own.mean)
-        passed_a, passed_b = Double(1.0 - coat_a.mean), Double(1.0 - coat_b.mean)
-        through = dr.minimum(tissue.t_ab / passed_b, tissue.t_ba / passed_a)
-        base = dr.select(same, reflected, through)
+        kept = [
+            way.passed / (1.0 - coat.mean)
+            for way, coat in zip(tissue.ways, self.outer, strict=True)
+        ]
+        passed_a, passed_b = (1.0 - coat_a.mean) * kept[0], (1.0 - coat_b.mean) * kept[1]
+        through = dr.minimum(tissue.t_ab / Double(passed_b), tissue.t_ba / Double(passed_a))
+        upper = tissue.less(seen.z, adaxial)
+        lower = tissue.less(cosine, ~adaxial)
+        # What a face does not let through at grazing angles it sends back.
+        means = [
+            dr.maximum((1.0 - coat.mean) * (1.0 - part), 1e-30)
+            for coat, part in zip((coat_a, coat_b), kept, strict=True)
+        ]
+        own_kappa = dr.select(adaxial, tissue.ways[0].kappa, tissue.ways[1].kappa)
+        turned = own_kappa * own_kappa * (1.0 - seen.z) * (1.0 - cosine)
+        turned *= dr.select(adaxial, passed_b / means[0], passed_a / means[1])
+        reflected = reflected + through * Double(turned)
+        base = dr.select(same, reflected, through * Double(upper * lower))
         base = base * Double((1.0 - e_view) * (1.0 - e_light) * back * cosine / dr.pi)
         coat = dr.select(same, own.times_cosine(seen, lit), 0.0)
         value = mi.UnpolarizedSpectrum(base) + coat

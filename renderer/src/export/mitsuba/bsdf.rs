@@ -206,10 +206,15 @@ fn leaf_faces(bsdf: Element, faces: &LeafFaces, spectra: &mut Spectra) -> Elemen
             .float(&format!("{face}_alpha_across"), coat.alpha_across)
             .float(&format!("{face}_alpha_along"), coat.alpha_along)
     });
-    match &faces.abaxial_ratio {
-        Some(ratio) => bsdf.holding(spectra.element("abaxial_ratio", ratio, 1.0)),
-        None => bsdf,
-    }
+    let known = [
+        ("abaxial_ratio", &faces.abaxial_ratio),
+        ("abaxial_reflectance", &faces.abaxial_reflectance),
+    ];
+    let known = known.into_iter();
+    let known = known.filter_map(|(name, spectrum)| Some((name, spectrum.as_ref()?)));
+    known.fold(bsdf, |bsdf, (name, spectrum)| {
+        bsdf.holding(spectra.element(name, spectrum, 1.0))
+    })
 }
 
 fn solid_optics(bsdf: Element, optics: &SolidOptics) -> Element {

@@ -16,10 +16,6 @@ use crate::scene::description::{LeafFaces, LeafTissue, Spectrum};
 
 /// Largest table of leaves, bytes.
 const MOST_BYTES: u64 = 64 << 20;
-/// Longest step between two values of the ratio of the faces, nm: between them it is linear, while
-/// reflectances are.
-const RATIO_STEP_NM: f64 = 1.0;
-
 /// The spectra of a leaf.
 #[derive(Clone, Debug)]
 pub(super) struct Measured {
@@ -29,15 +25,13 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// The tissue, and the ratio of the faces if both were measured.
+    /// The tissue, and the reflectance of the abaxial face if it was measured.
     pub(super) fn into_parts(self) -> (LeafTissue, Option<Spectrum>) {
-        let ratio = self.abaxial.as_ref();
-        let ratio = ratio.map(|abaxial| ratio_of(abaxial, &self.reflectance));
         let tissue = LeafTissue::Measured {
             reflectance: self.reflectance,
             transmittance: self.transmittance,
         };
-        (tissue, ratio)
+        (tissue, self.abaxial)
     }
 }
 
@@ -173,58 +167,15 @@ fn spectra_of(block: &Block<'_>, file: &str, leaf: &Leaf) -> Option<Measured> {
     })
 }
 
-/// Takes the ratio of the faces that a measurement gives; both ways to say it exclude each other.
-pub(super) fn set_ratio(faces: &mut LeafFaces, ratio: Option<Spectrum>, keys: &Keys<'_>) {
-    if ratio.is_none() {
-        return;
-    }
-    if faces.abaxial_ratio.is_some() {
+/// Takes the reflectance of the abaxial face that a measurement gives; a ratio of the faces excludes
+/// it.
+pub(super) fn set_abaxial(faces: &mut LeafFaces, reflectance: Option<Spectrum>, keys: &Keys<'_>) {
+    if reflectance.is_some() && faces.abaxial_ratio.is_some() {
         let problem = "both faces were measured".to_owned();
         let help = "leave `abaxial_ratio` out, or the abaxial reflectance";
         keys.refuse(&["abaxial_ratio"], problem, help);
     }
-    faces.abaxial_ratio = ratio;
-}
-
-/// One reflectance over another, at the wavelengths of both and often enough between them.
-fn ratio_of(abaxial: &Spectrum, adaxial: &Spectrum) -> Spectrum {
-    // A face that reflects nothing has no ratio.
-    const LEAST: f64 = 1e-6;
-    let ratio = |nm: f64| {
-        let ratio = share_at(abaxial, nm).max(LEAST) / share_at(adaxial, nm).max(LEAST);
-        ratio.clamp(1e-3, 1e3)
-    };
-    let mut nm: Vec<f64> = Vec::new();
-    let mut extrapolates = false;
-    for spectrum in [abaxial, adaxial] {
-        if let Spectrum::Table {
-            points,
-            extrapolate,
-        } = spectrum
-        {
-            nm.extend(points.iter().map(|point| point.0));
-            extrapolates |= extrapolate;
-        }
-    }
-    nm.sort_by(f64::total_cmp);
-    nm.dedup();
-    let Some(&last) = nm.last() else {
-        return Spectrum::Constant(ratio(550.0));
-    };
-    let mut points = Vec::new();
-    for pair in nm.windows(2) {
-        let steps = ((pair[1] - pair[0]) / RATIO_STEP_NM)
-            .ceil()
-            .clamp(1.0, 1000.0);
-        let between =
-            (0..steps as u32).map(|i| pair[0] + (pair[1] - pair[0]) * f64::from(i) / steps);
-        points.extend(between.map(|nm| (nm, ratio(nm))));
-    }
-    points.push((last, ratio(last)));
-    Spectrum::Table {
-        points,
-        extrapolate: extrapolates,
-    }
+    faces.abaxial_reflectance = reflectance;
 }
 
 /// Reports R + T > 1. The sum is linear between the rows of both tables, so it is greatest at one
@@ -271,29 +222,5 @@ fn share_at(spectrum: &Spectrum, nm: f64) -> f64 {
         }
         // These forms are not used for shares of light.
         Spectrum::D65 { .. } | Spectrum::Blackbody { .. } => 0.0,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_ratio_gives_back_the_abaxial_face_between_coarse_points_too() {
-        let table = |points: &[(f64, f64)]| Spectrum::Table {
-            points: points.to_vec(),
-            extrapolate: false,
-        };
-        let adaxial = table(&[(400.0, 0.05), (700.0, 0.05), (800.0, 0.5)]);
-        let abaxial = table(&[(400.0, 0.09), (750.0, 0.25), (800.0, 0.48)]);
-        let ratio = ratio_of(&abaxial, &adaxial);
-        for nm in 400..=800 {
-            let nm = f64::from(nm);
-            let found = share_at(&ratio, nm) * share_at(&adaxial, nm);
-            let off = (found - share_at(&abaxial, nm)).abs();
-            assert!(off < 1e-3, "{nm}: {off}");
-        }
-        let even = ratio_of(&Spectrum::Constant(0.3), &Spectrum::Constant(0.2));
-        assert!((share_at(&even, 550.0) - 1.5).abs() < 1e-12);
     }
 }
