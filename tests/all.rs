@@ -10,6 +10,7 @@ mod golden;
 mod instruments;
 mod layers;
 mod lights;
+mod limits;
 mod media;
 mod optics;
 mod presets;

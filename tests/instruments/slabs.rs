@@ -91,7 +91,7 @@ fn slabs_and_half_spaces_of_media_are_those_of_the_table() {
         (
             5e-4,
             Budget {
-                error: Some(4.9e-4),
+                error: Some(renderer::instruments::Target::Absolute(4.9e-4)),
                 ..rays(1 << 24)
             },
         )

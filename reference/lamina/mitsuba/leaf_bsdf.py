@@ -110,9 +110,11 @@ def five_numbers(uv: Any, wavelengths: Any) -> list[Any]:
 class Tissue:
     """The coefficients c(f_o, f_i) at the wavelengths of a hit, and what sampling needs."""
 
-    def __init__(self, r: Any, t: Any, below: Any, coats: tuple[Coat, ...]) -> None:
+    def __init__(
+        self, r: Any, t: Any, below: Any, coats: tuple[Coat, ...], ways: tuple[Through, ...]
+    ) -> None:
         top, bottom = coats
-        self.ways = through(coats)
+        self.ways = ways
         upper, lower = self.ways
         passed = 1.0 - top.normal
         bound = min(1.0, lower.passed / upper.passed)
@@ -269,7 +271,11 @@ class LeafBSDF(mi.BSDF):
         below = self.ratio(si, r, t, active) * r
         if self.abaxial_reflectance is not None:
             below = Double(self.abaxial_reflectance.eval(si, active))
-        tissue = Tissue(r, t, below, self.coats)
+        # Of leaves that were not measured nothing says how much light from below they let through.
+        ways = tuple(Through(0.0, 1.0 - coat.mean) for coat in self.coats)
+        if self.kind == "measured":
+            ways = through(self.coats)
+        tissue = Tissue(r, t, below, self.coats, ways)
         if self.spread is not None:
             tissue.passing(self.spread_transmittance(si, *self.spread), self.coats)
         if self.half is not None:

@@ -35,7 +35,7 @@ impl Coat {
         }
     }
 
-    /// The coats of a leaf, through which as much light goes either way at normal incidence.
+    /// The coats of a measured leaf, through which as much light goes either way at normal incidence.
     ///
     /// What goes through is reciprocal only if light from above is to light from below as `(1 − E⊥) /
     /// P` of the upper coat is to that of the lower. The coat of which this is less lets less light of

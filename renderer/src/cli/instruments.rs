@@ -11,7 +11,7 @@ use crate::cli::arguments::InstrumentsArguments;
 use crate::cli::progress::Patience;
 use crate::cli::{Failure, colour, needs, places, say};
 use crate::image::atomic;
-use crate::instruments::{Budget, Row, notes, read_out, sets_of};
+use crate::instruments::{Budget, CutPaths, Row, notes, read_out, sets_of};
 use crate::scene::description::Description;
 use crate::scene::load;
 use crate::scene::plant_cache::PlantCache;
@@ -49,10 +49,10 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
         error: arguments.error,
         seed: arguments.seed,
     };
-    let rows = pool.install(|| measure(arguments, &scene, &chosen, &budget))?;
+    let (rows, cuts) = pool.install(|| measure(arguments, &scene, &chosen, &budget))?;
     for path in &arguments.out {
         let text = if has_ending(path, "json") {
-            table::json(&scene, &budget, &rows)
+            table::json(&scene, &budget, &rows, &cuts)
         } else {
             table::csv(&rows)
         };
@@ -98,22 +98,25 @@ fn choose(arguments: &InstrumentsArguments, scene: &Description) -> Result<Vec<u
     Ok(numbers.collect())
 }
 
+/// The paths that were cut in the measurement of each instrument.
+type Cuts = Vec<(String, CutPaths)>;
+
 /// Builds the scene and reads the instruments out.
 fn measure(
     arguments: &InstrumentsArguments,
     scene: &Description,
     chosen: &[usize],
     budget: &Budget,
-) -> Result<Vec<Row>, Failure> {
+) -> Result<(Vec<Row>, Cuts), Failure> {
     needs::check_geometry(scene, "measurement", arguments.memory)?;
     let Some((sampler, first)) = sets_of(scene) else {
-        return Ok(Vec::new());
+        return Ok((Vec::new(), Vec::new()));
     };
     let world = build(arguments, scene, &sampler)?;
     for note in &world.notes {
         eprintln!("note: {note}");
     }
-    let mut rows = Vec::new();
+    let (mut rows, mut cuts) = (Vec::new(), Vec::new());
     for &number in chosen {
         let started = Instant::now();
         let name = &scene.instruments[number].name;
@@ -121,22 +124,36 @@ fn measure(
             eprintln!("note: {name}: {note}");
         }
         let found = read_out(&world, scene, number, first[number], budget).map_err(Failure::bad)?;
+        if found.cut.paths > 0 {
+            eprintln!(
+                "note: {name}: {} paths were cut after {} events (`integrator.max_events`); what they \
+                 carried, at most {:.1e} of the light, counts as absorbed",
+                found.cut.paths, scene.integrator.max_events, found.cut.at_most
+            );
+        }
+        cuts.push((name.clone(), found.cut));
+        let found = found.rows;
         let greatest = found.iter().map(|row| row.error).fold(0.0, f64::max);
         eprintln!(
             "{name}: {} figures in {:.1} s, standard errors up to {greatest:.1e}",
             found.len(),
             started.elapsed().as_secs_f64()
         );
-        if let Some(target) = budget.error.filter(|&target| greatest > target) {
+        let is_open = |row: &&Row| {
+            let allowed = budget.error.map(|target| target.allowed(row.value));
+            allowed.is_some_and(|allowed| row.error > allowed)
+        };
+        let open = found.iter().filter(is_open).count();
+        if open > 0 {
             eprintln!(
-                "warning: {name}: {} rays are not enough for --error {target}: the greatest \
-                 standard error is {greatest:.1e}",
+                "warning: {name}: {} rays are not enough for --error: {open} figures have greater \
+                 standard errors, up to {greatest:.1e}",
                 budget.rays
             );
         }
         rows.extend(found);
     }
-    Ok(rows)
+    Ok((rows, cuts))
 }
 
 fn build(

@@ -158,6 +158,7 @@ impl Traced<'_> {
         tell_speed(&rendered, times);
         tell_samples(&rendered);
         let rejected = rendered.film.rejected();
+        let notes = rendered.notes();
         let begun = rendered.into_begun();
         let written = written.and_then(|()| match &self.files.pictures {
             // An interrupted part is its checkpoint.
@@ -189,8 +190,8 @@ impl Traced<'_> {
         if goes_on {
             eprintln!("{}", how_to_go_on(&self.files.checkpoint, self.line));
         }
-        if rejected > 0 {
-            eprintln!("note: {rejected} samples were not finite and are left out");
+        for note in notes {
+            eprintln!("note: {note}");
         }
         // More than one rejected sample in a million is not due to rounding.
         if rejected as f64 > 1e-6 * drawn as f64 {

@@ -15,8 +15,8 @@ use super::pixels::{Depth, Pixels};
 use super::tone::Tone;
 use super::white::{White, neutralised};
 use super::{Attribute, ImageError, Picture, REC709, atomic, jpeg, luminance, portable_network};
-use crate::spectrum::WavelengthSampler;
 use crate::spectrum::observer::Observer;
+use crate::spectrum::{Share, WavelengthSampler};
 
 /// Settings of `[picture]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -236,8 +236,9 @@ pub fn colours(picture: &Picture) -> Result<Vec<[f32; 3]>, ImageError> {
     Ok(colours_of_bands(&bands))
 }
 
-/// Linear sRGB in which a film's picture of light of this spectrum, a function of nm, is shown.
-pub fn recorded_colour(film: &WavelengthSampler, spectrum: &dyn Fn(f32) -> f64) -> [f64; 3] {
+/// Linear sRGB in which a film's picture of light of this spectrum, a function of the shares of its
+/// range, is shown.
+pub fn recorded_colour(film: &WavelengthSampler, spectrum: &dyn Fn(&Share) -> f64) -> [f64; 3] {
     let recorded = film.recorded(spectrum);
     let Some(bands) = film.as_bands() else {
         return std::array::from_fn(|channel| recorded[channel]);

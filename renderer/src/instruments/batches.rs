@@ -32,9 +32,32 @@ pub struct Budget {
     /// Rays for each set of wavelengths and each light; with a target error the most.
     pub rays: u64,
     /// Standard error at which a figure is good enough; `None` follows all rays.
-    pub error: Option<f64>,
+    pub error: Option<Target>,
     /// Seed of every random number.
     pub seed: u64,
+}
+
+/// A standard error at which a figure is good enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// The same for all figures.
+    Absolute(f64),
+    /// A fraction of the figure.
+    Relative(f64),
+}
+
+impl Target {
+    /// Figures below this count as this much where an error is a fraction of them: no number of rays
+    /// is enough for a figure that is 0.
+    pub const LEAST_VALUE: f64 = 1e-4;
+
+    /// The greatest error that is good enough for a figure of this value.
+    pub fn allowed(self, value: f64) -> f64 {
+        match self {
+            Self::Absolute(error) => error,
+            Self::Relative(part) => part * value.abs().max(Self::LEAST_VALUE),
+        }
+    }
 }
 
 /// What a ray adds to.
@@ -48,6 +71,9 @@ pub(super) trait Experiment: Sync {
 
     /// Follows one ray.
     fn shoot(&self, stream: &mut Stream, sums: &mut [f64]);
+
+    /// So many rays were followed in all.
+    fn end(&self, _rays: u64) {}
 }
 
 /// A figure with its standard error.
@@ -80,6 +106,22 @@ impl Estimate {
     pub(super) fn weighted<'e>(parts: impl Iterator<Item = (&'e Self, f64)> + Clone) -> Self {
         let value = parts.clone().map(|(part, weight)| weight * part.value);
         Self::derived(value.sum(), parts)
+    }
+
+    /// The same fraction of light, 0 if it is within the rounding of single precision, to which
+    /// weights of light add up.
+    pub(super) fn beyond_rounding(&self) -> Self {
+        const ROUNDING: f64 = 1e-6;
+        if self.value.abs() >= ROUNDING {
+            *self
+        } else if self.error >= ROUNDING {
+            Self {
+                value: 0.0,
+                ..*self
+            }
+        } else {
+            Self::exact(0.0)
+        }
     }
 
     /// A figure that is not estimated.
@@ -166,13 +208,16 @@ pub(super) fn estimates<E: Experiment>(experiments: &[E], budget: &Budget) -> Ve
             all[i].points = goal(all[i].points);
         }
     }
+    for (experiment, batches) in experiments.iter().zip(&all) {
+        experiment.end(u64::from(batches.points) * u64::from(BATCHES));
+    }
     all.iter().map(Batches::estimates).collect()
 }
 
 impl Batches {
-    /// Whether every figure has an error of at most `error`.
-    fn is_good(&self, error: Option<f64>) -> bool {
-        let Some(error) = error else {
+    /// Whether every figure's error is small enough.
+    fn is_good(&self, target: Option<Target>) -> bool {
+        let Some(target) = target else {
             return false;
         };
         self.points >= POINTS_TO_TRUST
@@ -180,7 +225,7 @@ impl Batches {
             && self
                 .estimates()
                 .iter()
-                .all(|estimate| estimate.error <= error)
+                .all(|estimate| estimate.error <= target.allowed(estimate.value))
     }
 
     /// Whether many rays were followed and none counted.
@@ -334,7 +379,7 @@ mod tests {
         for seed in 0..4 {
             let mut budget = Budget {
                 rays: FEWEST_RAYS,
-                error: Some(target),
+                error: Some(Target::Absolute(target)),
                 seed,
             };
             for doublings in 0..6 {
@@ -354,7 +399,11 @@ mod tests {
 
     #[test]
     fn rays_of_which_none_counts_end_early() {
-        for error in [None, Some(1e-3)] {
+        for error in [
+            None,
+            Some(Target::Absolute(1e-3)),
+            Some(Target::Relative(0.01)),
+        ] {
             let nothing = [Needle::new(0.0)];
             let budget = Budget {
                 rays: 1 << 40,
@@ -368,10 +417,50 @@ mod tests {
     }
 
     #[test]
+    fn a_relative_target_holds_for_great_and_small_figures_and_ends_where_there_is_nothing() {
+        let budget = Budget {
+            rays: 1 << 24,
+            error: Some(Target::Relative(0.01)),
+            seed: 1,
+        };
+        let relative = [Needle::new(0.5)];
+        let found = &estimates(&relative, &budget)[0];
+        assert!(found[0].error <= 0.01 * found[0].value, "{found:?}");
+        // Of a figure of 0 a hundredth of the least value that counts.
+        assert!(found[1].value == 0.0 && found[1].error <= 1e-6, "{found:?}");
+        let budget = Budget {
+            error: Some(Target::Absolute(0.01)),
+            ..budget
+        };
+        let absolute = [Needle::new(0.5)];
+        assert!(estimates(&absolute, &budget)[0][1].error <= 0.01);
+        let [more, fewer] = [&relative, &absolute].map(|one| one[0].rays.load(Ordering::Relaxed));
+        assert!(more > 100 * fewer, "{more} {fewer}");
+    }
+
+    #[test]
+    fn what_is_within_rounding_is_nothing() {
+        let figure = |value, error| Estimate {
+            value,
+            error,
+            ..Estimate::exact(0.0)
+        };
+        for (value, error, expected) in [
+            (4e-8, 1e-9, (0.0, 0.0)),
+            (-3e-7, 2e-8, (0.0, 0.0)),
+            (5e-7, 2e-5, (0.0, 2e-5)),
+            (2e-6, 1e-9, (2e-6, 1e-9)),
+        ] {
+            let found = figure(value, error).beyond_rounding();
+            assert_eq!((found.value, found.error), expected);
+        }
+    }
+
+    #[test]
     fn a_target_error_is_reached_with_few_rays_and_figures_keep_their_ratios() {
         let budget = Budget {
             rays: 1 << 24,
-            error: Some(2e-4),
+            error: Some(Target::Absolute(2e-4)),
             seed: 1,
         };
         let found = &estimates(&[Disc], &budget)[0];

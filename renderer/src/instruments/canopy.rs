@@ -12,11 +12,11 @@ use super::fluorescence::{self, Illumination, Manner};
 use super::lamp::{directions, towards};
 use super::ledger::{Ledger, REFLECTED, TRANSMITTED, UNCOLLIDED, add};
 use super::period::Period;
-use super::row::{Direction, Row};
+use super::row::Direction;
 use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
 use super::walk::{Escaped, Event, Scattering, Walk, Witness};
-use super::{InstrumentError, LANES};
+use super::{InstrumentError, LANES, Reading};
 use crate::geometry::Ray;
 use crate::geometry::frame::Frame;
 use crate::sampling::stream::Stream;
@@ -48,6 +48,10 @@ impl Experiment for Lit<'_> {
     fn sums(&self) -> usize {
         let seen = self.detectors.as_ref().map_or(0, Detectors::len);
         1 + (self.ledger.quantities.len() + seen) * LANES
+    }
+
+    fn end(&self, rays: u64) {
+        self.stage.cuts.measured(rays);
     }
 
     fn stream(&self) -> u32 {
@@ -142,13 +146,18 @@ impl Witness<'_> for Tally<'_> {
     }
 }
 
+/// What errors of canopies leave out.
+const ONE_DRAW: &str = "standard errors hold for these leaves where they are; other draws of a \
+    canopy, by other seeds of `scatter`, `volume` or plants, differ by more";
+
 /// The box in the frame of a world.
 fn within(world: &World, canopy: &Canopy) -> [Vec2; 2] {
     let origin = DVec3::new(world.origin.x, world.origin.y, 0.0).truncate();
     canopy.within.map(|corner| (corner - origin).as_vec2())
 }
 
-/// What of a scene stands outside the box and is left out, a sentence for each object.
+/// What users should know of the figures: for how much the errors hold, and what of a scene lies
+/// outside the box and is left out, a sentence for each object.
 pub(super) fn notes(world: &World, scene: &Description, canopy: &Canopy) -> Vec<String> {
     let left_out = Period::left_out(within(world, canopy), world);
     let note = |(object, count): (usize, usize)| {
@@ -160,7 +169,9 @@ pub(super) fn notes(world: &World, scene: &Description, canopy: &Canopy) -> Vec<
             scene.objects[object].name
         )
     };
-    left_out.into_iter().map(note).collect()
+    let mut notes = vec![ONE_DRAW.to_owned()];
+    notes.extend(left_out.into_iter().map(note));
+    notes
 }
 
 /// Measures.
@@ -170,7 +181,7 @@ pub(super) fn read_out(
     (instrument, canopy): (&Named<Instrument>, &Canopy),
     first_set: usize,
     budget: &Budget,
-) -> Result<Vec<Row>, InstrumentError> {
+) -> Result<Reading, InstrumentError> {
     let at = &instrument.value.at;
     let (stage, period) = Period::stage(within(world, canopy), world, at)?;
     let ground = (canopy.within[1] - canopy.within[0]).element_product();
@@ -240,7 +251,10 @@ pub(super) fn read_out(
             sample, &lights, read, &manner, budget,
         ));
     }
-    Ok(all)
+    Ok(Reading {
+        rows: all,
+        cut: stage.cuts.paths(),
+    })
 }
 
 /// How fluorescence is shown.

@@ -22,10 +22,6 @@ use crate::sampling::warp;
 use crate::scene::description::{Description, Detector, Estimator, Instrument};
 use crate::spectrum::Lanes;
 
-/// Wavelengths of light that is followed together, nm, within which a leaf of layers may have one
-/// refractive index.
-const LAYERS_NM: f64 = 120.0;
-
 /// Fails if a leaf of layers is measured in a way that it has no figures for.
 pub(super) fn check_layers(
     scene: &Description,
@@ -33,36 +29,15 @@ pub(super) fn check_layers(
     instrument: &Instrument,
     constituents: bool,
 ) -> Result<(), InstrumentError> {
-    let Some(object) = stage.layered() else {
-        return Ok(());
-    };
-    let refuse = |problem| {
-        Err(InstrumentError::Inside {
+    match stage.layered() {
+        Some(object) if constituents => Err(InstrumentError::Inside {
             at: instrument.at.clone(),
             object: scene.objects[object].name.clone(),
-            problem,
-        })
-    };
-    if constituents {
-        return refuse(
-            "is a leaf of layers, whose absorption is not told by constituents: leave out \
-             `constituents`",
-        );
+            problem: "is a leaf of layers, whose absorption is not split by constituents: leave out \
+                      `constituents`",
+        }),
+        Some(_) | None => Ok(()),
     }
-    let all = instrument.measured_nm();
-    let is_wide = |own: &[f64]| {
-        let (least, most) = own.iter().fold((f64::MAX, 0.0_f64), |(least, most), &nm| {
-            (least.min(nm), most.max(nm))
-        });
-        most - least > LAYERS_NM
-    };
-    if all.chunks(LANES).any(is_wide) {
-        return refuse(
-            "is a leaf of layers, with one refractive index for each eight wavelengths in a row: \
-             let these lie within 120 nm, or measure others by an instrument of their own",
-        );
-    }
-    Ok(())
 }
 
 /// Fails if next events are asked for where they would miss light: that which a medium scatters, and

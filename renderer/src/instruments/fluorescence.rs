@@ -20,7 +20,7 @@ use crate::material::leaf::LeafMaterial;
 use crate::sampling::stream::Stream;
 use crate::sampling::warp;
 use crate::scene::description::{ExcitationLight, FluorescenceReading};
-use crate::spectrum::{Curve, Lanes, Wavelengths};
+use crate::spectrum::{Curve, Lanes, Share, Wavelengths};
 
 /// Step by which a spectrum is resolved, nm.
 const STEP_NM: f64 = 5.0;
@@ -97,7 +97,8 @@ fn excitations(light: &ExcitationLight) -> Vec<(String, Vec<Packet>)> {
                     let nm = std::array::from_fn(|i| own[i.min(own.len() - 1)]);
                     let photons = std::array::from_fn(|i| {
                         // Energy times wavelength is a number of photons but for hc.
-                        let energy = f64::from(curve.at(nm[i] as f32)) * STEP_NM;
+                        let mean = curve.over(&Share::around(nm[i], STEP_NM));
+                        let energy = f64::from(mean) * STEP_NM;
                         if i < own.len() { energy * nm[i] } else { 0.0 }
                     });
                     Packet {
@@ -136,6 +137,10 @@ impl<L: Illumination, C: Course + Sync> Reading<'_, L, C> {
 impl<L: Illumination, C: Course + Sync> Experiment for Reading<'_, L, C> {
     fn sums(&self) -> usize {
         1 + QUANTITIES * LANES
+    }
+
+    fn end(&self, rays: u64) {
+        self.stage.cuts.measured(rays);
     }
 
     fn stream(&self) -> u32 {

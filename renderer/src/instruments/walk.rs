@@ -21,11 +21,6 @@ use crate::spectrum::{Lanes, Wavelengths};
 /// Weight, in the lane where it is greatest, below which Russian roulette is applied.
 const ROULETTE_BELOW: f32 = 0.02;
 
-/// Most scattering events of a path. Roulette ends paths long before, unless light is caught
-/// between surfaces that absorb nothing; what such a path still carries counts as absorbed where
-/// it is.
-const MOST_EVENTS: u32 = 100_000;
-
 /// First set of random numbers that the way of the light does not use.
 const ASIDE: u32 = 1 << 24;
 
@@ -257,11 +252,17 @@ impl<'m, C: Course> Walk<'m, C> {
         stream.seek(1 + event);
         let numbers = stream.next4();
         let [.., roulette] = numbers;
+        let most_events = self.stage.world.integrator.max_events;
         let (leaving, is_specular) = if let Some((inside, hit)) = inside {
             let at = (hit, &encounter.surface, &encounter.frame, encounter.wo);
             let geometry = &self.stage.geometry;
-            let walk = LeafWalk::new(geometry, *inside, at, self.wavelengths, numbers);
-            (walk.through(), false)
+            let chance = (numbers, most_events);
+            let mut walk = LeafWalk::new(geometry, *inside, at, self.wavelengths, chance);
+            let leaving = walk.through();
+            if leaving.is_none() {
+                self.stage.cuts.add(weight * walk.cut());
+            }
+            (leaving, false)
         } else {
             let view = encounter.bsdf.seen_from(encounter.wo);
             if let Some(view) = &view {
@@ -279,7 +280,11 @@ impl<'m, C: Course> Walk<'m, C> {
         let mut after = leaving.map_or(Lanes::ZERO, |leaving| weight * leaving.weight);
         let greatest = after.max_lane();
         let below = ROULETTE_BELOW / self.ways as f32;
-        if !greatest.is_finite() || event + 1 == MOST_EVENTS {
+        if !greatest.is_finite() {
+            after = Lanes::ZERO;
+        } else if event + 1 >= most_events {
+            // What such a path still carries counts as absorbed where it is.
+            self.stage.cuts.add(after);
             after = Lanes::ZERO;
         } else if greatest < below {
             let survival = greatest / below;

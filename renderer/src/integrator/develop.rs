@@ -73,9 +73,7 @@ fn developed(
         first.expect("a film has what its layers are made of")
     };
     match layer.source {
-        Source::Radiance(of) => {
-            film.map(|pixel| of(pixel.moments(channel), pixel.samples()) as f32)
-        }
+        Source::Radiance(of) => film.map(|pixel| of(pixel, channel) as f32),
         Source::Pixel(of) => film.map(|pixel| of(pixel) as f32),
         Source::Feature {
             quantity,
@@ -151,6 +149,13 @@ fn attributes(caption: &Caption, job: &Job, rendered: &Rendered) -> Vec<(String,
             "lamina:rejectedSamples",
             rendered.film.rejected().to_string(),
         ),
+        text("lamina:clampedValues", rendered.film.clamped().to_string()),
+        text(
+            "lamina:unknownVariances",
+            rendered.film.overflowed().to_string(),
+        ),
+        text("lamina:cutPaths", rendered.film.cut().to_string()),
+        text("lamina:missingAtMost", rendered.film.missing().to_string()),
         names_of_objects(caption),
         light_colour::attribute(&caption.lights),
         ("worldToCamera".to_owned(), Attribute::Matrix4(to_camera)),

@@ -9,7 +9,7 @@ use super::texels::{Beyond, Texels};
 use crate::light::{LightSample, unevenness};
 use crate::sampling::distribution::Piecewise2d;
 use crate::spectrum::rgb::Primaries;
-use crate::spectrum::{Curve, Lanes, WavelengthGrid, Wavelengths};
+use crate::spectrum::{Curve, Lanes, Share, WavelengthGrid, Wavelengths};
 
 /// Radiance by direction: `u` runs with the azimuth from +x towards +y, `v` from the zenith (+z)
 /// down.
@@ -93,6 +93,13 @@ impl EnvironmentLight {
     /// Spectrum of RGB 1 1 1.
     pub fn white(&self) -> &Curve {
         self.primaries.white()
+    }
+
+    /// A radiance that it exceeds in no direction.
+    pub fn at_most(&self, share: &Share) -> f32 {
+        let parts = self.primaries.over(share).into_iter();
+        let parts = parts.zip(self.picture.greatest());
+        parts.map(|(spectrum, most)| spectrum * most).sum()
     }
 
     /// Evaluates its primaries at every wavelength of a grid.

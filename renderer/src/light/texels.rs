@@ -42,6 +42,14 @@ impl Texels {
         &self.colours
     }
 
+    /// The greatest red, green and blue of all.
+    pub fn greatest(&self) -> [f32; 3] {
+        let texels = self.colours.iter();
+        texels.fold([0.0; 3], |most, texel| {
+            std::array::from_fn(|i| most[i].max(texel[i]))
+        })
+    }
+
     /// Prefetches the texels around a place that is roughly this.
     #[inline]
     pub fn prefetch(&self, [across, down]: [f32; 2]) {

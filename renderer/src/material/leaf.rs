@@ -108,10 +108,14 @@ impl LeafMaterial {
         coats: [Coat; 2],
     ) -> Self {
         Self {
-            tissue,
             palette,
             abaxial,
-            coats: Coat::pair(coats),
+            coats: match &tissue {
+                // Of other leaves nothing says how much light from below they let through.
+                LeafTissue::Held(_) => coats,
+                LeafTissue::Measured { .. } => Coat::pair(coats),
+            },
+            tissue,
             uniform: None,
             spread: None,
             half: None,

@@ -24,7 +24,7 @@ use rayon::prelude::*;
 
 use self::bodies::{around, build_media, set_bodies, set_drops};
 pub use self::error::WorldError;
-use self::light_colours::{check_white, light_colours};
+use self::light_colours::{brightest, check_brightness, check_white, light_colours};
 use self::lights::build_lights;
 use self::materials::{Known, build_materials};
 use self::meshes::build_mesh;
@@ -87,6 +87,8 @@ pub struct World {
     pub integrator: description::Integrator,
     /// The wavelengths of paths.
     pub wavelengths: WavelengthSampler,
+    /// A radiance that lights exceed nowhere, W m⁻² sr⁻¹ nm⁻¹; infinite if one has no extent.
+    pub brightest: f32,
     /// Whether any of its materials fluoresces.
     pub fluoresces: bool,
     /// Notes for the user, such as dropped faces or clamped reflectance.
@@ -254,6 +256,7 @@ impl World {
             media,
             owners,
             palettes: known.palettes,
+            brightest: brightest(&lights, &wavelengths, fluoresces),
             selections: Selections::new(&lights, lit_range(range_nm, fluoresces)),
             lights,
             light_colours,
@@ -292,6 +295,7 @@ fn colours_on_film(
     if options.wavelengths.is_some() {
         return Ok(Vec::new());
     }
+    check_brightness(scene, lights, wavelengths)?;
     let colours = light_colours(scene, lights, wavelengths);
     check_white(scene, &colours)?;
     Ok(colours)

@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 
 use super::super::LANES;
 use super::super::stage::Stage;
-use super::{Course, Event, Leg, MOST_EVENTS, Met, ROULETTE_BELOW, Walk, Witness};
+use super::{Course, Event, Leg, Met, ROULETTE_BELOW, Walk, Witness};
 use crate::geometry::{Hit, Ray};
 use crate::medium::{BodyPlace, Coefficients, Inside};
 use crate::sampling::stream::Stream;
@@ -77,7 +77,7 @@ impl<'m, C: Course> Walk<'m, C> {
         let stage = self.stage;
         // How far the ray was moved, and from where on it is in what is around it now.
         let (mut moved, mut from) = (0.0, 0.0);
-        while leg.passage.flights < MOST_EVENTS {
+        while leg.passage.flights < stage.world.integrator.max_events {
             let around = self.around(&leg.passage);
             stream.seek(FLIGHT_SETS + 2 * leg.passage.flights);
             leg.passage.flights += 1;
@@ -156,6 +156,7 @@ impl<'m, C: Course> Walk<'m, C> {
             leg.ray = leg.ray.starting_at(from.next_up());
         }
         // What light that is caught still carries counts as absorbed where it is.
+        stage.cuts.add(leg.weight);
         if let Some((body, _)) = leg.passage.inside.innermost() {
             witness.event(&passing(
                 stage.objects.object_of(body),

@@ -55,7 +55,7 @@ impl<const N: usize> Paths<'_, N> {
             entry.inside,
             entry.at,
             self.wavelengths,
-            numbers,
+            (numbers, world.integrator.max_events),
         );
         let [_, mut x, mut y, _] = numbers;
         for face in 0.. {
@@ -70,7 +70,7 @@ impl<const N: usize> Paths<'_, N> {
                     scatterer: Scatterer::Surface {
                         surface: &at.surface,
                         frame: &at.outward,
-                        view: &View::Face(view),
+                        view: &View::Face(&view),
                     },
                     receiver,
                     is_lit: true,
@@ -111,7 +111,12 @@ impl<const N: usize> Paths<'_, N> {
                         },
                     });
                 }
-                Err(heading) => walk.go_on(heading)?,
+                Err(headings) => {
+                    if walk.go_on(headings).is_none() {
+                        result.end_early(throughput * walk.cut());
+                        return None;
+                    }
+                }
             }
             result.rays += 1;
             let place = entry.depth.saturating_mul(FACES) + face.min(FACES - 1);

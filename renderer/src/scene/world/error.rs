@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::camera::thin_lens::LensError;
+use crate::film::MOST_RADIANCE;
 use crate::geometry::scatter::{ScatterError, VolumeError};
 use crate::geometry::{GeometryError, ImportError, MeshError};
 use crate::scene::assets::AssetError;
@@ -102,6 +103,21 @@ pub enum WorldError {
         name: String,
         /// Why not.
         why: &'static str,
+    },
+    /// A light is brighter than a film can record.
+    #[error(
+        "lights.{name}: at {nm:.0} nm it shows {radiance:.1e} W m^-2 sr^-1 nm^-1 or more, and a film \
+         records at most {:.1e}: scale all lights down, which scales the picture alike; `d65` and \
+         `blackbody_k` have the value of `scale` at 560 nm",
+        MOST_RADIANCE
+    )]
+    TooBright {
+        /// Name of the light.
+        name: String,
+        /// A wavelength at which it is, nm.
+        nm: f32,
+        /// Its radiance there, or that of white paper in its light.
+        radiance: f32,
     },
     /// The camera cannot be focused on its object.
     #[error("camera.perspective.focus_object: {0}")]
