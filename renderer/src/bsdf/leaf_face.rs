@@ -189,7 +189,7 @@ impl<const N: usize> LeafFace<N> {
             let leaves = is_last || number() < leaving(drawn);
             if !is_last {
                 let part = Lanes::from_fn(leaving);
-                chance = chance * if leaves { part } else { Lanes::ONE - part };
+                chance *= if leaves { part } else { Lanes::ONE - part };
             }
             likelihood.happens(chance);
             if leaves {

@@ -99,14 +99,14 @@ pub const LAYERS: &[FilmLayer] = &[
         name: "",
         channels: Channels::OfFilm,
         films: Films::All,
-        source: Source::Radiance(|pixel, channel| pixel.mean(channel)),
+        source: Source::Radiance(mean),
         about: "mean radiance",
     },
     FilmLayer {
         name: "variance",
         channels: Channels::OfFilm,
         films: Films::All,
-        source: Source::Radiance(|pixel, channel| pixel.variance(channel)),
+        source: Source::Radiance(variance),
         about: "variance of the mean radiance, by batches of 16 samples; of fewer than 32 samples an upper estimate, as if they were independent",
     },
     FilmLayer {
@@ -198,6 +198,14 @@ pub const LAYERS: &[FilmLayer] = &[
         about: "number of the object that the pixel's first sample met, 0 for none; the attribute `lamina:objects` names them",
     },
 ];
+
+fn mean(pixel: &Pixel<'_>, channel: usize) -> f64 {
+    pixel.mean(channel)
+}
+
+fn variance(pixel: &Pixel<'_>, channel: usize) -> f64 {
+    pixel.variance(channel)
+}
 
 fn variance_of_luminance(pixel: &Pixel<'_>) -> f64 {
     pixel.variance_of_luminance()

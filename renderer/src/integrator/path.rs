@@ -143,10 +143,8 @@ impl<const N: usize> Paths<'_, N> {
                     Met::Surface(hit) => Some(hit),
                     Met::Nothing => None,
                     Met::Medium(collision) => {
-                        if is_last {
-                            result.end_early(leg.throughput);
-                        }
                         if leg.throughput.is_zero() || is_last {
+                            result.end_early(leg.throughput);
                             return;
                         }
                         if !self.collide(leg, &passage, &collision, depth, stream, result) {
@@ -190,10 +188,8 @@ impl<const N: usize> Paths<'_, N> {
             if depth == 0 && result.first.is_none() {
                 result.first = Some(FirstHit::new(world, &encounter));
             }
-            if is_last {
-                result.end_early(*throughput);
-            }
             if throughput.is_zero() || is_last {
+                result.end_early(*throughput);
                 return;
             }
             if let Some(inside) = material.inside() {
@@ -223,10 +219,7 @@ impl<const N: usize> Paths<'_, N> {
             if let Some(leaf) = self.fluorescing(material) {
                 let way = (&*leg, &passage);
                 let found = self.emitted(leaf, &encounter, way, depth, stream);
-                result.radiance += *throughput * found.radiance;
-                result.rays += found.rays;
-                result.cuts += found.cuts;
-                result.cut += *throughput * found.cut;
+                result.take(*throughput, &found);
             }
             if !self.scatter(&vertex, &passage, depth, stream, (leg, result)) {
                 return;

@@ -31,7 +31,15 @@ impl<const N: usize> PathResult<N> {
         cut: Lanes::ZERO,
     };
 
-    /// Notes that a limit cuts a path of this throughput.
+    /// Adds what another path found, which goes on from this one with a throughput.
+    pub(super) fn take(&mut self, throughput: Lanes<N>, found: &Self) {
+        self.radiance += throughput * found.radiance;
+        self.rays += found.rays;
+        self.cuts += found.cuts;
+        self.cut += throughput * found.cut;
+    }
+
+    /// Notes that a limit cuts a path of this throughput, if any light is left.
     #[cold]
     pub(super) fn end_early(&mut self, throughput: Lanes<N>) {
         if !throughput.is_zero() {
