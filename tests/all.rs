@@ -2,6 +2,7 @@
 //! takes longer than to run it.
 
 mod architecture;
+mod closed_bodies;
 mod determinism;
 mod drops;
 mod fluorescence;
@@ -10,8 +11,10 @@ mod golden;
 mod instruments;
 mod layers;
 mod lights;
+mod limits;
 mod media;
 mod optics;
+mod positions;
 mod presets;
 mod radiometry;
 mod random_plans;

@@ -134,7 +134,9 @@ fn two_leaves_one_over_the_other_look_as_the_instrument_measures_them() {
         error: None,
         seed: 3,
     };
-    let rows = read_out(&world, &description, 0, first[0], &budget).expect("it can be measured");
+    let rows = read_out(&world, &description, 0, first[0], &budget)
+        .expect("it can be measured")
+        .rows;
     for ((mean, error), nm) in bands(&text).into_iter().zip(BANDS_NM) {
         let own =
             |row: &&Row| row.quantity == "fluorescence_upwards" && row.wavelength_nm == Some(nm);

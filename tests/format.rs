@@ -129,7 +129,7 @@ fn folder() -> TempDir {
     for (name, text) in measured() {
         write(name, &text);
     }
-    write("comma.csv", "# decimal commas\nnm;R\n400;0,5\n800;0,6\n");
+    write("comma.csv", "# commas\nnm;R;T\n400;0,5;0,1\n800;0,6;0,1\n");
     folder
 }
 
@@ -150,7 +150,7 @@ fn measured() -> [(&'static str, String); 9] {
     [
         (
             "leaves.csv",
-            format!("um,oak_R,oak_R_abaxial,oak_T,elm_R\n{leaves}"),
+            format!("wavelength,oak_R,oak_R_abaxial,oak_T,elm_R\n{leaves}"),
         ),
         ("oak.txt", format!("Wavelength\toak.asd\r\n{asd}")),
         (
@@ -173,7 +173,7 @@ fn measured() -> [(&'static str, String); 9] {
         ("short.csv", format!("{head}380,0.5,0.4\n600,0.5,0.4\n")),
         (
             "words.csv",
-            format!("{head}380,0.5,0.4\n500,,0.4\n800,0.5,0.4\n"),
+            format!("{head}380,0.5,0.4\n500,x,0.4\n800,0.5,0.4\n"),
         ),
     ]
 }

@@ -4,6 +4,8 @@ mod anchors;
 mod arrangement;
 mod brf;
 mod canopy;
+mod closed;
+mod far;
 mod fluorescence;
 mod gonio;
 mod layered;
@@ -57,7 +59,9 @@ fn figures_of(
     budget: &Budget,
 ) -> Result<Vec<Row>, InstrumentError> {
     let numbers = 0..scene.instruments.len();
-    let rows = numbers.map(|number| read_out(world, scene, number, first[number], budget));
+    let rows = numbers.map(|number| {
+        read_out(world, scene, number, first[number], budget).map(|found| found.rows)
+    });
     rows.collect::<Result<Vec<_>, _>>()
         .map(|rows| rows.concat())
 }
@@ -97,7 +101,7 @@ fn a_number_of_threads_changes_no_bit() {
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let budget = Budget {
-            error: Some(5e-3),
+            error: Some(renderer::instruments::Target::Absolute(5e-3)),
             ..rays(1 << 16)
         };
         let found = pool

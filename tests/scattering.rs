@@ -13,10 +13,10 @@ use support::picture::picture_of;
 const POINTS: u32 = 1 << 15;
 
 fn coats(alpha: f32) -> [Coat; 2] {
-    [
+    Coat::pair([
         Coat::new(1.45, alpha, alpha),
         Coat::new(1.4, (1.5 * alpha).min(1.0), alpha),
-    ]
+    ])
 }
 
 fn leaf(coats: &[Coat; 2], reflectance: f32, transmittance: f32) -> LeafBsdf<'_, 8> {
@@ -84,6 +84,44 @@ fn the_leaf_gives_back_prospects_reflectance_and_transmittance_at_any_roughness(
         let error = integrating_sphere_error(alpha, 1.0);
         eprintln!("roughness {alpha}: R and T within {error:.2e}");
         assert!(error < 1e-3, "roughness {alpha}: {error}");
+    }
+}
+
+#[test]
+fn unlike_coats_leave_both_reflectances_and_the_transmittance_as_they_are_and_lose_nothing() {
+    let none = || Coat::new(1.0, 1.0, 1.0);
+    let pairs = [
+        [Coat::new(1.5, 0.1, 0.1), none()],
+        [none(), Coat::new(1.6, 0.2, 0.4)],
+        [Coat::new(2.5, 0.9, 0.9), none()],
+        [Coat::new(1.3, 0.3, 0.3), Coat::new(1.6, 0.6, 0.2)],
+    ];
+    for coats in pairs.map(Coat::pair) {
+        for (r, t, ratio) in [(0.25, 0.5, 1.2), (0.3, 0.05, 2.0), (0.45, 0.4, 1.0)] {
+            let [r, t, ratio] = [r, t, ratio].map(Lanes::splat);
+            let leaf: LeafBsdf<'_, 8> = LeafBsdf::new(&coats, Tissue::new(&coats, r, t, ratio));
+            for (wo, r) in [(Vec3::Z, r), (Vec3::NEG_Z, r * ratio)] {
+                let found = scattered(&leaf, wo, 0, 1.0);
+                for (found, expected) in [(found.reflected, r), (found.transmitted, t)] {
+                    let expected = f64::from(expected.0[0]);
+                    assert!((found - expected).abs() < 1e-3, "{wo}: {found} {expected}");
+                }
+            }
+            // The same way back, and no more light than arrives.
+            for wo in directions() {
+                assert!(scattered(&leaf, wo, 0, 1.0).total() < 1.0 + 1e-3, "{wo}");
+                for wi in directions() {
+                    let [there, back] = [(wo, wi), (wi, wo)].map(|(a, b)| leaf.eval(a, b).0[0]);
+                    assert!((there - back).abs() <= 1e-4 * there.max(back), "{wo} {wi}");
+                }
+            }
+        }
+        let white = Tissue::new(&coats, Lanes::splat(0.6), Lanes::splat(0.4), Lanes::ONE);
+        let white: LeafBsdf<'_, 8> = LeafBsdf::new(&coats, white);
+        for wo in directions() {
+            let total = scattered(&white, wo, 0, 1.0).total();
+            assert!((total - 1.0).abs() < 1e-3, "{wo}: {total}");
+        }
     }
 }
 

@@ -86,6 +86,34 @@ fn variances_of_luminance(text: &str, seeds: u64) -> [f64; 3] {
 }
 
 #[test]
+fn the_variance_of_a_band_is_at_most_twice_that_over_seeds() {
+    let room = glowing_room("0.6", 0.4);
+    let inside = "position_m = [0.1, 0.2, 0.3]\nlook_at_m = [1, 0, 0]\nvertical_fov_deg = 90";
+    for (what, text) in [
+        ("room", scene(inside, "roulette_below = 1", &room)),
+        ("room without roulette", scene(inside, "", &room)),
+    ] {
+        for bands in ["bands_nm = [550, 800]", "bands_nm = [550]"] {
+            let text = text.replace("bands_nm = [550, 800]", bands);
+            let pictures: Vec<_> = (0..24).map(|seed| picture_of(&text, seed)).collect();
+            for channel in 0..pictures[0].film.channels() {
+                let (mut found, mut reported) = (0.0, 0.0);
+                for (x, y) in (0..16).flat_map(|y| (0..16).map(move |x| (x, y))) {
+                    let pixels = || pictures.iter().map(|picture| picture.film.pixel(x, y));
+                    let means: Vec<f64> = pixels().map(|pixel| pixel.mean(channel)).collect();
+                    let (_, error) = mean_and_error_of(&means);
+                    found += error * error * 24.0;
+                    reported += pixels().map(|pixel| pixel.variance(channel)).sum::<f64>() / 24.0;
+                }
+                let ratio = reported / found;
+                eprintln!("{what}, {bands}, {channel}: {ratio:.2}");
+                assert!((0.8..2.0).contains(&ratio), "{what}, {channel}: {ratio}");
+            }
+        }
+    }
+}
+
+#[test]
 fn the_told_error_of_luminance_is_that_over_seeds() {
     let of_colour = |camera: &str, integrator: &str, blocks: &str| {
         let text = scene(camera, integrator, blocks);

@@ -15,12 +15,14 @@
 pub mod assets;
 pub mod context;
 pub mod coverage;
+pub mod encoding;
 pub mod error;
 pub mod keys;
 pub mod limits;
 pub mod names;
 pub mod nearest;
 pub mod opened;
+mod other_format;
 pub mod overrides;
 pub mod path;
 pub mod reader;

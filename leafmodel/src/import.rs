@@ -1,12 +1,12 @@
 //! Networks of veins from files of other programs, and from our own.
 //!
-//! - **In**: the text of a file as `GraphML`, JSON, `GeoJSON`, CSV or SVG.
+//! - **In**: the text of a file as `GraphML`, GML, JSON, `GeoJSON`, CSV, SVG or a list of neighbours.
 //! - **Out**: [`Imported`]: a [`VenationNetwork`](crate::venation::network::VenationNetwork) in
 //!   millimetres, the margin if the file holds one, which of radii and orders are known, and what is
 //!   wrong with it, with places.
 //! - **Always true**: what comes out is valid; a network that [`crate::export`] wrote comes back with
 //!   its numbers, to the bit but for SVG, which is rounded.
-//! - **Left out**: pictures, and edges that are curves.
+//! - **Left out**: pictures.
 //!
 //! Names of columns and attributes are known with their units (`x_mm`, `radius_um`, `width (µm)`);
 //! the book's page of measures lists them.
@@ -24,11 +24,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod adjacency;
+mod courses;
 mod draft;
 mod error;
 mod faults;
 mod fields;
 mod geojson;
+mod gml;
 mod graph;
 mod graphml;
 mod json;
@@ -57,17 +60,23 @@ pub enum Format {
     Table,
     /// Drawings: paths with stroke widths.
     Svg,
+    /// GML.
+    Gml,
+    /// Lists of neighbours, as NEFI writes them.
+    Neighbours,
 }
 
 impl Format {
     /// Endings of file names and their formats.
-    pub const ENDINGS: [(&'static str, Self); 6] = [
+    pub const ENDINGS: [(&'static str, Self); 8] = [
         ("graphml", Self::GraphMl),
         ("json", Self::Json),
         ("geojson", Self::Json),
         ("csv", Self::Table),
         ("tsv", Self::Table),
         ("svg", Self::Svg),
+        ("gml", Self::Gml),
+        ("txt", Self::Neighbours),
     ];
 
     /// The format of files with an ending, in upper or lower case.
@@ -94,6 +103,8 @@ pub fn read(format: Format, text: &str, nodes: Option<&str>) -> Result<Draft, Im
         Format::Json => json::read(text)?,
         Format::Table => tables::read(text, nodes)?,
         Format::Svg => strokes::read(text)?,
+        Format::Gml => gml::read(text)?,
+        Format::Neighbours => adjacency::read(text)?,
     };
     Ok(draft)
 }
@@ -113,6 +124,8 @@ pub fn read_margin(format: Format, text: &str) -> Result<Draft, ImportError> {
         Format::Json => json::read_margin(text)?,
         Format::GraphMl => graphml::read(text)?,
         Format::Table => tables::read(text, None)?,
+        Format::Gml => gml::read(text)?,
+        Format::Neighbours => adjacency::read(text)?,
     };
     if !draft.has_margin() {
         return Err(ImportError::BadMargin {

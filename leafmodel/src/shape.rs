@@ -17,6 +17,7 @@ pub mod contour_curve;
 pub(crate) mod crossing;
 pub(crate) mod cubic;
 pub mod cubic_margin;
+pub(crate) mod drawing;
 pub mod growth;
 pub mod growth_form;
 mod interior_grid;

@@ -224,9 +224,10 @@ impl Solid {
         }
         let (fine, within_surface) = raised::fine(&surface, plan.raised.as_ref())?;
         let relief = plan.raised.as_ref().map(|raised| {
-            let field = pattern.field(&mosaic, 2.0 * raised.over_mm);
-            Relief::new(raised, &field, (&fine, &within_surface))
+            let field = pattern.field(&mosaic, 2.0 * raised.over_mm)?;
+            Ok::<_, SolidError>(Relief::new(raised, &field, (&fine, &within_surface)))
         });
+        let relief = relief.transpose()?;
         let normal = |place: &SurfacePoint| {
             let within = ancestry.carry_back(place);
             let of_corners = shape.faces[within.face as usize];

@@ -47,6 +47,7 @@ mod testing;
 #[cfg(test)]
 mod tests;
 mod thinning;
+mod through;
 
 use glam::DVec2;
 use thiserror::Error;
@@ -328,8 +329,11 @@ pub fn trace(picture: &Raster, settings: &Settings) -> Result<Traced, TraceError
     };
     let mut findings = Vec::new();
     let ink = light::ink(picture, &blade, settings)?;
+    let hairlines = light::hairlines(picture, settings);
     let mut veins = Mask::new(width, height, |x, y| {
-        ink.values()[y * width + x] > 0.0 && blade.cells[blade.cell(x, y)]
+        let at = y * width + x;
+        let is_vein = ink.values()[at] > 0.0 || hairlines.as_ref().is_some_and(|lines| lines[at]);
+        is_vein && blade.cells[blade.cell(x, y)]
     });
     findings::clean(&mut veins, settings.speck_px, &mut findings);
     let mut squares = distance::squared_distances(&veins);

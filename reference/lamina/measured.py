@@ -39,14 +39,14 @@ def instruments(
     values: Mapping[str, Value] | None = None,
     *,
     rays: int | None = None,
-    error: float | None = None,
+    error: float | str | None = None,
     seed: int = 1,
     only: Iterable[str] = (),
 ) -> dict[str, xr.Dataset]:
     """What the instruments of a scene measure: a dataset for each, by its name.
 
     `values` set keys of the scene, `rays`, `error`, `seed` and `only` are the options of `lamina
-    instruments`. Raises LaminaError for what the program refuses.
+    instruments`; an error of "1%" is relative. Raises LaminaError for what the program refuses.
     """
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "figures.json")

@@ -81,7 +81,7 @@ def read(file: str | Path) -> xr.Dataset:
     Dimensions are `y` and `x` (pixels, from the top left corner), and `wavelength` (nm) for a
     spectral film, `channel` (R, G, B) for a colour film, `axis` (X, Y, Z) for places and
     directions. `radiance` and `radiance_variance`, or `colour` and `colour_variance`: means over
-    samples and the variances of those means as if samples were independent; `luminance_variance`:
+    samples and the variances of those means, by batches of samples; `luminance_variance`:
     that of the mean luminance (of a spectral film, of the mean over bands), with what their even
     spread gains; then `coverage`, `depth`, `normal`, `position`,
     `albedo` (of a spectral film `mean_albedo`, over its bands), `object` and `samples`. Each has

@@ -68,12 +68,15 @@ def measured(coats: tuple, r: float, t: float, ratio: float = 1.0) -> mi.BSDF:
     )
 
 
-def hit(wi: object, along: object = (0.0, 1.0, 0.0)) -> mi.SurfaceInteraction3f:
-    """A hit seen from `wi`, on a plane whose v grows along `along`."""
+def hit(
+    wi: object, along: object = (0.0, 1.0, 0.0), normal: object = (0.0, 0.0, 1.0)
+) -> mi.SurfaceInteraction3f:
+    """A hit seen from `wi`; `along` is where v grows, `normal` that of the triangle."""
     si = dr.zeros(mi.SurfaceInteraction3f)
     si.wi = mi.Vector3f(wi)
     si.wavelengths = WAVELENGTHS
     si.sh_frame = mi.Frame3f([0, 0, 1])
+    si.n = mi.Normal3f(normal)
     si.dp_dv = mi.Vector3f(along)
     si.uv = [0.5, 0.5]
     # Not literals: one compiled kernel then serves all directions.

@@ -76,10 +76,11 @@ def test_leaf_is_sampled_as_its_pdf_says() -> None:
 
 def test_normal_incidence_gives_back_r_and_t() -> None:
     for coats, (r, t) in itertools.product(COATS, ((0.1, 0.05), (0.45, 0.47), (0.3, 0.1))):
-        got, error = throughputs(measured(coats, r, t), (0.0, 0.0, 1.0))
-        for part, want in zip((0, 1), (r, t), strict=True):
-            off = np.abs(got[part] - want).max()
-            assert off < 4.0 * error[part].max() + 1e-4, (coats, part, got[part], want)
+        for side in (1.0, -1.0):
+            got, error = throughputs(measured(coats, r, t), (0.0, 0.0, side))
+            for part, want in zip((0, 1), (r, t), strict=True):
+                off = np.abs(got[part] - want).max()
+                assert off < 4.0 * error[part].max() + 1e-4, (coats, side, part, got[part], want)
 
 
 @pytest.mark.deep
@@ -100,3 +101,65 @@ def test_leaf_is_reciprocal() -> None:
         back = bsdf.eval(mi.BSDFContext(), hit(b), mi.Vector3f(a)) / dr.abs(mi.Float(a[2]))
         there, back = np.array(there), np.array(back)
         assert np.all(np.abs(there - back) <= 2e-3 * there + 1e-6), coats
+
+
+# The triangle's normal in the shading frame, 20° off, and views, two of them between the planes.
+TRIANGLE = (0.342, 0.0, 0.94)
+ACROSS = (
+    (0.2, 0.3, 0.9),
+    (-0.5, 0.1, 0.6),
+    (0.3, -0.4, -0.7),
+    (0.97, 0.1, -0.12),
+    (-0.97, 0.1, 0.12),
+)
+
+
+def tilted(wi: object) -> mi.SurfaceInteraction3f:
+    """A hit on a triangle that the shading normal is not at right angles to."""
+    length = float(np.linalg.norm(wi))
+    normal = np.array(TRIANGLE) / np.linalg.norm(TRIANGLE)
+    return hit(tuple(x / length for x in wi), normal=tuple(float(x) for x in normal))
+
+
+def test_light_keeps_its_side_of_a_tilted_triangle_and_its_energy() -> None:
+    side = 512
+    n = side * side
+    index = dr.arange(mi.UInt32, n)
+    for coats, wi in itertools.product(COATS[:2], ACROSS):
+        rng = mi.PCG32(size=n)
+        u = (mi.Float(index % side) + rng.next_float32()) / side
+        v = (mi.Float(index // side) + rng.next_float32()) / side
+        bsdf, si = measured(coats, 0.6, 0.4), tilted(wi)
+        bs, weight = bsdf.sample(mi.BSDFContext(), si, rng.next_float32(), mi.Point2f(u, v))
+        got = np.array(weight)
+        off = np.abs(got.mean(axis=1) - 1.0).max()
+        assert off < 4.0 * got.std() / side + 1e-4, (coats, wi, off)
+        drawn = np.array(bs.pdf) > 0.0
+        wo, triangle = np.array(bs.wo), np.array(si.n).ravel()[:, None]
+        assert np.all(((wo * triangle).sum(axis=0) * wo[2] >= 0.0)[drawn]), (coats, wi)
+        value, pdf = bsdf.eval_pdf(mi.BSDFContext(), si, bs.wo)
+        ratio = np.array(value) / np.maximum(np.array(pdf), 1e-20)
+        assert np.all(np.abs(ratio - got)[:, drawn] <= 2e-3 * got[:, drawn] + 1e-5), (coats, wi)
+
+
+@pytest.mark.deep
+def test_tilted_leaf_is_sampled_as_its_pdf_says() -> None:
+    level = 1.0 - (1.0 - 0.01) ** (1.0 / len(ACROSS))
+    for wi in ACROSS:
+        bsdf = leaf(COATS[0])
+
+        def sample(u: mi.Vector3f, bsdf: mi.BSDF = bsdf, wi: tuple = wi) -> tuple:
+            context = mi.BSDFContext()
+            bs, _ = bsdf.sample(context, tilted(wi), u.x, mi.Point2f(u.y, u.z))
+            return bs.wo, dr.select(bs.pdf > 0.0, mi.Float(1.0), 0.0)
+
+        def pdf(wo: mi.Vector3f, bsdf: mi.BSDF = bsdf, wi: tuple = wi) -> mi.Float:
+            return bsdf.pdf(mi.BSDFContext(), tilted(wi), wo)
+
+        test = mi.chi2.ChiSquareTest(
+            mi.chi2.SphericalDomain(), sample, pdf, sample_dim=3, sample_count=200_000, res=51,
+            ires=16,
+        )  # fmt: skip
+        with contextlib.redirect_stdout(io.StringIO()):
+            passed = test.run(level)
+        assert passed, (wi, test.p_value, test.messages)

@@ -103,6 +103,53 @@ def test_a_number_that_is_not_finite_is_refused_by_the_program() -> None:
     assert [problem.code for problem in problems] == ["scene::not_finite"]
 
 
+@pytest.mark.parametrize(
+    "camera",
+    [
+        {"perspective.vertical_fov_deg": 40},
+        {"orthographic.height_m": 0.8, "orthographic.look_at_m": [0.1, 0, 0.2]},
+    ],
+)
+def test_openexr_finds_each_point_of_a_picture_in_its_pixel(camera: dict[str, object]) -> None:
+    kind = next(iter(camera)).split(".")[0]
+    place = {f"{kind}.position_m": [0.2, -2, 0.5], f"{kind}.look_at_m": [0, 0, 0.1]}
+    text = (
+        "format = 1\nfilm.spectral = "
+        "{ size = [48, 32], spp = 1, bands_nm = [550], filter_radius_px = 0.01 }\n"
+        + "".join(f"camera.{key} = {toml(value)}\n" for key, value in (place | camera).items())
+        + "materials.paint.diffuse.reflectance = 0.5\nmeshes.ball.sphere.radius_m = 0.3\n"
+        'objects.ball = { mesh = "ball", material = "paint" }\n'
+        "lights.sky.constant.radiance_w_m2_sr_nm = 1\n"
+    )
+    with tempfile.TemporaryDirectory() as folder:
+        scene = Path(folder, "scene.toml")
+        scene.write_text(text)
+        subprocess.run([program(), "render", scene, "--out", Path(folder, "out")], check=True)
+        exr = oiio.ImageInput.open(str(Path(folder, "out.exr")))
+        spec, pixels = exr.spec(), exr.read_image(oiio.FLOAT)
+        exr.close()
+    # OpenEXR's matrices are for row vectors.
+    to_camera, to_ndc = (
+        np.reshape(spec.getattribute(name), (4, 4)) for name in ("worldToCamera", "worldToNDC")
+    )
+    layers = [spec.channelnames.index(f"P.{axis}") for axis in "XYZ"]
+    met = pixels[:, :, spec.channelnames.index("A")] > 0
+    assert 100 < met.sum() < met.size
+    points = np.append(pixels[met][:, layers], np.ones((met.sum(), 1)), axis=1)
+    ndc = points @ to_ndc
+    row, column = np.nonzero(met)
+    # (0, 0) is the upper left corner, (1, 1) the lower right one.
+    np.testing.assert_allclose(ndc[:, 0] / ndc[:, 3] * 48, column + 0.5, atol=0.02)
+    np.testing.assert_allclose(ndc[:, 1] / ndc[:, 3] * 32, row + 0.5, atol=0.02)
+    seen = points @ to_camera
+    # To the right, up, and ahead: left-handed.
+    assert np.linalg.det(to_camera[:3, :3]) == pytest.approx(-1, abs=1e-5)
+    assert (np.diff(seen[row == 16][:, 0]) > 0).all() and (np.diff(seen[column == 24][:, 1]) < 0).all()
+    depth = pixels[met][:, spec.channelnames.index("depth.Z")]
+    far = seen[:, 2] if kind == "orthographic" else np.linalg.norm(seen[:, :3], axis=1)
+    np.testing.assert_allclose(far, depth, rtol=1e-5)
+
+
 def test_a_spectral_picture_is_what_the_exr_holds() -> None:
     with tempfile.TemporaryDirectory() as folder:
         stem = Path(folder, "kept")

@@ -110,7 +110,7 @@ pub enum View<'a, const N: usize> {
     /// A leaf that emits what light of other wavelengths excites.
     Fluorescence(FluorescenceView<'a>),
     /// A face of a leaf whose inside is followed.
-    Face(FaceView),
+    Face(&'a FaceView<N>),
 }
 
 /// Lambertian reflection on both sides, seen from one direction.

@@ -8,8 +8,8 @@
 //! - **Left out**: when to write one, which the command line decides.
 //!
 //! A file is a magic line and sections: length, CRC-32 and bytes of each. First comes the heading,
-//! then a section for each row of blocks ([`Film::packed_row`]), then counts of rejected samples
-//! and clamped values, then what is known of the noise.
+//! then a section for each row of blocks ([`Film::packed_row`]), then counts of rejected samples,
+//! clamped values and cut paths, then what is known of the noise.
 
 mod bytes;
 mod heading;
@@ -37,7 +37,7 @@ use crate::integrator::render::{Begun, Job};
 use crate::spectrum::WavelengthSampler;
 
 /// The first bytes of a file.
-const MAGIC: [u8; 16] = *b"lamina sums  8\n\n";
+const MAGIC: [u8; 16] = *b"lamina sums  9\n\n";
 
 /// Why a checkpoint cannot be read.
 #[derive(Debug, Error)]

@@ -59,15 +59,18 @@ mod trace;
 
 use std::ffi::OsString;
 use std::io::{self, ErrorKind, IsTerminal, Write as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use clap::{CommandFactory, FromArgMatches};
+use clap::FromArgMatches;
 
 use crate::scene::load::{self, Loaded};
 use arguments::{Arguments, Command, ExportCommand, GREETING, SceneArguments};
-use leafmodel::document::report::DocumentErrors;
+use leafmodel::document::path;
+use leafmodel::document::report::{DocumentErrors, Warning};
+use leafmodel::document::source::printable;
 use places::check_writable;
 
 /// Why a command failed.
@@ -83,7 +86,7 @@ enum Failure {
 
 impl Failure {
     fn bad(error: impl std::fmt::Display) -> Self {
-        Self::BadInput(format!("error: {error}\n"))
+        Self::BadInput(format!("error: {}\n", printable(&error.to_string())))
     }
 
     fn written_twice(path: &Path) -> Self {
@@ -92,7 +95,7 @@ impl Failure {
     }
 
     fn system(error: impl std::fmt::Display) -> Self {
-        Self::System(format!("error: {error}\n"))
+        Self::System(format!("error: {}\n", printable(&error.to_string())))
     }
 }
 
@@ -108,7 +111,7 @@ impl From<DocumentErrors> for Failure {
 pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str) -> ExitCode {
     signals::survive_file_limits();
     let line: Vec<OsString> = arguments.into_iter().collect();
-    let matches = Arguments::command()
+    let matches = Arguments::grammar()
         .version(version)
         .try_get_matches_from(&line);
     let arguments = match matches.and_then(|matches| Arguments::from_arg_matches(&matches)) {
@@ -126,6 +129,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str)
     };
     if arguments.end_with_stdin {
         signals::end_with_stdin();
+    }
+    if let Err(failure) = allow(&arguments.allow) {
+        return exit_code(Err(failure));
     }
     let Some(command) = arguments.command else {
         say(GREETING);
@@ -161,6 +167,33 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str)
             Ok(())
         }
     })
+}
+
+/// Lets documents name files in the folders that the command line and the environment name.
+fn allow(folders: &[PathBuf]) -> Result<(), Failure> {
+    let listed = std::env::var_os("LAMINA_ALLOW").unwrap_or_default();
+    let listed = std::env::split_paths(&listed).filter(|folder| !folder.as_os_str().is_empty());
+    let mut all: Vec<PathBuf> = Vec::new();
+    for (by, folder) in folders
+        .iter()
+        .map(|folder| ("--allow", folder.clone()))
+        .chain(listed.map(|folder| ("LAMINA_ALLOW", folder)))
+    {
+        let whole = std::fs::canonicalize(&folder);
+        let is_folder = whole.as_ref().is_ok_and(|whole| whole.is_dir());
+        match whole {
+            Ok(whole) if is_folder => all.push(whole),
+            Ok(_) => {
+                return Err(Failure::bad(format!(
+                    "{by}: {} is not a folder",
+                    folder.display()
+                )));
+            }
+            Err(error) => return Err(Failure::bad(format!("{by}: {}: {error}", folder.display()))),
+        }
+    }
+    path::allow(all);
+    Ok(())
 }
 
 /// Prints why a command failed; the exit code.
@@ -200,11 +233,21 @@ fn say(text: impl std::fmt::Display) {
 /// Why stdout could not be written, for the first time.
 static OUTPUT_ERROR: Mutex<Option<io::Error>> = Mutex::new(None);
 
+/// Whether the pipe that reads stdout was closed.
+static HAS_NO_READER: AtomicBool = AtomicBool::new(false);
+
+/// Whether nobody reads stdout any more, so that a long list may end.
+fn has_no_reader() -> bool {
+    HAS_NO_READER.load(Ordering::Relaxed)
+}
+
 fn note_output(result: io::Result<()>) {
-    // A pipe that is closed early (`lamina info x.exr | head`) is not an error.
-    if let Err(error) = result.and_then(|()| io::stdout().flush())
-        && error.kind() != ErrorKind::BrokenPipe
-    {
+    if let Err(error) = result.and_then(|()| io::stdout().flush()) {
+        // A pipe that is closed early (`lamina info x.exr | head`) is not an error.
+        if error.kind() == ErrorKind::BrokenPipe {
+            HAS_NO_READER.store(true, Ordering::Relaxed);
+            return;
+        }
         let mut first = OUTPUT_ERROR.lock().unwrap_or_else(PoisonError::into_inner);
         first.get_or_insert(error);
     }
@@ -219,9 +262,45 @@ fn output_failure() -> Option<Failure> {
 /// Loads a scene and prints its warnings.
 fn load_scene(arguments: &SceneArguments) -> Result<Loaded, Failure> {
     let loaded = load::load(&arguments.scene, &arguments.overrides)?;
-    let colour = colour();
-    for warning in &loaded.warnings {
-        eprint!("{}", warning.render(colour));
-    }
+    warn(&loaded.warnings);
     Ok(loaded)
+}
+
+/// Prints warnings.
+fn warn(warnings: &[Warning]) {
+    eprint!("{}", reported(warnings, colour()));
+}
+
+/// Warnings, each on lines of its own.
+fn reported(warnings: &[Warning], colour: bool) -> String {
+    let lines = warnings.iter().map(|warning| warning.render(colour) + "\n");
+    lines.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_warning_ends_its_line() {
+        let scene = "format = 1\n[film.rgb]\nsize = [2, 2]\nspp = 1\n[camera.perspective]\n\
+            position_m = [0, 1, 0]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 40\n\
+            [lights.sky.constant]\nradiance_w_m2_sr_nm = 1\n[meshes.dot.sphere]\nradius_m = 0.1\n\
+            [materials.used.diffuse]\nreflectance = 0\n[materials.one.diffuse]\nreflectance = 0\n\
+            [materials.two.diffuse]\nreflectance = 0\n[objects.dot]\nmesh = \"dot\"\nmaterial = \"used\"\n";
+        let loaded = load::parse(scene, "scene.toml", Path::new("."), &[]);
+        let loaded = loaded.unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(loaded.warnings.len(), 2);
+        let text = reported(&loaded.warnings, false);
+        let first: Vec<&str> = text
+            .lines()
+            .filter(|line| line.contains("warning"))
+            .collect();
+        assert_eq!(first.len(), 2, "{text}");
+        assert!(
+            first.iter().all(|line| line.starts_with("warning[")),
+            "{text}"
+        );
+        assert!(text.ends_with('\n'), "{text}");
+    }
 }

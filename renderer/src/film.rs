@@ -6,9 +6,9 @@
 //!   means of features over covered samples.
 //! - **Always true**: sums are integers, so they do not depend on the order or grouping in which
 //!   samples arrive; a sample with a number that is not finite is rejected whole and counted, one
-//!   beyond ±2³⁰ is clamped and counted. All pixels of a block have the same number of samples.
-//! - **Memory**: per pixel 32 bytes for each channel, 7 for the error of luminance, 4 for coverage,
-//!   and 8 or 4 for each feature, depending on its [`Sum`].
+//!   beyond ±2³⁰ is clamped and counted, and so are paths that a limit cut. All pixels of a block have the same number of samples.
+//! - **Memory**: per pixel 32 bytes for each channel, 7 for the error of each and of luminance, 4 for
+//!   coverage, and 8 or 4 for each feature, depending on its [`Sum`].
 //! - **Left out**: the meaning of channels and features, which the film's creator defines.
 //!
 //! ```
@@ -47,12 +47,13 @@ use thiserror::Error;
 pub use batches::BATCH;
 pub use block::{BLOCK_SIDE, Block, PixelSums};
 pub use features::{FEATURE_SAMPLES, Sum};
+pub use fixed::MOST as MOST_RADIANCE;
 pub use moments::Moments;
 pub use packed::{DamagedRow, RowSums};
 pub use pixel::Pixel;
 
-use batches::{OpenBatches, Squares};
-use block::Faults;
+use batches::{OpenBatches, Squares, series_of};
+use block::{Faults, MISSING_ONE};
 use features::{Coverage, Words};
 
 /// Greatest number of pixels of a film.
@@ -108,7 +109,8 @@ pub struct Film {
     drawn: Vec<u32>,
     /// The moments, one per channel for each pixel.
     moments: Vec<Moments>,
-    /// For each pixel the sum of the squares of the mean luminances of its batches.
+    /// For each pixel the sums of the squares of the means of its batches, of luminance and of each
+    /// channel.
     squares: Vec<Squares>,
     /// For each block the batches of which it has some samples but not all; mostly none.
     open: Vec<OpenBatches>,
@@ -143,7 +145,7 @@ impl Film {
             luminance: luminance.to_vec(),
             drawn: vec![0; blocks],
             moments: vec![Moments::default(); pixels * channels],
-            squares: vec![Squares::default(); pixels],
+            squares: vec![Squares::default(); pixels * series_of(channels)],
             open: vec![OpenBatches::default(); blocks],
             wide: vec![0; pixels * words.wide],
             narrow: vec![0; pixels * words.narrow],
@@ -178,10 +180,14 @@ impl Film {
         Ok(bytes)
     }
 
-    /// Memory of a pixel, bytes; each block needs 28 more, and eight a pixel for each open batch.
+    /// Memory of a pixel, bytes; each block needs 28 more, and for each open batch eight per pixel for
+    /// luminance and for each channel.
     pub fn bytes_a_pixel(channels: usize, sums: &[Sum]) -> usize {
         let features: usize = sums.iter().map(|sum| sum.bytes()).sum();
-        channels * size_of::<Moments>() + size_of::<Squares>() + Coverage::BYTES + features
+        channels * size_of::<Moments>()
+            + series_of(channels) * size_of::<Squares>()
+            + Coverage::BYTES
+            + features
     }
 
     /// Pixels across.
@@ -218,7 +224,7 @@ impl Film {
         Pixel {
             luminance: &self.luminance,
             moments: of_place(&self.moments, place, self.channels()),
-            squares: self.squares[place],
+            squares: of_place(&self.squares, place, series_of(self.channels())),
             open: &self.open[block],
             within,
             words: &self.words,
@@ -249,6 +255,7 @@ impl Film {
     pub fn expose(&mut self, expose: impl Fn(&mut Block<'_>) + Sync) {
         let (width, height, channels) = (self.width, self.height, self.channels());
         let (across, words, luminance) = (self.blocks_across(), &self.words, &self.luminance[..]);
+        let series = series_of(channels);
         let row_pixels = (BLOCK_SIDE * width) as usize;
         let rows = self.drawn.len() / across;
         let faults = Mutex::new(Faults::default());
@@ -257,7 +264,7 @@ impl Film {
             .par_chunks_mut(across)
             .zip(self.open.par_chunks_mut(across))
             .zip(self.moments.par_chunks_mut(row_pixels * channels))
-            .zip(self.squares.par_chunks_mut(row_pixels))
+            .zip(self.squares.par_chunks_mut(row_pixels * series))
             .zip(chunks_or_nothing(
                 &mut self.wide,
                 row_pixels * words.wide,
@@ -272,7 +279,7 @@ impl Film {
                     .par_iter_mut()
                     .zip(open)
                     .zip(moments.par_chunks_mut(pixels * channels))
-                    .zip(squares.par_chunks_mut(pixels))
+                    .zip(squares.par_chunks_mut(pixels * series))
                     .zip(chunks_or_nothing(wide, pixels * words.wide, across))
                     .zip(narrow.par_chunks_mut(pixels * words.narrow));
                 blocks.enumerate().for_each(
@@ -328,8 +335,9 @@ impl Film {
         merge_each(&mut self.narrow, &other.narrow, |own, other| *own += other);
         for block in 0..self.open.len() {
             self.open[block].merge(&other.open[block]);
+            let series = series_of(self.channels());
             let (first, pixels) = (self.first_of(block), self.pixels_of(block) as usize);
-            self.open[block].close(&mut self.squares[first..][..pixels]);
+            self.open[block].close(&mut self.squares[first * series..][..pixels * series]);
         }
         self.faults.merge(&other.faults);
     }
@@ -343,6 +351,27 @@ impl Film {
     /// Number of values that were clamped.
     pub fn clamped(&self) -> u64 {
         self.faults.clamped
+    }
+
+    /// Number of paths that a limit cut.
+    pub fn cut(&self) -> u64 {
+        self.faults.cut
+    }
+
+    /// The most that a channel misses because of them, on average over all samples; infinite if that
+    /// is more than can be stored.
+    pub fn missing(&self) -> f64 {
+        if self.faults.missing == u64::MAX {
+            return f64::INFINITY;
+        }
+        self.faults.missing as f64 / MISSING_ONE / self.drawn().max(1) as f64
+    }
+
+    /// Number of a pixel's channels whose values are so great that the sum of their squares is not
+    /// known, and neither is their variance.
+    pub fn overflowed(&self) -> u64 {
+        let overflowed = self.moments.par_iter().filter(|one| one.overflows());
+        overflowed.count() as u64
     }
 
     /// Number of samples drawn, rejected ones included.

@@ -5,7 +5,8 @@
 //! the mesh, and one tree over the instances; meshes that stand in one place each share one tree in
 //! the world where its precision is enough. It is immutable and shared by every thread.
 //!
-//! - **In**: meshes and affine instances, `f32`, metres.
+//! - **In**: meshes in `f32`, affine instances with their places in `f64`, metres, and the origin
+//!   around which rays are traced.
 //! - **Out**: the nearest [`Hit`] of a [`Ray`], whether anything is hit, and the [`SurfacePoint`]
 //!   of a hit.
 //! - **Always true**: a hit is a function of the ray, the triangle and the meshes that are traced in
@@ -16,13 +17,13 @@
 //!   as tight as `f32` allows.
 //!
 //! ```
-//! use glam::{Affine3A, Vec3};
+//! use glam::{DAffine3, DVec3, Vec3};
 //! use renderer::geometry::{Geometry, Instance, Ray, TriangleMesh};
 //!
 //! let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
 //! let triangle = TriangleMesh::new(corners, None, None, vec![[0, 1, 2]])?;
 //! // The triangle a metre up, and once more two metres up.
-//! let at = |height| Instance { mesh: 0, to_world: Affine3A::from_translation(Vec3::Z * height) };
+//! let at = |height| Instance::new(0, &DAffine3::from_translation(DVec3::Z * height));
 //! let geometry = Geometry::build(vec![triangle], vec![at(1.0), at(2.0)])?;
 //! let ray = Ray::new(Vec3::new(0.2, 0.2, 0.0), Vec3::Z);
 //! let hit = geometry.intersect(&ray).expect("it is above");
@@ -55,7 +56,7 @@ pub mod surface;
 
 pub use assembly::{Geometry, GeometryError, Hit};
 pub use import::{ImportError, import};
-pub use instance::Instance;
+pub use instance::{Instance, origin_near};
 pub use mesh::{DroppedFaces, MeshError, TriangleMesh};
 pub use ray::Ray;
 pub use surface::{SurfacePoint, TextureScale};

@@ -1,11 +1,13 @@
 //! Pictures and their files: `OpenEXR` for data, PNG and JPEG for looking at; Radiance HDR is read.
 //!
+//! [`colours`] is the one reader of pictures that emit light or are textures.
+//!
 //! - **In**: [`Picture`]s, layers of `f32` with names and attributes; or untrusted bytes.
 //! - **Out**: complete files, with the same bytes for the same picture; or a [`Picture`].
 //! - **Always true**: a file is replaced by renaming a finished one, so a failure leaves the old
 //!   one. A header that claims more than 2²⁸ pixels or 4 GiB is refused before anything is
 //!   allocated for it.
-//! - **Left out**: deep data, several parts (the first is read), mip levels (the largest is read).
+//! - **Left out**: deep data, mip levels (the largest is read).
 //!
 //! ```
 //! use renderer::image::{Attribute, Layer, Picture, compare, openexr};
@@ -25,13 +27,16 @@
 pub mod animation;
 pub mod atomic;
 pub mod card;
+pub mod colours;
 pub mod compare;
 pub mod display;
+mod encoding;
 pub mod jpeg;
 pub mod light_colour;
 pub mod openexr;
 pub mod pixels;
 pub mod portable_network;
+mod primaries;
 pub mod radiance;
 pub mod scan;
 pub mod tone;
@@ -40,6 +45,8 @@ pub mod white;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use image::ImageDecoder as _;
+use image::metadata::Orientation;
 use thiserror::Error;
 
 pub use compare::{ChannelComparison, Comparison, compare};
@@ -109,8 +116,10 @@ pub enum Attribute {
 }
 
 /// Rec. 709 primaries and D65: what linear sRGB means.
-pub const REC709: Attribute =
-    Attribute::Chromaticities([[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]]);
+pub const REC709: Attribute = Attribute::Chromaticities(REC709_POINTS);
+
+/// x and y of red, green, blue and white of Rec. 709.
+const REC709_POINTS: [[f32; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]];
 
 /// Share of each channel of linear sRGB in luminance.
 pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
@@ -233,27 +242,11 @@ fn read_file(
     })
 }
 
-/// Colours as linear light, by the light that each value in [0, 1] stands for.
-fn linear(
-    pixels: &image::ImageBuffer<image::Rgb<u16>, Vec<u16>>,
-    light: impl Fn(f64) -> f64,
-) -> Picture {
-    let (width, height) = pixels.dimensions();
-    // 8-bit values arrive as 257 times themselves, so one table serves both.
-    let table: Vec<f32> = (0..=u16::MAX)
-        .map(|value| light(f64::from(value) / 65535.0) as f32)
-        .collect();
-    let channel = |number: usize, name: &str| Layer {
-        name: name.to_owned(),
-        data: pixels
-            .pixels()
-            .map(|pixel| table[pixel.0[number] as usize])
-            .collect(),
-    };
-    Picture {
-        width,
-        height,
-        layers: vec![channel(0, "R"), channel(1, "G"), channel(2, "B")],
-        attributes: vec![("chromaticities".to_owned(), REC709)],
-    }
+/// Pixels as a file has them, and how they have to be turned to be upright.
+fn turned<R: io::BufRead + io::Seek>(
+    reader: image::ImageReader<R>,
+) -> image::ImageResult<(image::DynamicImage, Orientation)> {
+    let mut decoder = reader.into_decoder()?;
+    let orientation = decoder.orientation()?;
+    Ok((image::DynamicImage::from_decoder(decoder)?, orientation))
 }

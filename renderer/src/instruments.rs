@@ -46,7 +46,7 @@
 //! let options = BuildOptions { wavelengths: Some(&sampler), ..BuildOptions::default() };
 //! let world = World::build_with(&scene, &options)?;
 //! let budget = Budget { rays: 1 << 12, error: None, seed: 1 };
-//! let rows = read_out(&world, &scene, 0, first[0], &budget)?;
+//! let rows = read_out(&world, &scene, 0, first[0], &budget)?.rows;
 //! let reflectance = rows.iter().find(|row| row.quantity == "reflectance").expect("it is measured");
 //! assert!((reflectance.value - 0.7).abs() < 1e-6);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -71,8 +71,9 @@ mod walk;
 
 use thiserror::Error;
 
-pub use self::batches::{Budget, FEWEST_RAYS};
+pub use self::batches::{Budget, Effort, FEWEST_RAYS, Target, Watch};
 pub use self::row::{Direction, Row, ViewAngles};
+pub use self::stage::CutPaths;
 use crate::geometry::GeometryError;
 use crate::scene::description::{Description, InstrumentKind};
 use crate::scene::world::World;
@@ -189,6 +190,15 @@ pub enum InstrumentError {
     },
 }
 
+/// What an instrument reads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// Its figures.
+    pub rows: Vec<Row>,
+    /// Paths that were cut; what they carried counts as absorbed.
+    pub cut: CutPaths,
+}
+
 /// The wavelengths of all instruments of a scene, and the first set of each; `None` if there are no
 /// instruments.
 pub fn sets_of(scene: &Description) -> Option<(WavelengthSampler, Vec<usize>)> {
@@ -222,17 +232,36 @@ pub fn read_out(
     number: usize,
     first_set: usize,
     budget: &Budget,
-) -> Result<Vec<Row>, InstrumentError> {
+) -> Result<Reading, InstrumentError> {
+    let effort = Effort {
+        budget: *budget,
+        watch: None,
+    };
+    read_out_watched(world, scene, number, first_set, &effort)
+}
+
+/// As [`read_out`], but may end early.
+///
+/// # Errors
+///
+/// As [`read_out`].
+pub fn read_out_watched(
+    world: &World,
+    scene: &Description,
+    number: usize,
+    first_set: usize,
+    effort: &Effort<'_>,
+) -> Result<Reading, InstrumentError> {
     let instrument = &scene.instruments[number];
     match &instrument.value.kind {
         InstrumentKind::Sphere(sample) => {
-            sphere::read_out(world, scene, (instrument, sample), first_set, budget)
+            sphere::read_out(world, scene, (instrument, sample), first_set, effort)
         }
         InstrumentKind::Gonio(gonio) => {
-            gonio::read_out(world, scene, (instrument, gonio), first_set, budget)
+            gonio::read_out(world, scene, (instrument, gonio), first_set, effort)
         }
         InstrumentKind::Canopy(canopy) => {
-            canopy::read_out(world, scene, (instrument, canopy), first_set, budget)
+            canopy::read_out(world, scene, (instrument, canopy), first_set, effort)
         }
         InstrumentKind::Depth(depth) => depth::read_out(world, scene, (instrument, depth)),
     }

@@ -48,6 +48,7 @@ pub mod cone;
 pub mod develop;
 pub mod effort;
 pub mod encounter;
+pub mod facet;
 pub mod features;
 mod fluorescence;
 mod job;

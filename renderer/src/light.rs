@@ -40,7 +40,7 @@ pub mod tree;
 use std::f32::consts::PI;
 
 use crate::sampling::distribution::Piecewise2d;
-use crate::spectrum::{Lanes, Spectrum, WavelengthGrid, Wavelengths};
+use crate::spectrum::{Lanes, Share, Spectrum, WavelengthGrid, Wavelengths};
 use area::AreaLight;
 use daylight::sky::SkyLight;
 use daylight::sun::SunLight;
@@ -134,6 +134,32 @@ impl Light {
             Self::Spot(light) => {
                 let intensity = light.intensity().mean_over(range_nm);
                 Sampled::ByParts(vec![light.emitter(intensity)])
+            }
+        }
+    }
+
+    /// A radiance that it exceeds nowhere, W m⁻² sr⁻¹ nm⁻¹; infinite for a light without extent.
+    pub fn at_most(&self, share: &Share) -> f32 {
+        match self {
+            Self::Distant(light) => light.radiance().over(share),
+            Self::Constant(radiance) => radiance.curve().over(share),
+            Self::Environment(light) => light.at_most(share),
+            Self::Sun(light) => light.limb_at(share)[0],
+            Self::Sky(light) => light.at_most(share),
+            Self::Area(light) => light.at_most(share),
+            Self::Spot(_) => f32::INFINITY,
+        }
+    }
+
+    /// A radiance that a picture shows if the light or white paper in it is seen: of lights that are
+    /// mostly too small to be seen, that of paper. Of a spotlight it is that of paper 1 m away.
+    pub fn shows(&self, share: &Share) -> f32 {
+        match self {
+            Self::Distant(light) => light.radiance().over(share) * light.solid_angle() / PI,
+            Self::Sun(light) => light.irradiance().over(share) / PI,
+            Self::Spot(light) => light.intensity().over(share) / PI,
+            Self::Constant(_) | Self::Environment(_) | Self::Sky(_) | Self::Area(_) => {
+                self.at_most(share)
             }
         }
     }

@@ -121,18 +121,20 @@ impl Material {
 
     /// Its coat, if that reflects more than the whole should at a wavelength of the range.
     pub fn exceeding_coat(&self, range_nm: [f64; 2]) -> Option<ExceedingCoat> {
-        let (exceeds, coat, whole) = match self {
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) => return None,
+        match self {
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) => None,
             Self::Leaf(leaf) => {
-                let exceeds = leaf.coat_exceeds_reflectance(range_nm);
-                (exceeds, "the adaxial coat", "the leaf")
+                let (nm, face) = leaf.coat_exceeds_reflectance(range_nm)?;
+                let coat = ["the adaxial coat", "the abaxial coat"][face];
+                let whole = "the leaf";
+                Some(ExceedingCoat { nm, coat, whole })
             }
             Self::Solid(solid) => {
-                let exceeds = solid.coat_exceeds_reflectance(range_nm);
-                (exceeds, "the coat", "the solid tissue")
+                let nm = solid.coat_exceeds_reflectance(range_nm)?;
+                let (coat, whole) = ("the coat", "the solid tissue");
+                Some(ExceedingCoat { nm, coat, whole })
             }
-        };
-        exceeds.map(|nm| ExceedingCoat { nm, coat, whole })
+        }
     }
 
     /// Evaluates everything that depends on wavelength alone, at every wavelength of a grid.

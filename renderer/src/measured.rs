@@ -3,16 +3,16 @@
 //! - **In**: text of files as instruments and spreadsheets write them.
 //! - **Out**: [`series`] has one spectrum, [`spectra`] the spectra of leaves by name, [`bsdf`] values
 //!   by directions and wavelength with its reciprocal part. Wavelengths are nm, shares 0 to 1.
-//! - **Always true**: what is guessed about units is told in notes; what is wrong is told once, with
-//!   its place in the file ([`Fault`]).
+//! - **Always true**: notes name what is guessed, left out or passed over; a [`known::Known`] says
+//!   otherwise. What is wrong is reported once, with its place in the file ([`Fault`]).
 //! - **Left out**: opening of files, and scenes.
 //!
 //! ```
-//! use renderer::measured::spectra;
+//! use renderer::measured::{known::Known, spectra};
 //!
 //! let text = "um,birch_R,birch_R_abaxial,birch_T\n0.45,5,9,1\n0.55,12,18,11\n0.65,6,10,4\n";
-//! let found = spectra::read(text).expect("a good table");
-//! assert_eq!(found.notes.len(), 2, "micrometres and percent are told");
+//! let found = spectra::read(text, &Known::default()).expect("a good table");
+//! assert_eq!(found.notes.len(), 1, "percent is a guess, and micrometres are a name");
 //! let birch = &found.leaves[0];
 //! assert_eq!((birch.name.as_str(), birch.nm[1]), ("birch", 550.0));
 //! assert_eq!((birch.reflectance[1], birch.abaxial[1], birch.transmittance[1]), (0.12, 0.18, 0.11));
@@ -20,6 +20,8 @@
 
 pub mod bsdf;
 mod columns;
+pub mod known;
+mod masks;
 pub mod sensitivities;
 pub mod series;
 pub mod spectra;
@@ -28,11 +30,9 @@ pub mod units;
 use std::ops::Range;
 use std::path::Path;
 
+use leafmodel::document::rows::Ragged;
 use leafmodel::document::source::line_of_byte;
 use thiserror::Error;
-
-/// Longest piece of a file that a message repeats, in characters.
-const QUOTED: usize = 40;
 
 /// How far values may leave the range that physics allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,70 +127,7 @@ fn span_of_line(text: &str, line: usize) -> Range<usize> {
     text.len()..text.len()
 }
 
-/// Lines of the records of a table, counted from 1, asked for in their order.
-///
-/// A reader tells where it began to look for a record: before the rest of a line's end, empty lines
-/// and comments.
-struct Lines<'a> {
-    text: &'a [u8],
-    byte: usize,
-    line: usize,
-}
-
-impl<'a> Lines<'a> {
-    fn of(text: &'a str) -> Self {
-        Self {
-            text: text.as_bytes(),
-            byte: 0,
-            line: 1,
-        }
-    }
-
-    /// The line on which a record begins.
-    fn at(&mut self, began: &csv::Position) -> usize {
-        while self.byte < began.byte() as usize {
-            self.step();
-        }
-        while let Some(byte) = self.text.get(self.byte) {
-            match byte {
-                b'\r' | b'\n' => self.step(),
-                b'#' => {
-                    while self.text.get(self.byte).is_some_and(|byte| *byte != b'\n') {
-                        self.step();
-                    }
-                }
-                _ => break,
-            }
-        }
-        self.line
-    }
-
-    fn step(&mut self) {
-        self.line += usize::from(self.text.get(self.byte) == Some(&b'\n'));
-        self.byte += 1;
-    }
-}
-
-/// A fault that the reader of a table tells.
-fn of_csv(text: &str, error: &csv::Error) -> Fault {
-    let line = error.position().map(|began| Lines::of(text).at(began));
-    // Its own words name a line too, counted in its way.
-    let problem = if let csv::ErrorKind::UnequalLengths {
-        expected_len, len, ..
-    } = error.kind()
-    {
-        format!("the line has {len} values, but there are {expected_len} columns")
-    } else {
-        error.to_string()
-    };
-    Fault {
-        span: line.map(|line| span_of_line(text, line)),
-        ..Fault::of_file(problem, "")
-    }
-}
-
-/// A piece of a file, safe to print.
-fn quoted(piece: &str) -> String {
-    let piece: String = piece.chars().take(QUOTED).collect();
-    piece.escape_debug().to_string()
+/// The fault of a row with too few or too many fields.
+fn of_ragged(ragged: &Ragged) -> Fault {
+    Fault::at(ragged.span.clone(), ragged.to_string(), "")
 }

@@ -34,7 +34,7 @@ pub mod wavelengths;
 pub mod written;
 
 pub use curve::Curve;
-pub use grid::{WavelengthGrid, Wavelengths};
+pub use grid::{Share, WavelengthGrid, Wavelengths};
 pub use lanes::Lanes;
 pub use tabulated::{Spectrum, Table};
 pub use wavelengths::WavelengthSampler;

@@ -12,7 +12,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use glam::{Affine3A, Mat3A, Quat, Vec2, Vec3, Vec3A};
+use glam::{Affine3A, DAffine3, Mat3A, Quat, Vec2, Vec3, Vec3A};
 use renderer::geometry::{Geometry, Instance, Ray, TriangleMesh, import};
 use renderer::sampling::stream::Stream;
 use renderer::sampling::warp::cosine_hemisphere;
@@ -67,10 +67,8 @@ fn scattered(count: u32) -> Vec<Instance> {
             let ([x, y, z, _], [a, b, c, d]) = (numbers(2 * i), numbers(2 * i + 1));
             let turn = Quat::from_xyzw(a - 0.5, b - 0.5, c - 0.5, d - 0.5).normalize();
             let at = (Vec3::new(x, y, z) - 0.5) * 0.4;
-            Instance {
-                mesh: 0,
-                to_world: Affine3A::from_rotation_translation(turn, at),
-            }
+            let to_scene = Affine3A::from_rotation_translation(turn, at);
+            Instance::new(0, &to_scene.as_daffine3())
         })
         .collect()
 }
@@ -102,12 +100,7 @@ fn rays(geometry: &Geometry, count: u32) -> [Vec<Ray>; 2] {
 }
 
 fn rates(criterion: &mut Criterion) {
-    let alone = || {
-        vec![Instance {
-            mesh: 0,
-            to_world: Affine3A::IDENTITY,
-        }]
-    };
+    let alone = || vec![Instance::new(0, &DAffine3::IDENTITY)];
     for (name, side, instances) in [
         ("5,000 triangles", 50, alone()),
         ("500,000 triangles", 500, alone()),
@@ -163,7 +156,7 @@ fn compare(leaf: &str, placements: &str, rays: &str, kind: &str, rounds: &str) {
     };
     let instances = instances
         .into_iter()
-        .map(|to_world| Instance { mesh: 0, to_world })
+        .map(|to_world| Instance::new(0, &to_world.as_daffine3()))
         .collect();
     let geometry = Geometry::build(vec![mesh], instances).expect("a sound geometry");
     let rays: Vec<Ray> = floats(rays)

@@ -273,6 +273,7 @@ fn reflectances_may_be_a_pictures_or_a_models() {
         reflectance:
             Reflectance::Picture {
                 file,
+                layer: None,
                 wrap,
                 repeats,
                 scale,

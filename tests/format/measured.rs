@@ -46,14 +46,24 @@ fn both_faces_of_a_table_in_percent_and_micrometres_are_read_and_told() {
     };
     assert!((first - 380.0).abs() < 1e-9 && (r - 0.05).abs() < 1e-12);
     assert!((points(&transmittance)[42].1 - 0.01).abs() < 1e-12);
-    let ratio = faces.abaxial_ratio.expect("both faces were measured");
-    assert!(
-        points(&ratio)
-            .iter()
-            .all(|(_, ratio)| (ratio - 1.8).abs() < 1e-9)
-    );
+    let abaxial = faces.abaxial_reflectance.expect("both faces were measured");
+    let pairs = points(&abaxial).iter().zip(points(&reflectance));
+    for (abaxial, adaxial) in pairs {
+        assert!((abaxial.1 - 1.8 * adaxial.1).abs() < 1e-9);
+    }
     let said = said.join("\n");
     assert!(said.contains("µm") && said.contains("percent"), "{said}");
+}
+
+#[test]
+fn units_that_the_scene_gives_are_no_guess() {
+    let file = "file = \"leaves.csv\", leaf = \"oak\"";
+    let guessed = leaf(&format!("{{ {file} }}"));
+    let (tissue, _, said) = leaf(&format!(
+        "{{ {file}, wavelengths = \"um\", values = \"percent\" }}"
+    ));
+    assert_eq!(format!("{tissue:?}"), format!("{:?}", guessed.0));
+    assert!(said.is_empty(), "{said:?}");
 }
 
 #[test]
@@ -69,6 +79,6 @@ fn files_of_spectrometers_are_read_for_each_spectrum() {
     };
     assert!((points(&reflectance)[7].1 - 0.3).abs() < 1e-12);
     assert!((points(&transmittance)[7].1 - 0.4).abs() < 1e-12);
-    assert!(faces.abaxial_ratio.is_none());
+    assert!(faces.abaxial_ratio.is_none() && faces.abaxial_reflectance.is_none());
     assert_eq!(said.len(), 1, "percent of the .sig file: {said:?}");
 }

@@ -15,15 +15,16 @@ fn instances_are_the_rows_of_their_file_in_the_frame_of_their_object() {
     let shapes: Vec<u32> = places.iter().map(|place| place.shape).collect();
     assert_eq!(shapes, [0, 1]);
     // Half as large, x to y, y to −x; one metre higher than the row says.
-    let expected = [0.0, 0.5, 0.0, -0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 1.0, 2.0, 4.0];
-    assert_eq!(places[1].to_world, expected);
+    let linear = [0.0, 0.5, 0.0, -0.5, 0.0, 0.0, 0.0, 0.0, 0.5];
+    assert_eq!(places[1].linear.to_cols_array(), linear);
+    assert_eq!(places[1].translation, DVec3::new(1.0, 2.0, 4.0));
     let moved = accept(
         &text_of("whole.toml"),
         "whole.toml",
         &["objects.row.position_m=[0, 0, -3]"],
     );
     let places = moved.description.objects[9].value.instances.clone();
-    assert_eq!(places.expect("it still has them")[1].to_world[11], 0.0);
+    assert_eq!(places.expect("it still has them")[1].translation.z, 0.0);
 }
 
 #[test]

@@ -54,6 +54,25 @@ fn a_file_with_five_errors_gets_five() {
 }
 
 #[test]
+fn a_line_of_another_format_is_shown_as_toml_has_it() {
+    let minimal = text_of("minimal.toml");
+    for (line, meant) in [
+        ("spp: 8", "write `spp = 8`"),
+        ("\"spp\": 8,", "write `spp = 8`"),
+        ("name: leaf", "write `name = \"leaf\"`"),
+    ] {
+        let text = format!("{minimal}\n{line}\n");
+        let report = refuse(&text, "colon.toml", &[]).to_string();
+        assert!(
+            report.contains("scene::syntax") && report.contains(meant),
+            "{report}"
+        );
+    }
+    let report = refuse(&format!("{minimal}\n[film.rgb\n"), "open.toml", &[]).to_string();
+    assert!(!report.contains("write `"), "{report}");
+}
+
+#[test]
 fn errors_of_overrides_point_into_the_override() {
     let minimal = text_of("minimal.toml");
     for (text, code, shown) in [
@@ -61,6 +80,12 @@ fn errors_of_overrides_point_into_the_override() {
         ("film.rgb.noise=2", "scene::out_of_range", "-D:1:16"),
         ("film.rgb.ssp=4", "scene::unknown_key", "-D:1:10"),
         ("film.rgb.spp", "scene::override", "without `=`"),
+        (
+            "film.rgb.spp:4",
+            "scene::override",
+            "write `film.rgb.spp = 4`",
+        ),
+        ("film.rgb.spp=", "scene::override", "value is missing"),
         ("picture.tone=filmc", "scene::unknown_word", "filmic"),
         ("picture.tone=\"filmic", "scene::syntax", "-D:1:21"),
         (

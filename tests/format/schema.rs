@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use leafmodel::document::schema::{BlockSchema, Is, filled, json_schema};
+use leafmodel::document::schema::{BlockSchema, Is, filled};
 use renderer::scene::load;
 
 use super::book::pages;
@@ -15,7 +15,7 @@ use super::{accept, refuse, text_of};
 fn the_schema_that_is_committed_is_that_of_this_program() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/scene.schema.json");
     let kept = fs::read_to_string(file).expect("the schema is part of the repository");
-    let json = json_schema(&load::schema(), "A scene of Lamina, format 1");
+    let json = load::json_schema();
     assert!(
         kept == format!("{json:#}\n"),
         "stale: run `lamina schema --out scenes/scene.schema.json`"
@@ -117,6 +117,9 @@ fn slips_beside_a_preset_say_which_preset_and_which_kind() {
             && unknown.contains("did you mean `poplar`?"),
         "{unknown}"
     );
+    let oak = report("preset = \"oak\"\nblade.fold_deg = 3\noutline.transport = {}");
+    assert!(oak.contains("did you mean `white-oak`, `red-oak`"), "{oak}");
+    assert!(oak.contains("preset.toml: 1 error"), "{oak}");
     let other = report("preset = \"poplar\"\n[leaves.mine.outline.growth_algorithm]\nrows = 90");
     for part in [
         "[leaves.mine.outline.growth_algorithm] lacks `widest_at`",

@@ -91,7 +91,7 @@ fn slabs_and_half_spaces_of_media_are_those_of_the_table() {
         (
             5e-4,
             Budget {
-                error: Some(4.9e-4),
+                error: Some(renderer::instruments::Target::Absolute(4.9e-4)),
                 ..rays(1 << 24)
             },
         )
@@ -173,7 +173,8 @@ fn the_flux_of_a_medium_is_whole_and_what_it_absorbs_is_its_objects() {
                 let [reflected, transmitted, absorbed] = ["reflected", "transmitted", "absorbed"]
                     .map(|word| value(word).expect("it is measured"));
                 let sum = reflected + transmitted + absorbed;
-                assert!((sum - 1.0).abs() < 1e-9, "{index} {nm}: {sum}");
+                // At a boundary, what is lost within the rounding of single precision counts as nothing.
+                assert!((sum - 1.0).abs() < 1e-6, "{index} {nm}: {sum}");
                 assert!(absorbed > 0.0, "{index} {nm}: {absorbed}");
             }
         }

@@ -71,7 +71,7 @@ fn an_index_of_a_canopy_has_the_error_that_it_has_over_seeds() {
     for seed in 1..=40 {
         let budget = renderer::instruments::Budget { seed, ..rays(2048) };
         let rows = renderer::instruments::read_out(&world, &scene, 0, first[0], &budget);
-        let rows = rows.expect("it can be measured");
+        let rows = rows.expect("it can be measured").rows;
         let ndvi = rows.into_iter().find(|row| row.quantity == "ndvi");
         found.push(ndvi.expect("it is measured"));
     }

@@ -117,6 +117,32 @@ fn without_a_coat_any_light_and_either_face_see_the_same_leaf_and_nothing_is_los
 }
 
 #[test]
+fn a_measured_leaf_with_unlike_coats_reads_as_measured_on_both_faces() {
+    let text = format!(
+        "{SHEET}[materials.oak.leaf]\nadaxial = {{ eta = 1.5, alpha = 0.1 }}\n\
+         abaxial = {{ eta = 1.0 }}\n[materials.oak.leaf.measured]\nreflectance = 0.25\n\
+         abaxial_reflectance = 0.30\ntransmittance = 0.5\n\
+         [objects.oak]\nmesh = \"sheet\"\nmaterial = \"oak\"\n\
+         [instruments.ball.sphere]\nobject = \"oak\"\nwavelengths_nm = [550]\ndiffuse = false\n\
+         spot = {{ at_mm = [0, 0], diameter_mm = 10 }}\n"
+    );
+    let rows = figures(&text, &rays(1 << 14)).expect("it can be measured");
+    for (face, quantity, expected) in [
+        ("adaxial", "reflectance", 0.25),
+        ("adaxial", "transmittance", 0.5),
+        ("abaxial", "reflectance", 0.3),
+        ("abaxial", "transmittance", 0.5),
+    ] {
+        let mut all = of(&rows, quantity, NORMAL, 550.0);
+        let row = all
+            .find(|row| row.face == Some(face))
+            .expect("it is measured");
+        let off = (row.value - expected).abs();
+        assert!(off < 4.0 * row.error + 2e-4, "{row:?} for {expected}");
+    }
+}
+
+#[test]
 fn a_whole_body_that_absorbs_nothing_gives_all_its_light_back() {
     let text = "[meshes.ball.sphere]\nradius_m = 0.1\n[materials.white.diffuse]\nreflectance = 1\n\
         [objects.ball]\nmesh = \"ball\"\nmaterial = \"white\"\n\

@@ -8,7 +8,7 @@ use leafmodel::document::report::DocumentErrors;
 use leafmodel::import::{Format, Wanted, read, read_margin};
 use renderer::checkpoint;
 use renderer::geometry::import::import;
-use renderer::image::{jpeg, openexr, portable_network};
+use renderer::image::{jpeg, openexr, portable_network, radiance, scan};
 use renderer::scene::assets::{DECODER, mask, shining};
 use renderer::scene::load::{parse, parse_leaves, parse_picture};
 use renderer::scene::model::{self, Container};
@@ -224,6 +224,16 @@ fn networks_as_tables() {
 }
 
 #[test]
+fn networks_as_gml() {
+    networks("gml", Format::Gml);
+}
+
+#[test]
+fn networks_as_lists_of_neighbours() {
+    networks("neighbours", Format::Neighbours);
+}
+
+#[test]
 fn networks_as_drawings() {
     networks("strokes", Format::Svg);
 }
@@ -249,7 +259,7 @@ fn pictures_as_openexr() {
         seeds: seeds("exr"),
         read: &|bytes| {
             fs::write(&file, bytes).expect("the folder was just made");
-            told(shining(&file));
+            told(shining(&file, None));
             told(mask(&file, None));
             told(DECODER.contents(&file));
             told(openexr::decode(bytes))
@@ -267,9 +277,10 @@ fn pictures_as_png() {
         seeds: seeds("png"),
         read: &|bytes| {
             fs::write(&file, bytes).expect("the folder was just made");
-            told(shining(&file));
+            told(shining(&file, None));
             told(mask(&file, None));
             told(DECODER.weights(&file));
+            told(scan::decode_grey(bytes));
             told(portable_network::decode(bytes))
         },
         mend: Some(mend_png),
@@ -281,7 +292,20 @@ fn pictures_as_jpeg() {
     run(&Parser {
         name: "jpeg",
         seeds: seeds("jpeg"),
-        read: &|bytes| told(jpeg::decode(bytes)),
+        read: &|bytes| {
+            told(scan::decode_grey(bytes));
+            told(jpeg::decode(bytes))
+        },
+        mend: None,
+    });
+}
+
+#[test]
+fn pictures_as_radiance_hdr() {
+    run(&Parser {
+        name: "hdr",
+        seeds: seeds("hdr"),
+        read: &|bytes| told(radiance::decode(bytes)),
         mend: None,
     });
 }

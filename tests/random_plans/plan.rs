@@ -38,7 +38,7 @@ const VEINS: [&str; 3] = [
      growth.none = {}\n",
 ];
 
-static SCHEMA: LazyLock<BlockSchema> = LazyLock::new(schema);
+pub(super) static SCHEMA: LazyLock<BlockSchema> = LazyLock::new(schema);
 
 /// Whether veins take little time.
 fn has_coarse_veins(venation: &VenationPlan) -> bool {
@@ -61,54 +61,8 @@ pub(super) fn text(number: u64) -> String {
         1.2 * length_m,
         0.5 * length_m
     );
-    let tame = [0.95, 0.8, 0.3][chance.below(3)];
-    let is_preset = chance.is(0.5);
-    let share = if is_preset { 0.12 } else { 0.25 } * (0.3 + chance.uniform());
-    let leaf = SCHEMA.at(&["leaves", "NAME"]).expect("scenes have leaves");
-    let (mut skip, mut veins) = (vec!["preset", "map_size"], "");
-    let mut start = "map_size = 32\n".to_owned();
-    if is_preset {
-        let preset = &PRESETS[chance.below(PRESETS.len())];
-        // Those of the presets have thousands of cells.
-        let is_patterned = preset.plan().mosaic.is_some();
-        let preset = if is_patterned {
-            find("birch").expect("a preset")
-        } else {
-            preset
-        };
-        let _ = writeln!(start, "preset = \"{}\"", preset.name);
-        let is_fine = !has_coarse_veins(&preset.plan().venation);
-        if chance.is(0.5) || is_fine {
-            skip.push("venation");
-            veins = VEINS[chance.below(VEINS.len())];
-        }
-    }
-    if !is_preset {
-        // A leaf without a preset is of no plant.
-        skip.push("individual");
-    }
-    let mut writer = Writer {
-        chance: &mut chance,
-        share,
-        tame,
-        text: String::new(),
-    };
-    writer.block("leaves.one", leaf, !is_preset, &skip);
-    let written = writer
-        .text
-        .replacen("[leaves.one]\n", &format!("[leaves.one]\n{start}"), 1);
-    // The mesh is coarse: fine ones take longer and are made the same way.
-    let edge = format!(
-        "[leaves.one.blade]\nmax_edge_mm = {}\n",
-        [2, 4, 8, 30][chance.below(4)]
-    );
-    if written.contains("[leaves.one.blade]\n") {
-        text.push_str(&written.replacen("[leaves.one.blade]\n", &edge, 1));
-    } else {
-        text.push_str(&written);
-        text.push_str(&edge);
-    }
-    text.push_str(veins);
+    let tame = tameness(&mut chance);
+    let share = leaf(&mut chance, "one", tame, &mut text);
     if chance.is(0.15) {
         let solid = SCHEMA.at(&["solids", "NAME"]).expect("scenes have bodies");
         let mut writer = Writer {
@@ -136,6 +90,61 @@ pub(super) fn text(number: u64) -> String {
         text.push_str("[objects.bough]\nplant = \"bough\"\n");
     }
     text
+}
+
+/// The fraction of numbers that stay near their defaults.
+pub(super) fn tameness(chance: &mut Chance) -> f64 {
+    [0.95, 0.8, 0.3][chance.below(3)]
+}
+
+/// Writes a leaf of this name; the fraction of optional keys that it has.
+pub(super) fn leaf(chance: &mut Chance, name: &str, tame: f64, text: &mut String) -> f64 {
+    let is_preset = chance.is(0.5);
+    let share = if is_preset { 0.12 } else { 0.25 } * (0.3 + chance.uniform());
+    let leaf = SCHEMA.at(&["leaves", "NAME"]).expect("scenes have leaves");
+    let (mut skip, mut veins) = (vec!["preset", "map_size"], "");
+    let mut start = "map_size = 32\n".to_owned();
+    if is_preset {
+        let preset = &PRESETS[chance.below(PRESETS.len())];
+        // Those of the presets have thousands of cells.
+        let is_patterned = preset.plan().mosaic.is_some();
+        let preset = if is_patterned {
+            find("birch").expect("a preset")
+        } else {
+            preset
+        };
+        let _ = writeln!(start, "preset = \"{}\"", preset.name);
+        let is_fine = !has_coarse_veins(&preset.plan().venation);
+        if chance.is(0.5) || is_fine {
+            skip.push("venation");
+            veins = VEINS[chance.below(VEINS.len())];
+        }
+    }
+    if !is_preset {
+        // A leaf without a preset is of no plant.
+        skip.push("individual");
+    }
+    let mut writer = Writer {
+        chance,
+        share,
+        tame,
+        text: String::new(),
+    };
+    let header = format!("[leaves.{name}]\n");
+    writer.block(&format!("leaves.{name}"), leaf, !is_preset, &skip);
+    let written = writer.text.replacen(&header, &(header.clone() + &start), 1);
+    // The mesh is coarse: fine ones take longer and are made the same way.
+    let blade = format!("[leaves.{name}.blade]\n");
+    let edge = [2, 4, 8, 30][writer.chance.below(4)];
+    let edge = format!("{blade}max_edge_mm = {edge}\n");
+    if written.contains(&blade) {
+        text.push_str(&written.replacen(&blade, &edge, 1));
+    } else {
+        text.push_str(&written);
+        text.push_str(&edge);
+    }
+    text.push_str(&veins.replace("leaves.one", &format!("leaves.{name}")));
+    share
 }
 
 /// A folder with the files that plans name.

@@ -8,11 +8,11 @@ use leafmodel::document::schema::{BlockSchema, EntrySchema, Is, Type};
 use super::chance::Chance;
 
 /// Names that a user would choose: of layers, of a mosaic's types.
-const NAMES: [&str; 2] = ["a", "b"];
+pub(super) const NAMES: [&str; 2] = ["a", "b"];
 
 /// Greatest values of what costs time and nothing else: leaves are small and their veins coarse, so
 /// that thousands take minutes. Every other key has its whole documented range.
-const MOST: [(&str, f64); 41] = [
+const MOST: [(&str, f64); 47] = [
     ("abaxial_per_mm2", 20.0),
     ("adaxial_per_mm2", 20.0),
     ("arches", 3.0),
@@ -53,6 +53,12 @@ const MOST: [(&str, f64); 41] = [
     ("kill_distance_segments", 40.0),
     ("source_birth_distance_segments", 40.0),
     ("vein_birth_distance_segments", 40.0),
+    ("count", 40.0),
+    ("lai", 3.0),
+    ("light_samples", 4.0),
+    ("per_m2", 1000.0),
+    ("segments", 40.0),
+    ("slices", 8.0),
     ("seed", 1e9),
 ];
 
@@ -195,7 +201,11 @@ impl Writer<'_> {
                 of, least, most, ..
             } => {
                 let count = (*least + self.chance.below(4)).min(*most);
-                let values: Vec<String> = (0..count).map(|_| self.value(key, of, None)).collect();
+                let mut values: Vec<String> =
+                    (0..count).map(|_| self.value(key, of, None)).collect();
+                // Most lists of numbers have to rise.
+                let number = |text: &String| text.parse::<f64>().unwrap_or(0.0);
+                values.sort_by(|a, b| number(a).total_cmp(&number(b)));
                 format!("[{}]", values.join(", "))
             }
             Type::Map(of) => format!("{{ a = {} }}", self.value(key, of, None)),
@@ -259,11 +269,17 @@ impl Writer<'_> {
     fn file(&mut self, what: &str) -> &'static str {
         match what {
             "the path of an SVG file" => "leaf.svg",
-            "the path of a PNG file" | "the path of a PNG or EXR" => "grey.png",
+            "the path of a PNG file"
+            | "the path of a PNG or EXR"
+            | "the path of a PNG, JPEG or EXR picture"
+            | "the path of an EXR, HDR, PNG or JPEG picture" => "grey.png",
             "the path of a PLY or OBJ file" => "cube.obj",
             "the path of an EXR with contents" => "contents.exr",
+            "the path of a glTF file" => "model.glb",
             "the `id` of a path" => "margin",
             "the name of a channel" => "R",
+            // There is always a first one.
+            what if what.starts_with("the name of a medium") || what.contains("object") => NAMES[0],
             what if what.contains("path") || what.contains("file") => "ratio.csv",
             _ => NAMES[self.chance.below(NAMES.len())],
         }

@@ -91,7 +91,8 @@ enum Way {
     Whole,
     /// Into the ground, out of which the leaf is then lifted.
     OverGround,
-    /// Straight on.
+    /// Straight on, and before the base as deep as there: beside a leaf whose veins are thicker than
+    /// its petiole is long, the stem cannot sink from its own depth to that of the joint.
     Rigid,
 }
 
@@ -306,6 +307,9 @@ impl PetiolePlan {
         let (mut points, mut radii, mut sections) = (Vec::new(), Vec::new(), Vec::new());
         for station in stem {
             let mut at = base + frame * station.at;
+            if matches!(way, Way::Rigid) {
+                at -= frame * DVec3::Z * (station.share * joint.depth);
+            }
             if lies {
                 at.z = at.z.max(ground + station.radius);
             }

@@ -14,6 +14,8 @@ pub enum DocumentError {
     Syntax {
         /// What the parser says.
         message: String,
+        /// What to write instead, if that is known.
+        help: Option<String>,
     },
     /// An override that is not `key=value`.
     #[error("an override is one `key=value`, this is {problem}")]
@@ -140,7 +142,7 @@ pub enum DocumentError {
         kind: &'static str,
         /// The name as written.
         name: String,
-        /// The name that was probably meant.
+        /// The name that was probably meant, or several with backticks between them.
         nearest: Option<String>,
         /// All names that there are.
         known: String,
@@ -163,7 +165,7 @@ pub enum DocumentError {
         /// The words to choose from.
         known: String,
     },
-    /// A path that leads out of the scene's folder.
+    /// A path that leads out of the scene's folder and of those that are allowed.
     #[error("\"{path}\" leads out of the scene's folder")]
     PathOutside {
         /// The path as written.

@@ -13,6 +13,8 @@ use super::values::{listed, text_at};
 
 /// Longest name of a block or scene, in characters.
 const LONGEST: usize = 100;
+/// Longest name of a scene, in bytes: systems allow 255 for a file with its ending.
+pub const LONGEST_FILE: usize = 200;
 
 /// A block with the name it has in the file.
 #[derive(Clone, Debug)]
@@ -78,6 +80,27 @@ impl Kind for NameIn {
 pub fn is_name(name: &str) -> bool {
     let allowed = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-';
     (1..=LONGEST).contains(&name.len()) && name.bytes().all(allowed)
+}
+
+/// Whether a letter may be part of the name of a scene, which is that of files: letters and digits of
+/// every script, their combining marks, `_` and `-`.
+pub fn may_be_in_a_title(letter: char) -> bool {
+    let is_mark = ('\u{300}'..='\u{36f}').contains(&letter);
+    letter.is_alphanumeric() || is_mark || matches!(letter, '_' | '-')
+}
+
+/// Whether a name can be that of a scene and of its files.
+pub fn is_title(name: &str) -> bool {
+    let is_short = name.len() <= LONGEST_FILE && name.chars().count() <= LONGEST;
+    !name.is_empty() && is_short && name.chars().all(may_be_in_a_title)
+}
+
+/// Reports a name of a scene that is none.
+pub fn require_title(cx: &Context, name: &str, at: &Place) {
+    if !is_title(name) {
+        let name = escaped(name, QUOTED);
+        cx.error(at, DocumentError::BadName { name });
+    }
 }
 
 /// Reports a name that is none.

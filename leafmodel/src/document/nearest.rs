@@ -40,6 +40,43 @@ pub fn nearest<'c>(
     best.map(|(_, candidate)| candidate)
 }
 
+/// Most names that are suggested at once.
+const SUGGESTED: usize = 4;
+
+/// The names that somebody meant who wrote a word that is none of them, as a message has them between
+/// backticks: those that hold the word, at their end first (`oak` is `white-oak` or `red-oak`); else
+/// the one that is spelled nearly so; else those whose description has the word.
+pub fn meant<'c>(
+    written: &str,
+    candidates: impl Iterator<Item = (&'c str, &'c str)> + Clone,
+) -> Option<String> {
+    let word = written.to_lowercase();
+    let has = |text: &str| {
+        let mut words = text.split(|letter: char| !letter.is_alphanumeric());
+        words.any(|other| other.to_lowercase() == word)
+    };
+    let names = || candidates.clone().map(|(name, _)| name);
+    let mut found: Vec<&str> = names().filter(|name| has(name)).collect();
+    found.sort_by_key(|name| !name.ends_with(&word));
+    if found.is_empty() {
+        found.extend(nearest(written, names()));
+    }
+    if found.is_empty() && word.chars().count() > 2 {
+        found.extend(
+            candidates
+                .filter(|(_, about)| has(about))
+                .map(|(name, _)| name),
+        );
+    }
+    found.truncate(SUGGESTED);
+    let (last, others) = found.split_last()?;
+    Some(if others.is_empty() {
+        (*last).to_owned()
+    } else {
+        format!("{}` or `{last}", others.join("`, `"))
+    })
+}
+
 /// Edit distance with swaps of neighbours (optimal string alignment).
 fn edit_distance(a: &[char], b: &[char]) -> usize {
     let width = b.len() + 1;
@@ -77,6 +114,23 @@ mod tests {
         let presets = ["birch-yellow", "oak-yellow-brown"];
         assert_eq!(nearest("brich", presets), Some("birch-yellow"));
         assert_eq!(nearest("bri", presets), None);
+    }
+
+    #[test]
+    fn a_word_of_a_name_or_of_its_description_finds_all_that_have_it() {
+        let presets = [
+            ("oak-litter", "Dead leaves on the ground."),
+            ("white-oak", "Rounded lobes."),
+            ("red-oak", "Pointed lobes."),
+            ("poplar", "A tree of river banks."),
+        ];
+        let meant = |word: &str| meant(word, presets.iter().copied());
+        let oaks = "white-oak`, `red-oak` or `oak-litter";
+        assert_eq!(meant("oak").as_deref(), Some(oaks));
+        assert_eq!(meant("Oak").as_deref(), Some(oaks));
+        assert_eq!(meant("poplr").as_deref(), Some("poplar"));
+        assert_eq!(meant("lobes").as_deref(), Some("white-oak` or `red-oak"));
+        assert_eq!(meant("cactus"), None);
     }
 
     #[test]

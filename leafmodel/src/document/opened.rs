@@ -10,6 +10,7 @@ use toml::de::DeTable;
 
 use super::context::{Context, QUOTED};
 use super::error::{DocumentError, LocatedError};
+use super::other_format::with_equals;
 use super::report::{DocumentErrors, Warning};
 use super::schema::BlockSchema;
 use super::source::{Place, Sources, escaped, line_of_byte};
@@ -128,7 +129,7 @@ impl Opened {
             }
             Some(_) | None => {
                 let errors = with_syntax(&sources, self.syntax, errors);
-                Err(DocumentErrors::new(sources, errors))
+                Err(DocumentErrors::new(sources, errors).after(remarks))
             }
         }
     }
@@ -189,8 +190,12 @@ fn syntax_error(
             key: escaped(key, QUOTED),
         }
     } else {
+        let before = text.get(..span.start).unwrap_or_default();
+        let start = before.rfind('\n').map_or(0, |end| end + 1);
+        let line = text[start..].lines().next().unwrap_or_default();
         DocumentError::Syntax {
             message: escaped(message, 4 * QUOTED),
+            help: with_equals(line).map(|meant| format!("write `{meant}`")),
         }
     };
     let at = Some(Place { source, span });

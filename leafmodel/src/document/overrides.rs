@@ -5,6 +5,7 @@ use toml::de::DeTable;
 use super::context::{Context, ENOUGH, QUOTED};
 use super::error::{DocumentError, LocatedError};
 use super::nearest::nearest;
+use super::other_format::with_equals;
 use super::schema::{BlockSchema, EntrySchema, Is, Type};
 use super::sections::singular;
 use super::source::{Place, escaped};
@@ -34,7 +35,19 @@ pub fn apply(cx: &Context, tree: &mut Table, flag: &str, text: &str, schema: &Bl
         return;
     }
     if !text.contains('=') {
-        not_one(&format!("`{}`, without `=`", escaped(text, QUOTED)));
+        let meant =
+            with_equals(text).map_or_else(String::new, |meant| format!(": write `{meant}`"));
+        not_one(&format!("`{}`, without `=`{meant}", escaped(text, QUOTED)));
+        return;
+    }
+    if text
+        .split_once('=')
+        .is_some_and(|(_, value)| value.trim().is_empty())
+    {
+        not_one(&format!(
+            "`{}`, whose value is missing",
+            escaped(text.trim(), QUOTED)
+        ));
         return;
     }
     if text.trim_start().starts_with('[') {
@@ -48,7 +61,13 @@ pub fn apply(cx: &Context, tree: &mut Table, flag: &str, text: &str, schema: &Bl
             span: error.span().unwrap_or(0..text.len()),
         };
         let message = escaped(error.message(), 4 * QUOTED);
-        cx.error(&at, DocumentError::Syntax { message });
+        cx.error(
+            &at,
+            DocumentError::Syntax {
+                message,
+                help: None,
+            },
+        );
     }
     if !errors.is_empty() {
         return;

@@ -22,13 +22,25 @@ const AROUND: usize = 400;
 pub struct DocumentErrors {
     sources: Arc<Sources>,
     errors: Vec<LocatedError>,
+    /// What was noted before: the cause of an error may be there.
+    remarks: Vec<Remark>,
 }
 
 impl DocumentErrors {
     /// At least one error, with the texts they point into.
     pub fn new(sources: Arc<Sources>, errors: Vec<LocatedError>) -> Self {
         debug_assert!(!errors.is_empty(), "a scene is refused for a reason");
-        Self { sources, errors }
+        Self {
+            sources,
+            errors,
+            remarks: Vec::new(),
+        }
+    }
+
+    /// The same with remarks, which reports show first.
+    #[must_use]
+    pub fn after(self, remarks: Vec<Remark>) -> Self {
+        Self { remarks, ..self }
     }
 
     /// One error of a file whose text could not be had.
@@ -51,6 +63,10 @@ impl DocumentErrors {
     /// The report; `colour` adds terminal escapes.
     pub fn render(&self, colour: bool) -> String {
         let mut text = String::new();
+        for remark in self.remarks.iter().take(SHOWN) {
+            text.push_str(&rendered(remark, &self.sources, colour));
+            text.push_str("\n\n");
+        }
         for located in self.errors.iter().take(SHOWN) {
             let piece = Piece {
                 level: Level::ERROR,
@@ -115,15 +131,7 @@ impl Warning {
 
     /// The report; `colour` adds terminal escapes.
     pub fn render(&self, colour: bool) -> String {
-        let piece = Piece {
-            level: Level::WARNING,
-            code: self.remark.code,
-            message: self.remark.message.clone(),
-            label: "here",
-            help: Some(self.remark.help.clone()),
-            at: self.remark.at.as_ref(),
-        };
-        piece.render(&self.sources, colour)
+        rendered(&self.remark, &self.sources, colour)
     }
 }
 
@@ -131,6 +139,19 @@ impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.render(false))
     }
+}
+
+/// A remark as a warning.
+fn rendered(remark: &Remark, sources: &Sources, colour: bool) -> String {
+    let piece = Piece {
+        level: Level::WARNING,
+        code: remark.code,
+        message: remark.message.clone(),
+        label: "here",
+        help: Some(remark.help.clone()),
+        at: remark.at.as_ref(),
+    };
+    piece.render(sources, colour)
 }
 
 struct Piece<'p> {

@@ -1,21 +1,58 @@
-//! Rows of CSV text: fields with the places that reports show.
+//! Tables as text: rows of fields with the places that reports show.
 //!
-//! Commas, semicolons or tabs separate the fields, whichever the first row has most of. Lines that
-//! begin with `#` are comments.
+//! One reader for every table of the program. Tabs, semicolons, commas or blanks separate the
+//! fields; which of them do is found from the first lines, unless the caller knows. Lines that begin
+//! with `#` are comments. A comma within a field is a decimal comma.
+//!
+//! - **In**: text, with or without a byte order mark, whose lines end in any of the three ways.
+//! - **Out**: rows, each with its line and fields, each field with its bytes of the text.
+//! - **Always true**: no row is left out; one whose fields are too few or too many is a [`Ragged`].
+//! - **Left out**: what columns mean.
+//!
+//! ```
+//! use leafmodel::document::rows::Rows;
+//!
+//! let rows = Rows::of("nm;R\n400;0,05\n410;0,06\n");
+//! let found: Result<Vec<_>, _> = rows.records().collect();
+//! let found = found.expect("each row has two fields");
+//! assert_eq!(rows.number(&found[1].fields[1]), Some(0.05));
+//! assert_eq!(rows.guesses().len(), 1, "decimal commas are a guess");
+//! ```
 
-use csv::{ErrorKind, Position, ReaderBuilder, StringRecord, Trim};
+mod form;
 
-use super::context::Context;
+use std::borrow::Cow;
+use std::cell::Cell;
+use std::ops::Range;
+
+use csv::{ReaderBuilder, StringRecord, Trim};
+use thiserror::Error;
+
+use self::form::parsed;
+pub use self::form::{Decimal, Form, Separator, number};
 use super::error::DocumentError;
-use super::source::Place;
+use super::source::{Place, quoted};
 
-/// CSV text among the texts of a document.
-#[derive(Clone, Copy, Debug)]
-pub struct Rows<'c> {
-    cx: &'c Context,
-    source: usize,
-    text: &'c str,
-    delimiter: u8,
+/// A table as text.
+#[derive(Debug)]
+pub struct Rows<'t> {
+    text: &'t str,
+    from: usize,
+    separator: Separator,
+    decimal: Option<Decimal>,
+    is_loose: bool,
+    has_commas: Cell<bool>,
+}
+
+/// A row of a table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// The byte of the text at which it begins.
+    start: usize,
+    /// The line on which it begins, counted from 1.
+    pub line: usize,
+    /// Its fields.
+    pub fields: Vec<Field>,
 }
 
 /// A field of a row.
@@ -23,171 +60,324 @@ pub struct Rows<'c> {
 pub struct Field {
     /// What is written, without quotes and the spaces around it.
     pub text: String,
-    /// Where.
-    pub at: Place,
+    /// Its bytes of the text.
+    pub span: Range<usize>,
 }
 
-impl<'c> Rows<'c> {
-    /// Takes a text in under the name that reports show.
-    pub fn of(cx: &'c Context, name: impl Into<String>, text: &'c str) -> Self {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let source = cx.sources.borrow_mut().add(name, text);
-        Self {
-            cx,
-            source,
-            text,
-            delimiter: delimiter(text),
+impl Row {
+    /// Drops empty fields behind so many.
+    pub fn cut(&mut self, most: usize) {
+        while self.fields.len() > most
+            && self.fields.last().is_some_and(|last| last.text.is_empty())
+        {
+            self.fields.pop();
         }
     }
 
-    /// Whether numbers may have a decimal comma, because something else separates the fields.
-    pub fn have_decimal_commas(&self) -> bool {
-        self.delimiter != b','
+    /// The bytes from its first field to its last.
+    pub fn span(&self) -> Range<usize> {
+        let last = self.fields.last().map_or(self.start, |last| last.span.end);
+        self.start..last
+    }
+}
+
+impl Field {
+    /// Its place in a text of a document.
+    pub fn at(&self, source: usize) -> Place {
+        let span = self.span.clone();
+        Place { source, span }
     }
 
-    /// All rows, the names of columns first. They end early, with an error, at a row whose fields
-    /// are not as many, and where errors are enough.
-    pub fn records(self) -> impl Iterator<Item = Vec<Field>> + use<'c> {
+    /// As messages repeat it.
+    pub fn shown(&self) -> String {
+        quoted(&self.text)
+    }
+}
+
+/// A row with another number of fields than the first.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("the line has {found} values, but there are {wanted} columns")]
+pub struct Ragged {
+    /// Its line, counted from 1.
+    pub line: usize,
+    /// The bytes of the line.
+    pub span: Range<usize>,
+    /// How many it has.
+    pub found: usize,
+    /// How many the first row has.
+    pub wanted: usize,
+}
+
+impl Ragged {
+    /// Its place in a text of a document.
+    pub fn at(&self, source: usize) -> Place {
+        let span = self.span.clone();
+        Place { source, span }
+    }
+
+    /// As an error of a document.
+    pub fn error(&self) -> DocumentError {
+        DocumentError::Impossible {
+            key: "rows".to_owned(),
+            problem: self.to_string(),
+            help: "write one value for each name of the first line; quote values with commas"
+                .to_owned(),
+        }
+    }
+}
+
+/// A text without the mark that some programs put in front.
+pub fn without_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
+}
+
+impl<'t> Rows<'t> {
+    /// The rows of a text.
+    pub fn of(text: &'t str) -> Self {
+        Self::written(text, Form::default())
+    }
+
+    /// The rows of a text of which something is known.
+    pub fn written(text: &'t str, form: Form) -> Self {
+        Self::below(text, 0, form)
+    }
+
+    /// The rows from a byte of the text on.
+    pub fn below(text: &'t str, byte: usize, Form { separator, decimal }: Form) -> Self {
+        let from = byte.max(text.len() - without_mark(text).len());
+        Self {
+            text,
+            from,
+            separator: separator.unwrap_or_else(|| Separator::of(&text[from..])),
+            decimal,
+            is_loose: false,
+            has_commas: Cell::new(false),
+        }
+    }
+
+    /// Rows of plain numbers: comments may follow them, and a line may have a separator of its own.
+    pub fn of_numbers(self) -> Self {
+        let is_loose = true;
+        Self { is_loose, ..self }
+    }
+
+    /// Whether a text is a number as this table may write it.
+    pub fn is_number(&self, text: &str) -> bool {
+        self.parsed(text).is_some()
+    }
+
+    /// The number in a field. It may have a decimal comma, unless the caller knows better.
+    pub fn number(&self, field: &Field) -> Option<f64> {
+        self.parsed(&field.text)
+    }
+
+    fn parsed(&self, text: &str) -> Option<f64> {
+        let (number, has_comma) = parsed(text)?;
+        if has_comma {
+            self.has_commas.set(true);
+        }
+        let is_point = self.decimal == Some(Decimal::Point);
+        (!has_comma || !is_point).then_some(number)
+    }
+
+    /// What was taken for granted in what has been read, and the flag that says otherwise.
+    pub fn guesses(&self) -> Vec<Guess> {
+        let is_guess = self.has_commas.get() && self.decimal.is_none();
+        let guess = Guess {
+            what: "commas in numbers are decimal marks".to_owned(),
+            otherwise: Some(("decimal", "point")),
+        };
+        is_guess.then_some(guess).into_iter().collect()
+    }
+
+    /// All rows, the names of columns first.
+    pub fn records(&self) -> impl Iterator<Item = Result<Row, Ragged>> + use<'t, '_> {
+        let mut wanted = None;
+        self.of_any_length().map(move |mut row| {
+            let wanted = *wanted.get_or_insert(row.fields.len());
+            // Spreadsheets end rows with separators.
+            row.cut(wanted);
+            let found = row.fields.len();
+            if found == wanted {
+                return Ok(row);
+            }
+            let start = row.start;
+            let rest = &self.text[start..];
+            let end = rest.find(['\n', '\r']).unwrap_or(rest.len());
+            Err(Ragged {
+                line: row.line,
+                span: start..start + rest[..end].trim_end().len(),
+                found,
+                wanted,
+            })
+        })
+    }
+
+    /// All rows, however many fields they have.
+    pub fn of_any_length(&self) -> impl Iterator<Item = Row> + use<'t, '_> {
+        let text = &self.text[self.from..];
+        // Fields keep their places.
+        let text: Cow<'t, [u8]> = if self.separator == Separator::Blanks {
+            text.replace('\t', " ").into_bytes().into()
+        } else {
+            text.as_bytes().into()
+        };
         let mut reader = ReaderBuilder::new()
-            .delimiter(self.delimiter)
+            .delimiter(self.separator.byte())
             .trim(Trim::All)
             .comment(Some(b'#'))
             .has_headers(false)
-            .from_reader(self.text.as_bytes());
+            .flexible(true)
+            .from_reader(std::io::Cursor::new(text));
         let mut record = StringRecord::new();
+        let mut lines = Lines::of(self.text);
         std::iter::from_fn(move || {
-            if self.cx.is_full() {
-                return None;
-            }
-            match reader.read_record(&mut record) {
-                Ok(true) => Some(self.fields(&record)),
-                Ok(false) => None,
-                Err(error) => {
-                    self.broken(&error);
-                    None
+            loop {
+                // The text is UTF-8 and lies in memory, so that nothing can fail.
+                if !reader.read_record(&mut record).unwrap_or(false) {
+                    return None;
+                }
+                let start = self.start(record.position().map_or(0, csv::Position::byte) as usize);
+                let fields = self.fields(start, &record);
+                let is_comment = matches!(&fields[..], [only] if only.text.starts_with('#'));
+                if !fields.is_empty() && !is_comment {
+                    let line = lines.at(start);
+                    return Some(Row {
+                        start,
+                        line,
+                        fields,
+                    });
                 }
             }
         })
-        .fuse()
     }
 
-    fn fields(&self, record: &StringRecord) -> Vec<Field> {
-        let mut from = self.start(record.position());
-        let place = |field: &str| {
+    /// The fields of a record that begins at a byte of the text.
+    fn fields(&self, start: usize, record: &StringRecord) -> Vec<Field> {
+        let mut from = start;
+        let separator = char::from(self.separator.byte());
+        let mut fields: Vec<Field> = Vec::with_capacity(record.len());
+        for text in record {
+            if text.is_empty() && self.separator == Separator::Blanks {
+                continue;
+            }
             let rest = self.text.get(from..).unwrap_or_default();
             // A field with doubled quotes is written otherwise: then it is the rest of its line.
-            let span = match rest.find(field) {
-                Some(start) => from + start..from + start + field.len(),
+            let span = match rest.find(text) {
+                Some(at) => from + at..from + at + text.len(),
                 None => from..from + rest.find('\n').unwrap_or(rest.len()),
             };
-            let is_delimiter = self.text.as_bytes().get(span.end) == Some(&self.delimiter);
-            from = span.end + usize::from(is_delimiter);
-            Place {
-                source: self.source,
-                span,
-            }
-        };
-        let places: Vec<Place> = record.iter().map(place).collect();
-        let texts = record.iter().map(str::to_owned);
-        let fields = texts.zip(places).map(|(text, at)| Field { text, at });
-        fields.collect()
+            let after = self.text.get(span.end..).unwrap_or_default();
+            let after = after.strip_prefix('"').unwrap_or(after);
+            let after = after.trim_start_matches(' ');
+            from = self.text.len() - after.strip_prefix(separator).unwrap_or(after).len();
+            let text = text.to_owned();
+            fields.push(Field { text, span });
+        }
+        if self.is_loose {
+            self.loosen(&mut fields);
+        }
+        fields
     }
 
-    /// Where a record begins. The reader gives a position before empty lines and comments.
-    fn start(&self, position: Option<&Position>) -> usize {
-        let mut rest = self
-            .text
-            .get(position.map_or(0, Position::byte) as usize..)
-            .unwrap_or_default()
-            .trim_start();
+    /// Cuts the comment behind numbers, and parts a line by its own separator if it lacks the
+    /// table's.
+    fn loosen(&self, fields: &mut Vec<Field>) {
+        // A field with doubled quotes is written otherwise.
+        let is_exact = |field: &Field| self.text.get(field.span.clone()) == Some(&field.text);
+        if let Some(at) = fields.iter().position(|field| field.text.contains('#')) {
+            let is_exact = is_exact(&fields[at]);
+            let field = &mut fields[at];
+            let kept = field.text.split('#').next().unwrap_or_default().trim_end();
+            let length = kept.len();
+            field.text.truncate(length);
+            if is_exact {
+                field.span.end = field.span.start + length;
+            }
+            fields.truncate(at + usize::from(length > 0));
+        }
+        if let [only] = fields.as_slice()
+            && is_exact(only)
+        {
+            let own = Separator::of(&only.text);
+            if own != self.separator && own.count(&only.text) > 1 {
+                let form = Form {
+                    separator: Some(own),
+                    decimal: self.decimal,
+                };
+                let start = only.span.start;
+                let inner = Rows::written(&only.text, form);
+                let parts = inner.of_any_length().flat_map(|row| row.fields);
+                let moved = parts.map(|part| Field {
+                    span: part.span.start + start..part.span.end + start,
+                    text: part.text,
+                });
+                *fields = moved.collect();
+            }
+        }
+    }
+
+    /// Where a record begins. The reader gives a position before empty lines and comments, counted
+    /// from where it began.
+    fn start(&self, position: usize) -> usize {
+        let rest = self.text.get(self.from + position..).unwrap_or_default();
+        let mut rest = rest.trim_start();
         while rest.starts_with('#') {
-            rest = rest.split_once('\n').map_or("", |(_, below)| below);
-            rest = rest.trim_start();
+            let below = rest.split_once(['\n', '\r']);
+            rest = below.map_or("", |(_, below)| below).trim_start();
         }
         self.text.len() - rest.len()
     }
+}
 
-    /// Reports a record that is none.
-    fn broken(&self, error: &csv::Error) {
-        let start = self.start(error.position());
-        let line = self.text.get(start..).unwrap_or_default();
-        let at = Place {
-            source: self.source,
-            span: start..start + line.find('\n').unwrap_or(line.len()),
-        };
-        let problem = if let ErrorKind::UnequalLengths {
-            expected_len, len, ..
-        } = error.kind()
-        {
-            format!("a row of {len} values under {expected_len} names")
-        } else {
-            error.to_string()
-        };
-        let help = "write one value for each name of the first line; quote values with commas";
-        let error = DocumentError::Impossible {
-            key: "rows".to_owned(),
-            problem,
-            help: help.to_owned(),
-        };
-        self.cx.error(&at, error);
+/// Lines of bytes that are asked for in their order.
+struct Lines<'t> {
+    text: &'t [u8],
+    byte: usize,
+    line: usize,
+}
+
+impl<'t> Lines<'t> {
+    fn of(text: &'t str) -> Self {
+        Self {
+            text: text.as_bytes(),
+            byte: 0,
+            line: 1,
+        }
+    }
+
+    fn at(&mut self, byte: usize) -> usize {
+        while self.byte < byte.min(self.text.len()) {
+            let is_pair = self.text.get(self.byte + 1) == Some(&b'\n');
+            self.line += match self.text[self.byte] {
+                b'\n' => 1,
+                b'\r' => usize::from(!is_pair),
+                _ => 0,
+            };
+            self.byte += 1;
+        }
+        self.line
     }
 }
 
-/// The separator that the first row has most of.
-pub fn delimiter(text: &str) -> u8 {
-    let names = text
-        .lines()
-        .find(|line| !line.starts_with('#') && !line.trim().is_empty());
-    let names = names.unwrap_or_default();
-    let count = |separator: u8| names.bytes().filter(|byte| *byte == separator).count();
-    // The last of equals is taken, so that the comma wins.
-    [b'\t', b';', b',']
-        .into_iter()
-        .max_by_key(|separator| count(*separator))
-        .unwrap_or(b',')
+/// Something about a file that was taken for granted, or left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Guess {
+    /// What, as a sentence.
+    pub what: String,
+    /// The flag, and its value, that say otherwise.
+    pub otherwise: Option<(&'static str, &'static str)>,
+}
+
+impl std::fmt::Display for Guess {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.what)?;
+        match self.otherwise {
+            Some((flag, value)) => write!(f, " (if not, say --{flag} {value})"),
+            None => Ok(()),
+        }
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::document::source::Sources;
-
-    fn context() -> Context {
-        Context::new(Sources::default(), ".".into())
-    }
-
-    #[test]
-    fn a_field_lies_where_it_is_written_below_comments_that_hold_it_too() {
-        let cx = context();
-        let text = "\u{feff}a;b;c\n\n# 7 and 8\n 7;;\"8\"\r\n";
-        let rows: Vec<Vec<Field>> = Rows::of(&cx, "t.csv", text).records().collect();
-        let shown: Vec<(&str, String)> = rows
-            .iter()
-            .flatten()
-            .map(|field| (field.text.as_str(), cx.shown(&field.at)))
-            .collect();
-        let at = |text, place: &str| (text, format!("t.csv:{place}"));
-        let wanted = [
-            at("a", "1:1"),
-            at("b", "1:3"),
-            at("c", "1:5"),
-            at("7", "4:2"),
-            at("", "4:4"),
-            at("8", "4:6"),
-        ];
-        assert_eq!(shown, wanted);
-    }
-
-    #[test]
-    fn a_row_with_too_few_fields_is_an_error_at_its_line() {
-        let cx = context();
-        let rows = Rows::of(&cx, "t.csv", "a,b\n# x\n1,2\n3\n5,6\n");
-        assert_eq!(rows.records().count(), 2);
-        let (sources, errors, _) = cx.into_parts();
-        let places: Vec<String> = errors
-            .iter()
-            .filter_map(|error| Some(sources.shown(error.at.as_ref()?)))
-            .collect();
-        assert_eq!(places, ["t.csv:4:1"]);
-    }
-}
+mod tests;

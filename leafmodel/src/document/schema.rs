@@ -7,7 +7,7 @@ use super::limits::Limits;
 use super::tree::{Node, Value};
 use super::write::value_to_toml;
 
-pub use self::json::json_schema;
+pub use self::json::{Alone, json_schema};
 pub use self::tables::{filled, tables};
 
 /// The keys of a block, in the order in which they are declared.

@@ -82,6 +82,21 @@ pub fn line_of_byte(text: &[u8], byte: usize) -> usize {
         .count()
 }
 
+/// Longest piece of a file that a message repeats, in characters.
+const LONGEST: usize = 80;
+
+/// A value of a file as messages repeat it: safe to print, and cut if it is long. Every parser
+/// passes what it has read through here before it enters a message.
+pub fn quoted(text: &str) -> String {
+    escaped(text, LONGEST)
+}
+
+/// A message of several lines without control characters, whatever is repeated in it.
+pub fn printable(message: &str) -> String {
+    let lines = message.split('\n').map(|line| escaped(line, usize::MAX));
+    lines.collect::<Vec<String>>().join("\n")
+}
+
 /// Text from a file, made safe to print: control characters and those that turn the writing
 /// direction become visible escapes, and what is longer than `limit` characters is cut.
 pub fn escaped(text: &str, limit: usize) -> String {
@@ -112,6 +127,8 @@ mod tests {
         assert_eq!(escaped("a\u{1b}[31mb", 20), "a\\u{1b}[31mb");
         assert_eq!(escaped("\u{202e}x", 20), "\\u{202e}x");
         assert_eq!(escaped("abcdef", 3), "abc…");
+        assert_eq!(quoted(&"9".repeat(100_000)), "9".repeat(80) + "…");
+        assert_eq!(printable("a\u{1b}[2J\nb\u{7}"), "a\\u{1b}[2J\nb\\u{7}");
     }
 
     #[test]

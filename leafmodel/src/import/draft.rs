@@ -1,8 +1,12 @@
 //! A network as a file tells it, before anything is checked.
 
+use std::collections::BTreeMap;
+
 use glam::DVec2;
 
+use super::faults::Fault;
 use super::fields::Unit;
+use crate::document::source::quoted;
 use crate::shape::outline::Outline;
 
 /// Stands for a node that the file does not hold.
@@ -44,6 +48,18 @@ pub struct Draft {
     pub(super) given: Option<Outline>,
     /// Whether y points down.
     pub(super) is_y_down: bool,
+    /// Points between the ends of edges, by the number of the edge, in the frame of the places.
+    pub(super) courses: BTreeMap<u32, Vec<DVec2>>,
+    /// Lengths of edges along their courses, by the number of the edge.
+    pub(super) lengths: BTreeMap<u32, f64>,
+    /// Whether lengths are in the unit of the places, not in millimetres.
+    pub(super) lengths_lack_unit: bool,
+    /// Whether lengths have a unit.
+    pub(super) lengths_have_unit: bool,
+    /// Millimetres of the last unit of a place.
+    pub(super) place_mm: Option<f64>,
+    /// What reading left out or changed.
+    pub(super) remarks: Vec<Fault>,
 }
 
 /// An edge as a file tells it.
@@ -79,7 +95,7 @@ impl Draft {
     /// How a node is called in the file.
     pub(super) fn name(&self, node: u32) -> String {
         let name = self.names.get(node as usize);
-        name.map_or_else(|| node.to_string(), Clone::clone)
+        name.map_or_else(|| node.to_string(), |name| quoted(name))
     }
 
     /// A length of a place, millimetres where it has a unit.
@@ -87,10 +103,25 @@ impl Draft {
         match unit {
             Unit::Millimetres(factor) => {
                 self.places_have_unit = true;
+                self.place_mm = Some(factor);
                 value * factor
             }
             Unit::OfTheFile => {
                 self.places_lack_unit = true;
+                value
+            }
+        }
+    }
+
+    /// A length of an edge, millimetres where it has a unit.
+    pub(super) fn length_in(&mut self, value: f64, unit: Unit) -> f64 {
+        match unit {
+            Unit::Millimetres(factor) => {
+                self.lengths_have_unit = true;
+                value * factor
+            }
+            Unit::OfTheFile => {
+                self.lengths_lack_unit = true;
                 value
             }
         }

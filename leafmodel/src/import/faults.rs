@@ -40,6 +40,22 @@ pub enum FaultKind {
     NoRadius,
     /// A node lies outside the margin.
     OutsideMargin,
+    /// An element of a drawing is hidden.
+    Hidden,
+    /// A shape of a drawing has no stroke.
+    NoStroke,
+    /// An element of a drawing is no shape: a text, a picture.
+    NoShape,
+    /// A clip path or a mask of a drawing.
+    Clip,
+    /// A part of a style sheet that is not understood.
+    StyleRule,
+    /// Something of the file that is not known.
+    Ignored,
+    /// An edge is longer than the straight line between its ends.
+    Bent,
+    /// An edge is shorter than that line.
+    ShortLength,
 }
 
 impl FaultKind {
@@ -58,13 +74,29 @@ impl FaultKind {
             | Self::Turned
             | Self::Widening
             | Self::NoRadius
-            | Self::OutsideMargin => false,
+            | Self::OutsideMargin
+            | Self::Hidden
+            | Self::NoStroke
+            | Self::NoShape
+            | Self::Clip
+            | Self::StyleRule
+            | Self::Ignored
+            | Self::Bent
+            | Self::ShortLength => false,
         }
     }
 
     /// Whether it is as it should be, and only told.
     pub fn is_note(self) -> bool {
-        self == Self::OutsideMargin
+        matches!(
+            self,
+            Self::OutsideMargin
+                | Self::Hidden
+                | Self::NoStroke
+                | Self::NoShape
+                | Self::Ignored
+                | Self::Bent
+        )
     }
 
     /// A word for files.
@@ -85,6 +117,14 @@ impl FaultKind {
             Self::Widening => "widening",
             Self::NoRadius => "no_radius",
             Self::OutsideMargin => "outside_margin",
+            Self::Hidden => "hidden",
+            Self::NoStroke => "no_stroke",
+            Self::NoShape => "no_shape",
+            Self::Clip => "clip",
+            Self::StyleRule => "style_rule",
+            Self::Ignored => "ignored",
+            Self::Bent => "bent",
+            Self::ShortLength => "short_length",
         }
     }
 
@@ -119,6 +159,23 @@ impl FaultKind {
             Self::OutsideMargin => {
                 "nodes lie outside the margin, as those of a petiole do; their edges are left out"
             }
+            Self::Hidden => "elements of the drawing are hidden; they are left out",
+            Self::NoStroke => "shapes of the drawing have no stroke; they are left out",
+            Self::NoShape => {
+                "elements of the drawing are neither paths nor basic shapes; they are left out"
+            }
+            Self::Clip => {
+                "clip paths and masks of the drawing are not applied; what they hide is read"
+            }
+            Self::Ignored => "parts of the file are not known; they are left out",
+            Self::Bent => {
+                "edges are longer than the straight line between their ends; they are drawn as arcs of their \
+                 length, so areas of areoles, angles and distances to veins are approximate"
+            }
+            Self::ShortLength => {
+                "edges are shorter than the straight line between their ends; that line is taken"
+            }
+            Self::StyleRule => "parts of style sheets are not understood; they are left out",
         }
     }
 }

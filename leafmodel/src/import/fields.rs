@@ -12,6 +12,8 @@ pub(super) enum NodeField {
     Coordinate(usize, Unit),
     /// Both coordinates in one text or list.
     Place(Unit),
+    /// Row and column in one text or list, as sknw has them.
+    PlaceInRows(Unit),
     /// Step in which it was born.
     Born,
 }
@@ -31,6 +33,16 @@ pub(super) enum EdgeField {
     Width(Unit),
     /// The vein order.
     Order,
+    /// Its length along its course.
+    Length(Unit),
+    /// The same, where nodes are those of sknw.
+    Weight,
+    /// Points of its course.
+    Course(Unit),
+    /// The same by rows and columns.
+    CourseInRows(Unit),
+    /// What says nothing about a vein.
+    Nothing,
 }
 
 /// The unit of a length.
@@ -80,6 +92,7 @@ impl NodeField {
             "pos" | "position" | "place" | "xy" | "coord" | "coords" | "coordinates" => {
                 Some(Self::Place(unit))
             }
+            "o" => Some(Self::PlaceInRows(unit)),
             "born_step" => Some(Self::Born),
             _ => None,
         }
@@ -91,12 +104,25 @@ impl EdgeField {
     pub(super) fn of(name: &str) -> Option<Self> {
         let (name, unit) = parted(name);
         match name.as_str() {
-            "from" | "source" | "start" | "node_a" | "node_1" | "node1" | "u" => Some(Self::End(0)),
-            "to" | "target" | "end" | "node_b" | "node_2" | "node2" | "v" => Some(Self::End(1)),
-            "from_x" | "source_x" | "start_x" | "x1" => Some(Self::EndCoordinate(0, 0, unit)),
-            "from_y" | "source_y" | "start_y" | "y1" => Some(Self::EndCoordinate(0, 1, unit)),
-            "to_x" | "target_x" | "end_x" | "x2" => Some(Self::EndCoordinate(1, 0, unit)),
-            "to_y" | "target_y" | "end_y" | "y2" => Some(Self::EndCoordinate(1, 1, unit)),
+            "from" | "source" | "start" | "node_a" | "node_1" | "node1" | "u" | "node_id_src" => {
+                Some(Self::End(0))
+            }
+            "to" | "target" | "end" | "node_b" | "node_2" | "node2" | "v" | "node_id_dst" => {
+                Some(Self::End(1))
+            }
+            // As skan has them: rows, then columns.
+            "coord_src_1" | "image_coord_src_1" | "from_x" | "source_x" | "start_x" | "x1" => {
+                Some(Self::EndCoordinate(0, 0, unit))
+            }
+            "coord_src_0" | "image_coord_src_0" | "from_y" | "source_y" | "start_y" | "y1" => {
+                Some(Self::EndCoordinate(0, 1, unit))
+            }
+            "coord_dst_1" | "image_coord_dst_1" | "to_x" | "target_x" | "end_x" | "x2" => {
+                Some(Self::EndCoordinate(1, 0, unit))
+            }
+            "coord_dst_0" | "image_coord_dst_0" | "to_y" | "target_y" | "end_y" | "y2" => {
+                Some(Self::EndCoordinate(1, 1, unit))
+            }
             "radius" | "r" | "mean_radius" | "radius_mean" => Some(Self::Radius(unit)),
             // As our GeoJSON has it: the unit stands before the statistic.
             "radius_mm_mean" => Some(Self::Radius(Unit::Millimetres(1.0))),
@@ -106,9 +132,26 @@ impl EdgeField {
                 Some(Self::Width(unit))
             }
             "order" | "vein_order" => Some(Self::Order),
+            "length" | "len" | "branch_distance" | "arc_length" | "path_length"
+            | "curve_length" | "vein_length" => Some(Self::Length(unit)),
+            "weight" => Some(Self::Weight),
+            "pts" => Some(Self::CourseInRows(unit)),
+            "points" | "polyline" | "course" | "path" | "vertices" | "geometry" | "wkt" => {
+                Some(Self::Course(unit))
+            }
+            "id" | "key" | "index" | "label" | "name" => Some(Self::Nothing),
             _ => None,
         }
     }
+}
+
+/// All numbers out of a text such as `[[1.5 2], [3 4]]` or `LINESTRING (1.5 2, 3 4)`; `None` if
+/// anything else is in it.
+pub(super) fn numbers(text: &str) -> Option<Vec<f64>> {
+    let parting = |c: char| c.is_whitespace() || "()[]{},;".contains(c);
+    let words = text.split(parting).filter(|word| !word.is_empty());
+    let words = words.filter(|word| !word.to_ascii_uppercase().ends_with("LINESTRING"));
+    words.map(|word| word.parse().ok()).collect()
 }
 
 /// Two numbers out of a text such as `(1.5, 2)`, `1.5 2` or `[1.5, 2.]`.

@@ -51,7 +51,10 @@ pub(super) fn read_value(file: &Value) -> Result<Draft, ImportError> {
                 }
             }
             Some("Polygon") => polygons.push((number, feature)),
-            Some(_) | None => {}
+            Some(other) => lines
+                .builder
+                .ignore("file", &format!("features[{number}]: {other}")),
+            None => lines.builder.ignore("file", &format!("features[{number}]")),
         }
     }
     let of_kind = |kind: &str| {
@@ -136,10 +139,7 @@ impl Lines {
         let place = || format!("features[{feature}]");
         for pair in places.windows(2) {
             let ends = [pair[0], pair[1]].map(|place| self.builder.node_at(place));
-            self.builder.edge();
-            if let Some(edge) = self.builder.draft.edges.last_mut() {
-                edge.ends = ends;
-            }
+            self.builder.edge_between(ends);
             for (key, value) in properties.as_object().into_iter().flatten() {
                 let field = match EdgeField::of(key) {
                     // What has no unit of its own has that of the coordinates.
@@ -148,7 +148,17 @@ impl Lines {
                     Some(EdgeField::EndRadius(end, Unit::OfTheFile)) => {
                         EdgeField::EndRadius(end, self.unit)
                     }
-                    Some(EdgeField::End(_) | EdgeField::EndCoordinate(..)) | None => continue,
+                    // The line itself has its course and its length.
+                    Some(
+                        EdgeField::End(_)
+                        | EdgeField::EndCoordinate(..)
+                        | EdgeField::Length(_)
+                        | EdgeField::Weight
+                        | EdgeField::Course(_)
+                        | EdgeField::CourseInRows(_)
+                        | EdgeField::Nothing,
+                    )
+                    | None => continue,
                     Some(field) => field,
                 };
                 if value.is_null() {
@@ -175,7 +185,7 @@ impl Lines {
     /// The whole: numbered nodes and edges in their old order, if all lines have numbers.
     fn whole(mut self) -> Result<Draft, ImportError> {
         if self.numbered.is_empty() {
-            return Ok(self.builder.draft);
+            return Ok(self.builder.done());
         }
         let missing = |wanted: &str| ImportError::Missing {
             place: "nodes".to_owned(),
@@ -225,7 +235,7 @@ impl Lines {
         }
         self.builder.draft.places = places;
         self.builder.draft.edges = self.numbered.into_iter().map(|(_, edge, _)| edge).collect();
-        Ok(self.builder.draft)
+        Ok(self.builder.done())
     }
 }
 

@@ -1,12 +1,15 @@
 //! Nodes and edges put together from named values.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use glam::DVec2;
 
+use crate::document::source::quoted;
+
 use super::draft::{ABSENT, Draft, DraftEdge};
 use super::error::ImportError;
-use super::fields::{EdgeField, NodeField, Unit, two_numbers};
+use super::faults::{Fault, FaultKind};
+use super::fields::{EdgeField, NodeField, Unit, numbers, two_numbers};
 
 /// A value as text, with its key and its place in the file, which are only asked for if it cannot
 /// be read.
@@ -41,13 +44,9 @@ impl<K: Fn() -> String, P: Fn() -> String> Text<'_, K, P> {
     }
 }
 
-/// A text in quotation marks, cut if it is long.
+/// A text in quotation marks, safe to print and cut if it is long.
 pub(super) fn shortened(text: &str) -> String {
-    const LONGEST: usize = 40;
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("\"{}…\"", &text[..end]),
-        None => format!("\"{text}\""),
-    }
+    format!("\"{}\"", quoted(text))
 }
 
 /// A graph that is being read: nodes first, then edges.
@@ -59,6 +58,9 @@ pub(super) struct Builder {
     edge_units: [Option<Unit>; 2],
     ends: [[f64; 2]; 2],
     by_place: HashMap<[u64; 2], u32>,
+    /// Whether nodes are given by rows and columns.
+    is_in_rows: bool,
+    ignored: BTreeSet<String>,
 }
 
 impl Builder {
@@ -73,7 +75,27 @@ impl Builder {
             edge_units: [None; 2],
             ends: [[f64::NAN; 2]; 2],
             by_place: HashMap::new(),
+            is_in_rows: false,
+            ignored: BTreeSet::new(),
         }
+    }
+
+    /// Remembers an attribute of a node or an edge that is not known.
+    pub(super) fn ignore(&mut self, what: &str, name: &str) {
+        self.ignored
+            .insert(format!("{} of {what}s", shortened(name)));
+    }
+
+    /// The draft, with a remark on whatever was ignored.
+    pub(super) fn done(mut self) -> Draft {
+        let mut fault = Fault::new(FaultKind::Ignored);
+        for name in std::mem::take(&mut self.ignored) {
+            fault.named(|| name);
+        }
+        self.draft
+            .remarks
+            .extend((fault.count > 0).then_some(fault));
+        self.draft
     }
 
     /// Begins a node.
@@ -106,6 +128,14 @@ impl Builder {
                     .ok_or_else(|| text.refused("it must be two numbers, x and y"))?;
                 self.draft.places[node] = pair.map(|value| self.draft.place_in(value, unit)).into();
             }
+            NodeField::PlaceInRows(unit) => {
+                let [row, column] = two_numbers(text.value)
+                    .ok_or_else(|| text.refused("it must be two numbers, row and column"))?;
+                let place = [column, row].map(|value| self.draft.place_in(value, unit));
+                self.draft.places[node] = place.into();
+                self.is_in_rows = true;
+                self.draft.is_y_down = true;
+            }
             NodeField::Born => {
                 let allowed = "it must be a whole number of steps";
                 let born = text.value.trim().parse();
@@ -120,6 +150,18 @@ impl Builder {
     /// Ends a node: it must have a place, and a name of its own if nodes are named.
     pub(super) fn node_is_done(&mut self, place: impl Fn() -> String) -> Result<(), ImportError> {
         let node = self.draft.places.len() - 1;
+        if self.draft.places[node] == DVec2::splat(f64::MAX) {
+            // The name may be the place, as in (12, 30).
+            let pair = self
+                .draft
+                .names
+                .get(node)
+                .and_then(|name| two_numbers(name));
+            if let Some(pair) = pair {
+                let pair = pair.map(|value| self.draft.place_in(value, Unit::OfTheFile));
+                self.draft.places[node] = pair.into();
+            }
+        }
         let at = self.draft.places[node];
         for (axis, name) in [(at.x, "x"), (at.y, "y")] {
             if axis == f64::MAX {
@@ -134,8 +176,9 @@ impl Builder {
             }
         }
         if !self.is_without_name {
-            let name = self.draft.name(node as u32);
+            let name = self.draft.names.last().cloned().unwrap_or_default();
             if self.numbers.insert(name.clone(), node as u32).is_some() {
+                let name = quoted(&name);
                 return Err(ImportError::NameTwice {
                     place: place(),
                     name,
@@ -163,6 +206,14 @@ impl Builder {
         self.draft.edges.push(DraftEdge::between(ABSENT, ABSENT));
         self.ends = [[f64::NAN; 2]; 2];
         self.edge_units = [None; 2];
+    }
+
+    /// Begins an edge between two nodes.
+    pub(super) fn edge_between(&mut self, ends: [u32; 2]) {
+        self.edge();
+        if let Some(edge) = self.draft.edges.last_mut() {
+            edge.ends = ends;
+        }
     }
 
     /// A value of the edge that has begun.
@@ -203,6 +254,12 @@ impl Builder {
                     self.draft.edges[edge].radii[end] = Some(radius);
                 }
             }
+            EdgeField::Weight if !self.is_in_rows => self.ignore("edge", "weight"),
+            EdgeField::Weight => return self.length(edge, Unit::OfTheFile, text),
+            EdgeField::Length(unit) => return self.length(edge, unit, text),
+            EdgeField::Course(unit) => return self.course(edge, unit, false, text),
+            EdgeField::CourseInRows(unit) => return self.course(edge, unit, true, text),
+            EdgeField::Nothing => {}
             EdgeField::Order => {
                 if text.value.trim().is_empty() {
                     return Ok(());
@@ -215,6 +272,52 @@ impl Builder {
                 self.draft.edges[edge].order = Some(order as u8);
             }
         }
+        Ok(())
+    }
+
+    fn length<K: Fn() -> String, P: Fn() -> String>(
+        &mut self,
+        edge: usize,
+        unit: Unit,
+        text: &Text<'_, K, P>,
+    ) -> Result<(), ImportError> {
+        if text.value.trim().is_empty() {
+            return Ok(());
+        }
+        let length = text.number()?;
+        if !(length.is_finite() && length >= 0.0) {
+            return Err(text.refused("it must be a finite number of at least 0"));
+        }
+        let length = self.draft.length_in(length, unit);
+        self.draft.lengths.insert(edge as u32, length);
+        Ok(())
+    }
+
+    fn course<K: Fn() -> String, P: Fn() -> String>(
+        &mut self,
+        edge: usize,
+        unit: Unit,
+        in_rows: bool,
+        text: &Text<'_, K, P>,
+    ) -> Result<(), ImportError> {
+        let allowed = "it must be a list of points, each of two finite numbers";
+        let all = numbers(text.value).ok_or_else(|| text.refused(allowed))?;
+        if all.len() % 2 != 0 || all.iter().any(|number| !number.is_finite()) {
+            return Err(text.refused(allowed));
+        }
+        if all.is_empty() {
+            return Ok(());
+        }
+        let points = all.chunks_exact(2).map(|pair| {
+            let pair = if in_rows {
+                [pair[1], pair[0]]
+            } else {
+                [pair[0], pair[1]]
+            };
+            DVec2::from(pair.map(|value| self.draft.place_in(value, unit)))
+        });
+        let points = points.collect();
+        self.draft.courses.insert(edge as u32, points);
         Ok(())
     }
 
@@ -289,6 +392,12 @@ impl Builder {
     pub(super) fn node_at(&mut self, place: DVec2) -> u32 {
         let known = self.by_place.get(&bits(place.into())).copied();
         known.unwrap_or_else(|| self.add(place, None))
+    }
+
+    /// The node in a row and a column of a picture, made if there is none yet.
+    pub(super) fn node_in_rows(&mut self, [row, column]: [f64; 2]) -> u32 {
+        let place = [column, row].map(|value| self.draft.place_in(value, Unit::OfTheFile));
+        self.node_at(place.into())
     }
 
     fn number_of(&self, name: &str) -> u32 {

@@ -17,16 +17,7 @@ use super::graph::{Builder, Text};
 ///
 /// [`ImportError`] if it is no XML, holds no graph, or a value cannot be read.
 pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
-    let options = ParsingOptions {
-        nodes_limit: u32::MAX,
-        ..ParsingOptions::default()
-    };
-    let malformed = |problem: String| ImportError::Malformed {
-        format: "GraphML",
-        problem,
-    };
-    let document = Document::parse_with_options(text, options)
-        .map_err(|error| malformed(error.to_string()))?;
+    let document = parsed(text)?;
     let root = document.root_element();
     if root.tag_name().name() != "graphml" {
         let found = root.tag_name().name();
@@ -40,6 +31,7 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
             Some((id, key.attribute("attr.name").unwrap_or(id)))
         })
         .collect();
+    let (node_defaults, edge_defaults) = (defaults(root, "node"), defaults(root, "edge"));
     let name_of = |key: &str| keys.get(key).copied().unwrap_or_default().to_owned();
     let graph = root.children().find(|node| node.has_tag_name_of("graph"));
     let graph = graph.ok_or_else(|| malformed("it has no <graph>".to_owned()))?;
@@ -59,10 +51,13 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
         })?;
         builder.node();
         builder.name(id.to_owned());
-        for (key, value) in data(node) {
+        for (key, value) in with_defaults(node, &node_defaults) {
             let field = *node_fields
                 .entry(key)
                 .or_insert_with(|| NodeField::of(&name_of(key)));
+            if field.is_none() {
+                builder.ignore("node", &name_of(key));
+            }
             // The id is the name.
             if let Some(field) = field.filter(|field| *field != NodeField::Name) {
                 builder.node_text(
@@ -90,12 +85,13 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
             };
             builder.edge_text(EdgeField::End(end), &text)?;
         }
-        for (key, value) in data(edge) {
+        for (key, value) in with_defaults(edge, &edge_defaults) {
             let field = *edge_fields
                 .entry(key)
                 .or_insert_with(|| EdgeField::of(&name_of(key)));
             match field {
-                None | Some(EdgeField::End(_) | EdgeField::EndCoordinate(..)) => {}
+                None => builder.ignore("edge", &name_of(key)),
+                Some(EdgeField::End(_) | EdgeField::EndCoordinate(..)) => {}
                 Some(field) => {
                     builder.edge_text(
                         field,
@@ -110,12 +106,54 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
         }
         builder.edge_is_done(place);
     }
-    for (key, value) in data(graph) {
-        if name_of(key) == "segment_mm" {
-            builder.draft.segment_mm = value.trim().parse().ok();
-        }
+    let segment_mm = data(graph).find(|(key, _)| name_of(key) == "segment_mm");
+    builder.draft.segment_mm = segment_mm.and_then(|(_, value)| value.trim().parse().ok());
+    let graphs = root.children().filter(|node| node.has_tag_name_of("graph"));
+    for other in graphs.skip(1) {
+        builder.ignore("file", &format!("<graph> in {}", line(other)));
     }
-    Ok(builder.draft)
+    Ok(builder.done())
+}
+
+fn malformed(problem: String) -> ImportError {
+    ImportError::Malformed {
+        format: "GraphML",
+        problem,
+    }
+}
+
+fn parsed(text: &str) -> Result<Document<'_>, ImportError> {
+    let options = ParsingOptions {
+        nodes_limit: u32::MAX,
+        ..ParsingOptions::default()
+    };
+    let document = Document::parse_with_options(text, options);
+    document.map_err(|error| malformed(error.to_string()))
+}
+
+/// Keys and texts that hold for all elements of a kind without a value of their own.
+fn defaults<'d>(root: Node<'d, '_>, kind: &str) -> Vec<(&'d str, &'d str)> {
+    let keys = root.children().filter(|node| node.has_tag_name_of("key"));
+    let keys = keys.filter(|key| {
+        let of = key.attribute("for").unwrap_or("all");
+        of == kind || of == "all"
+    });
+    keys.filter_map(|key| {
+        let mut inner = key.children();
+        let default = inner.find(|node| node.has_tag_name_of("default"))?;
+        Some((key.attribute("id")?, default.text().unwrap_or_default()))
+    })
+    .collect()
+}
+
+/// Key and text of each `<data>` of an element, and of each default that it does not have.
+fn with_defaults<'d>(
+    node: Node<'d, '_>,
+    defaults: &'d [(&'d str, &'d str)],
+) -> impl Iterator<Item = (&'d str, &'d str)> {
+    let missing = move |key: &str| data(node).all(|(own, _)| own != key);
+    let defaults = defaults.iter().copied();
+    data(node).chain(defaults.filter(move |(key, _)| missing(key)))
 }
 
 /// Key and text of each `<data>` of an element.

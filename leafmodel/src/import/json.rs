@@ -1,7 +1,7 @@
 //! JSON: ours, and the node-link lists of networkx and d3.
 
 use glam::DVec2;
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 
 use super::draft::{ABSENT, Draft, DraftEdge, DraftMargin};
 use super::error::ImportError;
@@ -16,7 +16,7 @@ use super::graph::{Builder, Text, shortened};
 ///
 /// [`ImportError`] if it is no JSON, holds no network, or a value cannot be read.
 pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
-    let value = parsed(text)?;
+    let value = as_map(parsed(text)?);
     let Value::Object(file) = &value else {
         return Err(ImportError::NoVeins { wanted: WANTED });
     };
@@ -42,7 +42,7 @@ const WANTED: &str = "an object with nodes and edges (as lamina grow writes it),
 ///
 /// As for [`read`].
 pub(super) fn read_margin(text: &str) -> Result<Draft, ImportError> {
-    let value = parsed(text)?;
+    let value = as_map(parsed(text)?);
     let is_map = value["type"] == "FeatureCollection";
     if is_map {
         return geojson::read_value(&value);
@@ -59,6 +59,18 @@ fn parsed(text: &str) -> Result<Value, ImportError> {
         format: "JSON",
         problem: error.to_string(),
     })
+}
+
+/// A `GeoJSON` that is a single feature or geometry as a collection with it; others as they are.
+fn as_map(value: Value) -> Value {
+    let feature = match value["type"].as_str() {
+        Some("Feature") => value,
+        Some("LineString" | "MultiLineString" | "Polygon") => {
+            json!({"type": "Feature", "properties": {}, "geometry": value})
+        }
+        Some(_) | None => return value,
+    };
+    json!({"type": "FeatureCollection", "features": [feature]})
 }
 
 fn add_margins(file: &Map<String, Value>, draft: &mut Draft) -> Result<(), ImportError> {
@@ -229,6 +241,9 @@ fn lists(
             let field = NodeField::of(key);
             // Only `id` names a node: others may have a label beside it.
             let is_label = field == Some(NodeField::Name) && key != "id";
+            if field.is_none() {
+                builder.ignore("node", key);
+            }
             if let Some(field) = field.filter(|_| !is_label) {
                 let value = text_of(value);
                 let key = || key.clone();
@@ -260,7 +275,8 @@ fn lists(
         }
         for (key, value) in &members {
             match EdgeField::of(key) {
-                None | Some(EdgeField::EndCoordinate(..)) => {}
+                None => builder.ignore("edge", key),
+                Some(EdgeField::EndCoordinate(..)) => {}
                 Some(field) => {
                     let value = text_of(value);
                     let key = || key.clone();
@@ -277,7 +293,7 @@ fn lists(
         }
         builder.edge_is_done(place);
     }
-    Ok(builder.draft)
+    Ok(builder.done())
 }
 
 fn text_of(value: &Value) -> String {

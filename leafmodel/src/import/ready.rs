@@ -1,17 +1,21 @@
 //! From what a file tells to a network that can be measured.
 
+use crate::document::source::quoted;
 use glam::DVec2;
 
 use super::draft::{ABSENT, Draft};
 use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
-use super::{margins, repair, roots};
+use super::{courses, margins, repair, roots};
 use crate::measure::Known;
 use crate::shape::outline::Outline;
 use crate::venation::network::{FARTHEST_MM, VeinEdge, VeinNode, VenationNetwork};
-use crate::venation::order::orders;
+use crate::venation::order::{Look, orders};
 use crate::venation::planar::PlaneGraph;
 use crate::venation::topology::Topology;
+
+/// Segments along a leaf whose file gives none: as many as most leaves of this program have.
+const SEGMENTS: f64 = 200.0;
 
 /// What the person who asks knows beyond the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -92,6 +96,7 @@ impl Draft {
             return Err(ImportError::Faulty { faults });
         }
         self.scale(wanted)?;
+        courses::drawn(&mut self);
         let far = self.far_nodes();
         if far.count > 0 {
             return Err(ImportError::Faulty { faults: vec![far] });
@@ -100,7 +105,9 @@ impl Draft {
             Some(outline) => vec![outline],
             None => self.made_outlines()?,
         };
-        let mut faults = Vec::new();
+        let segment_mm = self.segment_mm.filter(|mm| mm.is_finite() && *mm > 0.0);
+        let segment_mm = segment_mm.unwrap_or_else(|| self.usual_segment());
+        let mut faults = std::mem::take(&mut self.remarks);
         margins::leave_out_outside(&mut self, &outlines, &mut faults)?;
         let known_radii = self
             .edges
@@ -108,8 +115,6 @@ impl Draft {
             .all(|edge| edge.radii.iter().all(Option::is_some));
         faults.extend(self.without_radius());
         let has_orders = self.edges.iter().all(|edge| edge.order.is_some());
-        let segment_mm = self.segment_mm.filter(|mm| mm.is_finite() && *mm > 0.0);
-        let segment_mm = segment_mm.unwrap_or_else(|| self.median_length());
         let network = if let Some(network) = self.as_it_is(segment_mm, wanted.root) {
             network
         } else {
@@ -146,7 +151,7 @@ impl Draft {
     fn senseless(&self) -> Vec<Fault> {
         let mut loose = Fault::new(FaultKind::LooseEnd);
         for (edge, node) in &self.loose {
-            loose.named(|| format!("{edge}: node {node}"));
+            loose.named(|| format!("{edge}: node {}", quoted(node)));
         }
         if loose.count == 0 {
             for (number, edge) in self.edges.iter().enumerate() {
@@ -236,10 +241,23 @@ impl Draft {
         } else {
             1.0
         };
+        let lengths = match (self.lengths_lack_unit, self.lengths_have_unit) {
+            (true, true) => return Err(ImportError::MixedUnits { what: "lengths" }),
+            // Without a unit of their own they have that of the places.
+            (true, false) if self.places_lack_unit => places,
+            (true, false) => self.place_mm.unwrap_or(1.0),
+            (false, _) => 1.0,
+        };
+        for length in self.lengths.values_mut() {
+            *length *= lengths;
+        }
         let image = |p: DVec2| DVec2::new(p.x * places, turn * p.y * places);
         if places != 1.0 || turn != 1.0 {
             for place in &mut self.places {
                 *place = image(*place);
+            }
+            for point in self.courses.values_mut().flatten() {
+                *point = image(*point);
             }
             for margin in &mut self.margins {
                 for point in &mut margin.points {
@@ -257,17 +275,14 @@ impl Draft {
         Ok(())
     }
 
-    fn length(&self, ends: [u32; 2]) -> f64 {
-        let [from, to] = ends.map(|end| self.places[end as usize]);
-        (to - from).length()
-    }
-
-    /// Half of the edges are shorter; above 0.
-    fn median_length(&self) -> f64 {
-        let lengths = self.edges.iter().map(|edge| self.length(edge.ends));
-        let mut lengths: Vec<f64> = lengths.filter(|length| *length > 0.0).collect();
-        lengths.sort_unstable_by(f64::total_cmp);
-        lengths.get(lengths.len() / 2).copied().unwrap_or(1.0)
+    /// Length of a segment where the file gives none, above 0: a fraction of the extent of the veins,
+    /// so that it depends neither on how finely they are digitised nor on the margin.
+    fn usual_segment(&self) -> f64 {
+        let places = self.places.iter().copied();
+        let low = places.clone().reduce(DVec2::min).unwrap_or_default();
+        let high = places.reduce(DVec2::max).unwrap_or_default();
+        let extent = (high - low).max_element();
+        if extent > 0.0 { extent / SEGMENTS } else { 1.0 }
     }
 
     /// The network with the directions of the file, if they lead away from the petiole and nothing
@@ -347,12 +362,13 @@ fn with_orders(network: &VenationNetwork) -> Result<VenationNetwork, ImportError
         .iter()
         .map(|edge| edge.radius_from)
         .collect();
-    let found = orders(&topology, &places, &radii, &sorted, &[]);
+    let segment_mm = network.segment_mm();
+    let look = Look::Length { segment_mm };
+    let found = orders(&topology, &places, &radii, &sorted, &[], look);
     let mut edges = network.edges().to_vec();
     for (edge, order) in edges.iter_mut().zip(found.edges) {
         edge.order = order.max(1);
     }
-    let segment_mm = network.segment_mm();
     VenationNetwork::from_parts(network.nodes().to_vec(), edges, segment_mm).map_err(|error| {
         ImportError::Malformed {
             format: "network",

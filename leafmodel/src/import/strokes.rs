@@ -1,160 +1,171 @@
-//! Drawings: every stroked path is a vein, its stroke's width that of the vein.
+//! Drawings: every stroked path or basic shape is a vein, its stroke's width that of the vein.
 //!
 //! Ends of strokes nearer to each other than a quarter of the finest stroke's width are one node.
-//! Groups called `order-1`, `order-2` … give the orders; the path called `margin` is the margin.
+//! Groups called `order-1`, `order-2` … give the orders; the shape called `margin` is the margin.
 //! Veins that taper in our own drawings are filled outlines; they are read as what they show.
 
 use std::collections::HashMap;
 
 use glam::{DAffine2, DVec2};
-use roxmltree::{Document, Node, ParsingOptions};
-use svgtypes::{Length, LengthUnit, PathParser, PathSegment};
+use svgtypes::{PathParser, PathSegment};
 
 use super::draft::{Draft, DraftEdge, DraftMargin};
 use super::error::ImportError;
+use super::faults::{Fault, FaultKind};
 use super::fields::two_numbers;
 use super::graph::shortened;
 use crate::shape::cubic::FLATNESS;
-use crate::shape::svg_path::path_data::parts;
-use crate::shape::svg_path::{is_drawn, transform_of};
+use crate::shape::drawing::{self, BadAttribute, Drawing, Reason, Shape};
 
 /// Ends of strokes within this share of the finest stroke's width are joined.
 const JOINED: f64 = 0.25;
 
+/// Groups of our own drawings that show no veins.
+const NO_VEINS: &str = "areoles";
+
 /// Reads the strokes of an SVG.
 ///
-/// Lengths are millimetres if `width` of the outermost element has a unit of length and there is a
-/// `viewBox`, else units of the drawing.
+/// Lengths are millimetres if the outermost element gives its size in a unit of length and there is a
+/// `viewBox`, else units of the drawing. What is left out becomes a fault.
 ///
 /// # Errors
 ///
 /// [`ImportError`] if it is no SVG, or path data or transforms cannot be read.
 pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
-    let malformed = |problem: String| ImportError::Malformed {
-        format: "SVG",
-        problem,
-    };
-    let options = ParsingOptions {
-        allow_dtd: true,
-        nodes_limit: u32::MAX,
-        ..ParsingOptions::default()
-    };
-    let document = Document::parse_with_options(text, options)
-        .map_err(|error| malformed(error.to_string()))?;
-    let root = document.root_element();
-    if root.tag_name().name() != "svg" {
-        let found = root.tag_name().name();
-        return Err(malformed(format!("its outermost element is <{found}>")));
-    }
-    let scale = mm_per_unit(root);
+    let document = drawing::parse(text).map_err(malformed)?;
+    let css = drawing::style_sheets(&document);
+    let drawing = Drawing::read(&document, &css).map_err(malformed)?;
     let mut strokes: Vec<Stroke> = Vec::new();
-    let mut draft = Draft {
-        is_y_down: true,
-        places_lack_unit: scale.is_none(),
-        radii_lack_unit: scale.is_none(),
-        ..Draft::default()
-    };
-    let scale = scale.unwrap_or(1.0);
-    for node in document
-        .descendants()
-        .filter(|node| node.is_element() && is_drawn(*node))
-    {
-        let Some(data) = path_of(node) else { continue };
-        let whole = transform_of(node).map_err(|error| malformed(error.to_string()))?;
-        let whole = DAffine2::from_scale(DVec2::splat(scale)) * whole;
-        let bad = |problem: String| {
+    let mut draft = empty(&drawing);
+    let line = |shape: &Shape<'_>| document.text_pos_at(shape.node.range().start).row;
+    let mut bare = Fault::new(FaultKind::NoStroke);
+    for shape in drawing.drawn() {
+        let bad = |BadAttribute { attribute, problem }| {
             // To find a line takes as long as the text before it.
-            let line = document.text_pos_at(node.range().start).row;
-            malformed(format!("the path in line {line}: {problem}"))
+            let name = shape.node.tag_name().name();
+            malformed(format!(
+                "the <{name}> in line {}: {attribute}: {problem}",
+                line(shape)
+            ))
         };
-        if node.attribute("id") == Some("margin") {
-            draft
-                .margins
-                .extend(margins(node, &data, whole).map_err(bad)?);
+        if shape.is_called("margin") {
+            draft.margins.extend(margins(&drawing, shape).map_err(bad)?);
             continue;
         }
-        let order = order_of(node);
-        let width = stroke_width(node).map_err(|value| ImportError::BadValue {
-            place: format!("line {}", document.text_pos_at(node.range().start).row),
+        let width = shape.stroke_width(drawing.mm_per_unit);
+        let width = width.map_err(|value| ImportError::BadValue {
+            place: format!("line {}", line(shape)),
             key: "stroke-width".to_owned(),
             value: shortened(&value),
             allowed: "it must be a number of at least 0, alone or in mm, cm, in, pt, pc or px",
         })?;
+        let before = strokes.len();
+        let to_mm = DAffine2::from_scale(mm_per_unit(&drawing));
         if let Some(width) = width {
-            let width = width * libm::sqrt(whole.matrix2.determinant().abs());
-            for points in flattened(&data, whole).map_err(bad)? {
+            let width = width * to_mm.matrix2.determinant().abs().sqrt();
+            for points in flattened(&drawing, shape).map_err(bad)? {
                 let radii = vec![0.5 * width; 2 * points.len().saturating_sub(1)];
                 strokes.push(Stroke {
                     points,
                     radii,
-                    order,
+                    order: shape.order,
                 });
             }
-        } else if order.is_some() {
-            strokes.extend(
-                tapers(&data, whole)
-                    .into_iter()
-                    .map(|taper| Stroke { order, ..taper }),
-            );
+        } else if let Some(order) = shape.order {
+            let whole = to_mm * shape.to_root().map_err(bad)?;
+            let data = shape.data().map_err(bad)?;
+            strokes.extend(tapers(&data, whole).into_iter().map(|taper| Stroke {
+                order: Some(order),
+                ..taper
+            }));
+        }
+        let parent = shape.node.parent_element();
+        let is_ours = parent.is_some_and(|group| group.attribute("id") == Some(NO_VEINS));
+        if strokes.len() == before && !is_ours {
+            bare.named(|| format!("line {} <{}>", line(shape), shape.node.tag_name().name()));
         }
     }
     if strokes.is_empty() {
+        let left: usize = drawing.left_out.values().map(|left| left.count).sum();
         return Err(ImportError::NoVeins {
-            wanted: "paths, lines or polylines with a stroke",
+            wanted: if bare.count + left > 0 {
+                "paths or basic shapes with a stroke; those that it has are hidden or have no stroke"
+            } else {
+                "paths or basic shapes with a stroke"
+            },
         });
     }
+    draft.remarks.extend((bare.count > 0).then_some(bare));
     join(&strokes, &mut draft);
     Ok(draft)
 }
 
-/// Reads the margin of a drawing: the parts of the path called `margin`, or else of the first path
-/// that is drawn.
+/// Reads the margin of a drawing: the parts of the shape called `margin`, or else of the first path
+/// that is drawn, or else of the first shape.
 ///
 /// # Errors
 ///
 /// As for [`read`].
 pub(super) fn read_margin(text: &str) -> Result<Draft, ImportError> {
-    let has_margin = text.contains("id=\"margin\"") || text.contains("id='margin'");
-    let id = has_margin.then_some("margin");
-    let malformed = |problem: String| ImportError::Malformed {
-        format: "SVG",
-        problem,
-    };
-    let options = ParsingOptions {
-        allow_dtd: true,
-        nodes_limit: u32::MAX,
-        ..ParsingOptions::default()
-    };
-    let document = Document::parse_with_options(text, options)
-        .map_err(|error| malformed(error.to_string()))?;
-    let scale = mm_per_unit(document.root_element());
-    let mut paths = document.descendants().filter(|node| {
-        node.tag_name().name() == "path"
-            && is_drawn(*node)
-            && (id.is_none() || node.attribute("id") == id)
-    });
-    let path = paths.next().ok_or(ImportError::BadMargin {
-        problem: "there is no path".to_owned(),
+    let document = drawing::parse(text).map_err(malformed)?;
+    let css = drawing::style_sheets(&document);
+    let drawing = Drawing::read(&document, &css).map_err(malformed)?;
+    let called = drawing.drawn().find(|shape| shape.is_called("margin"));
+    let shape = called
+        .or_else(|| drawing.drawn().find(|shape| shape.is_path()))
+        .or_else(|| drawing.drawn().next());
+    let shape = shape.ok_or(ImportError::BadMargin {
+        problem: "there is no path that is drawn".to_owned(),
     })?;
-    let whole = transform_of(path).map_err(|error| malformed(error.to_string()))?;
-    let whole = DAffine2::from_scale(DVec2::splat(scale.unwrap_or(1.0))) * whole;
-    let data = path.attribute("d").unwrap_or_default();
     Ok(Draft {
-        margins: margins(path, data, whole).map_err(malformed)?,
-        is_y_down: true,
-        places_lack_unit: scale.is_none(),
-        ..Draft::default()
+        margins: margins(&drawing, shape).map_err(|error| malformed(error.to_string()))?,
+        ..empty(&drawing)
     })
 }
 
-/// The parts of a path as margins. Our own drawings tell base and apex.
-fn margins(node: Node<'_, '_>, data: &str, whole: DAffine2) -> Result<Vec<DraftMargin>, String> {
+fn malformed(problem: String) -> ImportError {
+    ImportError::Malformed {
+        format: "SVG",
+        problem,
+    }
+}
+
+/// A draft with what a drawing says as a whole.
+fn empty(drawing: &Drawing<'_>) -> Draft {
+    let is_without = drawing.mm_per_unit.is_none();
+    let fault = |(reason, left): (&Reason, &drawing::LeftOut)| Fault {
+        kind: match reason {
+            Reason::Hidden => FaultKind::Hidden,
+            Reason::NoShape => FaultKind::NoShape,
+            Reason::Clip => FaultKind::Clip,
+            Reason::Rule => FaultKind::StyleRule,
+        },
+        count: left.count,
+        places: Vec::new(),
+        names: left.names.clone(),
+    };
+    Draft {
+        is_y_down: true,
+        places_lack_unit: is_without,
+        radii_lack_unit: is_without,
+        remarks: drawing.left_out.iter().map(fault).collect(),
+        ..Draft::default()
+    }
+}
+
+fn mm_per_unit(drawing: &Drawing<'_>) -> DVec2 {
+    drawing.mm_per_unit.unwrap_or(DVec2::ONE)
+}
+
+/// The parts of a shape as margins. Our own drawings give base and apex.
+fn margins(drawing: &Drawing<'_>, shape: &Shape<'_>) -> Result<Vec<DraftMargin>, BadAttribute> {
+    let whole = shape.to_root()?;
     let end = |name: &str| {
-        let pair = two_numbers(node.attribute(name)?)?;
-        Some(whole.transform_point2(pair.into()))
+        let pair = two_numbers(shape.node.attribute(name)?)?;
+        Some(mm_per_unit(drawing) * whole.transform_point2(pair.into()))
     };
     let (base, apex) = (end("data-base"), end("data-apex"));
-    let parts = flattened(data, whole)?.into_iter();
+    let parts = flattened(drawing, shape)?.into_iter();
     Ok(parts
         .map(|points| DraftMargin { points, base, apex })
         .collect())
@@ -228,114 +239,20 @@ fn join(strokes: &[Stroke], draft: &mut Draft) {
     }
 }
 
-/// Millimetres to a unit of the `viewBox`, if the outermost element says how wide it is.
-fn mm_per_unit(root: Node<'_, '_>) -> Option<f64> {
-    let width: Length = root.attribute("width")?.trim().parse().ok()?;
-    let mm = match width.unit {
-        LengthUnit::Mm => 1.0,
-        LengthUnit::Cm => 10.0,
-        LengthUnit::In => 25.4,
-        LengthUnit::Pt => 25.4 / 72.0,
-        LengthUnit::Pc => 25.4 / 6.0,
-        LengthUnit::None
-        | LengthUnit::Em
-        | LengthUnit::Ex
-        | LengthUnit::Px
-        | LengthUnit::Percent => return None,
-    };
-    let mut view = root
-        .attribute("viewBox")?
-        .split([' ', ','])
-        .filter(|part| !part.is_empty());
-    let units: f64 = view.nth(2)?.parse().ok()?;
-    let scale = width.number * mm / units;
-    (scale.is_finite() && scale > 0.0).then_some(scale)
-}
-
-/// Path data of an element that can be stroked.
-fn path_of(node: Node<'_, '_>) -> Option<String> {
-    match node.tag_name().name() {
-        "path" => node.attribute("d").map(str::to_owned),
-        "polyline" => Some(format!("M{}", node.attribute("points")?)),
-        "line" => {
-            let of = |name| node.attribute(name).unwrap_or("0");
-            Some(format!(
-                "M{} {}L{} {}",
-                of("x1"),
-                of("y1"),
-                of("x2"),
-                of("y2")
-            ))
-        }
-        _ => None,
-    }
-}
-
-/// A property that elements inherit: of its own or an ancestor's attribute or style.
-fn inherited(node: Node<'_, '_>, name: &str) -> Option<String> {
-    node.ancestors().find_map(|node| {
-        let style = node.attribute("style").unwrap_or_default();
-        let styled = style.split(';').find_map(|rule| {
-            let (key, value) = rule.split_once(':')?;
-            (key.trim() == name).then(|| value.trim().to_owned())
-        });
-        styled.or_else(|| node.attribute(name).map(str::to_owned))
-    })
-}
-
-/// Width of the stroke in the element's own units; `None` if it has none, an error with what stands
-/// there if that is no width.
-///
-/// A width with a unit of length is counted as CSS does, 96 units of the drawing to an inch.
-fn stroke_width(node: Node<'_, '_>) -> Result<Option<f64>, String> {
-    let stroke = inherited(node, "stroke");
-    if stroke.is_none_or(|stroke| stroke == "none" || stroke == "transparent") {
-        return Ok(None);
-    }
-    let Some(text) = inherited(node, "stroke-width") else {
-        return Ok(Some(1.0));
-    };
-    let length = text.trim().parse::<Length>().ok();
-    let width = length.and_then(|length| {
-        let units = match length.unit {
-            LengthUnit::None | LengthUnit::Px => 1.0,
-            LengthUnit::Mm => 96.0 / 25.4,
-            LengthUnit::Cm => 960.0 / 25.4,
-            LengthUnit::In => 96.0,
-            LengthUnit::Pt => 96.0 / 72.0,
-            LengthUnit::Pc => 16.0,
-            LengthUnit::Em | LengthUnit::Ex | LengthUnit::Percent => return None,
-        };
-        Some(length.number * units)
-    });
-    match width {
-        Some(width) if width.is_finite() && width >= 0.0 => {
-            Ok(Some(width).filter(|width| *width > 0.0))
-        }
-        Some(_) | None => Err(text),
-    }
-}
-
-/// The number behind `order-` in the name of the nearest group that has one.
-fn order_of(node: Node<'_, '_>) -> Option<u8> {
-    let orders = node
-        .ancestors()
-        .filter_map(|node| node.attribute("id")?.strip_prefix("order-"));
-    orders
-        .filter_map(|order| order.parse().ok())
-        .find(|order| *order > 0)
-}
-
-/// The parts of a path as polygons.
-fn flattened(data: &str, whole: DAffine2) -> Result<Vec<Vec<DVec2>>, String> {
+/// The parts of a shape as polygons.
+fn flattened(drawing: &Drawing<'_>, shape: &Shape<'_>) -> Result<Vec<Vec<DVec2>>, BadAttribute> {
+    let scale = mm_per_unit(drawing);
     let mut lines = Vec::new();
-    for mut part in parts(data)? {
+    for mut part in shape.parts()? {
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for cubic in &mut part {
-            cubic.0 = cubic.0.map(|p| whole.transform_point2(p));
+            cubic.0 = cubic.0.map(|p| p * scale);
             for p in cubic.0 {
                 if !p.is_finite() {
-                    return Err("a coordinate is not finite".to_owned());
+                    return Err(BadAttribute {
+                        attribute: "d",
+                        problem: "a coordinate is not finite".to_owned(),
+                    });
                 }
                 (low, high) = (low.min(p), high.max(p));
             }

@@ -4,14 +4,14 @@
 //! (`from_x_mm`, `from_y_mm`, `to_x_mm`, `to_y_mm`), or it names them (`from`, `to`) and a table of
 //! nodes has the places (`id`, `x_mm`, `y_mm`). Lines that begin with `#` are left out.
 
-use csv::{Reader, ReaderBuilder, StringRecord};
+use csv::StringRecord;
 
 use super::draft::Draft;
 use super::error::ImportError;
 use super::fields::{EdgeField, NodeField};
 use super::graph::{Builder, Text};
 use super::is_blank;
-use crate::document::rows::delimiter;
+use crate::document::rows::{Field, Ragged, Row, Rows};
 
 /// Reads a table of edges, and one of nodes if there is one.
 ///
@@ -37,11 +37,8 @@ pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportErro
             ),
         });
     }
-    let fields: Vec<Option<EdgeField>> = table
-        .header
-        .iter()
-        .map(|name| EdgeField::of(name))
-        .collect();
+    let is_of_skan = table.header.iter().any(|name| is_skans(name));
+    let fields = edge_fields(&table.header);
     let column = |wanted: &dyn Fn(EdgeField) -> bool| {
         fields.iter().position(|field| field.is_some_and(wanted))
     };
@@ -79,7 +76,12 @@ pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportErro
             if (is_place && nodes.is_some()) || (is_name && nodes.is_none()) {
                 continue;
             }
-            let value = table.number_text(value);
+            let is_course = matches!(field, EdgeField::Course(_) | EdgeField::CourseInRows(_));
+            let value = if is_course {
+                value.into()
+            } else {
+                table.number_text(value)
+            };
             let key = || name.clone();
             builder.edge_text(
                 field,
@@ -102,7 +104,8 @@ pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportErro
             builder.edge_with_places_is_done(both, place)?;
         }
     }
-    let mut draft = builder.draft;
+    let mut draft = builder.done();
+    draft.is_y_down |= is_of_skan;
     draft.segment_mm = edges
         .lines()
         .take_while(|line| line.starts_with('#'))
@@ -111,6 +114,24 @@ pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportErro
         in_order_of_numbers(&mut draft);
     }
     Ok(draft)
+}
+
+/// Whether a column is a row or a column of a skeleton of skan.
+fn is_skans(name: &str) -> bool {
+    ["coord", "image-coord", "image_coord"]
+        .iter()
+        .any(|start| name.starts_with(start))
+}
+
+/// What the columns of a table of edges hold. Skeletons of skan have places in pixels beside those
+/// in the unit of their lengths; these count.
+fn edge_fields(header: &[String]) -> Vec<Option<EdgeField>> {
+    let has_places = header.iter().any(|name| name.starts_with("coord"));
+    let fields = header.iter().map(|name| {
+        let is_pixel = has_places && name.starts_with("image");
+        EdgeField::of(name).filter(|_| !is_pixel)
+    });
+    fields.collect()
 }
 
 /// The length of a segment out of a line `# segment_mm = 0.12`.
@@ -149,7 +170,9 @@ fn is_of_nodes(header: &[String]) -> bool {
     let has_places = header
         .iter()
         .any(|name| matches!(NodeField::of(name), Some(NodeField::Coordinate(..))));
-    has_places && header.iter().all(|name| EdgeField::of(name).is_none())
+    let is_of_edges =
+        |name: &String| !matches!(EdgeField::of(name), None | Some(EdgeField::Nothing));
+    has_places && !header.iter().any(is_of_edges)
 }
 
 fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
@@ -227,16 +250,20 @@ fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
 }
 
 fn listed(names: &[String]) -> String {
-    names.join(", ")
+    const MOST: usize = 20;
+    let mut shown = names[..names.len().min(MOST)].join(", ");
+    if names.len() > MOST {
+        shown += &format!(" and {} more", names.len() - MOST);
+    }
+    shown
 }
 
 /// A table that is being read.
 struct Table<'t> {
+    /// Names of columns, safe to print.
     header: Vec<String>,
-    rows: Reader<&'t [u8]>,
-    /// Whether numbers may have a decimal comma: columns are parted by something else.
-    has_decimal_commas: bool,
-    row: StringRecord,
+    rows: Rows<'t>,
+    below: std::vec::IntoIter<Result<Row, Ragged>>,
 }
 
 impl<'t> Table<'t> {
@@ -245,14 +272,14 @@ impl<'t> Table<'t> {
         what: &'static str,
         is_known: &dyn Fn(&str) -> bool,
     ) -> Result<Self, ImportError> {
-        let delimiter = delimiter(text);
-        let mut rows = ReaderBuilder::new()
-            .delimiter(delimiter)
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_reader(text.trim_start_matches('\u{feff}').as_bytes());
-        let header = rows.headers().map_err(|error| malformed(&error))?;
-        let header: Vec<String> = header.iter().map(str::to_owned).collect();
+        let rows = Rows::of(text);
+        let mut below = rows.records().collect::<Vec<_>>().into_iter();
+        let names = below
+            .next()
+            .transpose()
+            .map_err(|ragged| malformed(&ragged))?;
+        let names = names.map_or_else(Vec::new, |row| row.fields);
+        let header: Vec<String> = names.iter().map(Field::shown).collect();
         if !header.iter().any(|name| is_known(name)) {
             return Err(ImportError::Missing {
                 place: "line 1".to_owned(),
@@ -265,26 +292,22 @@ impl<'t> Table<'t> {
         Ok(Self {
             header,
             rows,
-            has_decimal_commas: delimiter != b',',
-            row: StringRecord::new(),
+            below,
         })
     }
 
     /// The next row and its line.
     fn next(&mut self) -> Result<Option<(StringRecord, u64)>, ImportError> {
-        if !self
-            .rows
-            .read_record(&mut self.row)
-            .map_err(|error| malformed(&error))?
-        {
-            return Ok(None);
-        }
-        let line = self.row.position().map_or(0, csv::Position::line);
-        Ok(Some((self.row.clone(), line)))
+        let row = self.below.next().transpose();
+        let row = row.map_err(|ragged| malformed(&ragged))?;
+        Ok(row.map(|row| {
+            let texts = row.fields.into_iter().map(|field| field.text);
+            (texts.collect(), row.line as u64)
+        }))
     }
 
     fn number_text<'v>(&self, value: &'v str) -> std::borrow::Cow<'v, str> {
-        if self.has_decimal_commas && value.contains(',') {
+        if value.contains(',') && self.rows.is_number(value) {
             value.replace(',', ".").into()
         } else {
             value.into()
@@ -292,9 +315,9 @@ impl<'t> Table<'t> {
     }
 }
 
-fn malformed(error: &csv::Error) -> ImportError {
+fn malformed(ragged: &Ragged) -> ImportError {
     ImportError::Malformed {
         format: "table",
-        problem: error.to_string(),
+        problem: format!("line {}: {ragged}", ragged.line),
     }
 }

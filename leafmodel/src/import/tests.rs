@@ -1,5 +1,8 @@
 //! What is written is read back, what others write is read, and what is wrong is told.
 
+mod courses;
+mod drawings;
+
 use super::*;
 use crate::export;
 use crate::measure::{Blade, Known, Measures, Subject, Value, measure};
@@ -459,4 +462,28 @@ fn without_radii_and_margin_only_what_needs_them_is_missing() {
     let area = Subject::new(Blade::Area(outline.area()), &veins, Known::ALL).measures(3.0);
     let key = "vein_density_mm_per_mm2";
     assert_eq!(area.number(key), whole.number(key));
+}
+
+#[test]
+fn names_and_values_of_files_are_escaped_and_cut_in_messages() {
+    let long = "9".repeat(5000);
+    for text in [
+        "x1_mm;y1_mm;x2_mm;y\u{0}\u{1}µm\n0;0;0;1,5\n".to_owned(),
+        format!("from_x_mm,from_y_mm,to_x_mm,to_y_mm\n0,0,0,\u{1b}[2J{long}\n"),
+        format!("{long},\u{1b}[2J\n0,0\n"),
+        "from_x_mm,from_y_mm,to_x_mm,to_y_mm\n0,0,0\n".to_owned(),
+    ] {
+        let error = read(Format::Table, &text, None).expect_err("it is wrong");
+        let message = error.to_string();
+        assert!(!message.contains(|c: char| c.is_control()), "{message:?}");
+        assert!(message.chars().count() < 400, "{message}");
+    }
+    let nodes = "id,x_mm,y_mm\n\u{1b}[2J,0,0\n\u{1b}[2J,1,1\n";
+    let error = read(Format::Table, "from,to\na,b\n", Some(nodes)).expect_err("twice");
+    assert!(
+        error
+            .to_string()
+            .contains("two nodes are called \\u{1b}[2J"),
+        "{error}"
+    );
 }

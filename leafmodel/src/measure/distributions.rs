@@ -101,7 +101,7 @@ impl Subject<'_> {
     fn add_branches(&self, samples: &mut Vec<Sample>) {
         let graph = self.found.graph();
         let edges: Vec<[u32; 2]> = graph.edges().iter().map(|e| [e.from, e.to]).collect();
-        let skeleton = Skeleton::new(graph, &edges);
+        let skeleton = Skeleton::new(graph, &edges, self.network.segment_mm());
         for node in skeleton.nodes() {
             let out = skeleton.topology.leaving(node);
             let &[parent] = skeleton.topology.entering(node) else {

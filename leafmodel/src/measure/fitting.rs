@@ -134,7 +134,7 @@ mod tests {
         });
         let parameters = [("kill", 0.5, 3.0), ("birth", 3.0, 10.0)]
             .map(|(name, low, high)| Parameter::new(name, low, high).expect("a range"));
-        let problem = Problem::new(parameters.to_vec(), observed.collect(), 300, 1);
+        let problem = Problem::new(parameters.to_vec(), observed.collect(), 600, 1);
         let problem = problem.expect("a problem");
         let found = fit(&problem, |draws| {
             let grow = |values: &[f64], seed| measured(&grown(values[0], values[1], seed));
@@ -145,7 +145,7 @@ mod tests {
         for (told, truth) in found.parameters.iter().zip(truth) {
             let [_, _, [low, high]] = told.intervals;
             assert!((low..=high).contains(&truth), "{told:?}");
-            // 300 leaves; a thousand make it 0.83 to 0.96 (examples/fit_calibration).
+            // 600 leaves; a thousand make it 0.83 to 0.96 (examples/fit_calibration).
             assert!(told.contraction > 0.6, "{told:?}");
             assert_ne!(told.identified(), Identified::No);
         }

@@ -6,21 +6,25 @@ use crate::venation::network::VeinEdge;
 use crate::venation::planar::PlaneGraph;
 use crate::venation::topology::Topology;
 
-/// Number of edges over which directions at a junction are taken, at most up to the next junction.
-const LOOK: usize = 4;
+/// Length over which directions at a junction are taken, in segments of the network, at most up to the
+/// next junction. It is a length, so that nothing depends on how finely a vein is digitised.
+const LOOK_SEGMENTS: f64 = 4.0;
 
 /// A plane graph with its edges sorted by the nodes at their ends.
 pub(super) struct Skeleton<'a> {
     graph: &'a PlaneGraph,
     pub(super) topology: Topology<'a>,
+    /// Length over which directions are taken, mm.
+    look: f64,
 }
 
 impl<'a> Skeleton<'a> {
-    /// Sorts `edges`, which are the ends of the graph's.
-    pub(super) fn new(graph: &'a PlaneGraph, edges: &'a [[u32; 2]]) -> Self {
+    /// Sorts `edges`, which are the ends of the graph's; `segment_mm` is that of the network.
+    pub(super) fn new(graph: &'a PlaneGraph, edges: &'a [[u32; 2]], segment_mm: f64) -> Self {
         Self {
             graph,
             topology: Topology::new(graph.nodes().len(), edges),
+            look: LOOK_SEGMENTS * segment_mm,
         }
     }
 
@@ -53,28 +57,42 @@ impl<'a> Skeleton<'a> {
         self.topology.entering(node).len() + self.topology.leaving(node).len()
     }
 
-    /// Direction in which an edge leads away from its node, over a few edges.
+    /// Direction in which an edge leads away from its node, over a short length.
     pub(super) fn departure(&self, edge: u32) -> DVec2 {
-        let [from, mut ahead] = self.topology.edge(edge);
-        for _ in 1..LOOK {
-            match (self.degree(ahead), self.topology.leaving(ahead)) {
-                (2, &[next]) => ahead = self.topology.edge(next)[1],
-                _ => break,
-            }
-        }
-        self.place(ahead) - self.place(from)
+        let [from, ahead] = self.topology.edge(edge);
+        self.ahead(from, ahead, |node| match self.topology.leaving(node) {
+            &[next] => Some(self.topology.edge(next)[1]),
+            _ => None,
+        })
     }
 
-    /// Direction in which an edge comes to its node, over a few edges.
+    /// Direction in which an edge comes to its node, over a short length.
     pub(super) fn arrival(&self, edge: u32) -> DVec2 {
-        let [mut back, to] = self.topology.edge(edge);
-        for _ in 1..LOOK {
-            match (self.degree(back), self.topology.entering(back)) {
-                (2, &[before]) => back = self.topology.edge(before)[0],
-                _ => break,
+        let [back, to] = self.topology.edge(edge);
+        -self.ahead(to, back, |node| match self.topology.entering(node) {
+            &[before] => Some(self.topology.edge(before)[0]),
+            _ => None,
+        })
+    }
+
+    /// From a node by its neighbour and `next` along a vein to the length over which directions are
+    /// taken, or to the next junction.
+    fn ahead(&self, from: u32, neighbour: u32, next: impl Fn(u32) -> Option<u32>) -> DVec2 {
+        let start = self.place(from);
+        let (mut at, mut ahead, mut left) = (from, neighbour, self.look);
+        loop {
+            let step = self.place(ahead) - self.place(at);
+            let length = step.length();
+            if length >= left {
+                return self.place(at) + step * (left / length) - start;
+            }
+            left -= length;
+            match next(ahead).filter(|_| self.degree(ahead) == 2) {
+                // A ring of two ends where it began.
+                Some(other) if other != from => (at, ahead) = (ahead, other),
+                _ => return self.place(ahead) - start,
             }
         }
-        self.place(to) - self.place(back)
     }
 }
 

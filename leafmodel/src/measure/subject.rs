@@ -108,7 +108,7 @@ impl<'a> Subject<'a> {
             .iter()
             .map(|e| [e.from, e.to])
             .collect();
-        let skeleton = Skeleton::new(found.graph(), &edges);
+        let skeleton = Skeleton::new(found.graph(), &edges, self.network.segment_mm());
         let mut list = List::new(self.blade.area());
         list.shape(outline);
         list.count("crossing_count", found.graph().crossings());

@@ -4,9 +4,14 @@
 //! between the radii `r` and `s` over the length `l` has the conductance
 //! `g = 3 π r³ s³ / (8 μ l (r² + r s + s²))`, which is `π r⁴ / (8 μ l)` for a cylinder
 //! (\[sutera1993\]). Water enters at the petiole, the origins of the network, and leaves evenly along
-//! all veins: each edge loses half of its length's share at either end. With the drop of pressure
-//! `pᵢ` from the petiole to node `i`, which loses `qᵢ`, the **conductance** is
-//! `K = Q / p̄ = Q² / Σ qᵢ pᵢ`, with `Q = Σ qᵢ` and the mean drop `p̄` over all that leaves.
+//! all veins. With the drop of pressure `p` from the petiole and `Q` all that leaves, the
+//! **conductance** is `K = Q / p̄ = Q² / ∫ p dq`, with the mean drop `p̄` over all that leaves.
+//!
+//! The integral is exact, so that it does not depend on how finely veins are digitised: the flow in an
+//! edge falls evenly along it, so the drop between its ends is that of a pipe from which the water
+//! leaves at both ends, in the fractions in which the centre of its resistance parts its length. To the
+//! power `Σ qᵢ pᵢ` of these pipes each edge adds one of its own, `l³ / (4 r s (r² + r s + s²))` in units
+//! of `8 μ/π`, which is `l³ / 12 r⁴` for a cylinder.
 //!
 //! A vein holds many conduits far finer than itself, so `K` is far above that of a leaf; ratios
 //! between leaves and losses are what it is for.

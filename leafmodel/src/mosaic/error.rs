@@ -106,6 +106,17 @@ pub enum MosaicError {
         /// The greatest number of cells.
         most: usize,
     },
+    /// The types blend over so much more than cells that it would take minutes to find the borders.
+    #[error(
+        "types blend over {blend_mm} mm on a surface of {faces} faces, which takes more than two minutes: make `blend_mm` (of \
+         what is raised, `over_mm`) smaller, or the cells fewer"
+    )]
+    WideBlend {
+        /// The width, mm.
+        blend_mm: f64,
+        /// The number of faces of the surface.
+        faces: usize,
+    },
     /// The surface is not valid.
     #[error(transparent)]
     Surface(#[from] SurfaceError),

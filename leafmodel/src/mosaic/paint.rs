@@ -17,12 +17,14 @@ mod sheet;
 mod tests;
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::DVec2;
 use rayon::prelude::*;
 
 pub use self::sheet::SheetField;
 use super::control::{Controls, CylinderControl};
+use super::error::MosaicError;
 use super::patch::PatchFinder;
 use super::simulation::Mosaic;
 use super::surface::{Surface, SurfacePoint};
@@ -31,6 +33,12 @@ use crate::optics::{Contents, PerConstituent};
 
 /// Number of faces processed together.
 const CHUNK: usize = 256;
+/// Most faces that are laid out while borders are searched, which takes some two minutes of a
+/// processor.
+const MOST_LAID_OUT: u64 = 40_000_000;
+
+/// First search radius for borders, in mean distances between cells.
+const FIRST_RADIUS: f64 = 4.0;
 
 /// A border between cells of different types, in the frame of a face.
 #[derive(Clone, Copy, Debug)]
@@ -90,13 +98,24 @@ impl TypeField {
 
     /// The cells of a mosaic of a plan with `types` types.
     ///
+    /// # Errors
+    ///
+    /// [`MosaicError::WideBlend`] if it takes minutes to find the borders that every face feels.
+    ///
     /// # Panics
     ///
     /// If a cell's type is not below `types`.
-    pub fn of_mosaic(mosaic: &Mosaic, types: usize, blend_mm: f64) -> Self {
+    pub fn of_mosaic(mosaic: &Mosaic, types: usize, blend_mm: f64) -> Result<Self, MosaicError> {
         let sites: Vec<SurfacePoint> = mosaic.cells.iter().map(|cell| cell.at).collect();
         let kinds: Vec<u16> = mosaic.cells.iter().map(|cell| cell.kind).collect();
-        Self::new(&mosaic.surface, &sites, &kinds, types, blend_mm)
+        let surface = &*mosaic.surface;
+        let voronoi = Voronoi::new(surface, &sites);
+        Self::limited(surface, voronoi, &kinds, types, blend_mm, MOST_LAID_OUT).ok_or(
+            MosaicError::WideBlend {
+                blend_mm,
+                faces: surface.faces().len(),
+            },
+        )
     }
 
     /// The same from an existing tessellation.
@@ -107,27 +126,53 @@ impl TypeField {
         types: usize,
         blend_mm: f64,
     ) -> Self {
+        Self::limited(surface, voronoi, kinds, types, blend_mm, u64::MAX)
+            .expect("no count is greater")
+    }
+
+    /// As [`TypeField::of_cells`]; `None` if more faces than `most` have to be laid out to find
+    /// the borders that each face feels.
+    fn limited(
+        surface: &Surface,
+        voronoi: Voronoi,
+        kinds: &[u16],
+        types: usize,
+        blend_mm: f64,
+        most: u64,
+    ) -> Option<Self> {
         let count = surface.faces().len() as u32;
         let half_blend = 0.5 * blend_mm.max(0.0);
         let own: Vec<Vec<Border>> = (0..count)
             .map(|face| borders_in(&voronoi, kinds, face))
             .collect();
         let faces: Vec<u32> = (0..count).collect();
-        let borders = if half_blend == 0.0 {
+        let mut bordering: Vec<u16> = own.iter().flatten().flat_map(|own| own.kinds).collect();
+        bordering.sort_unstable();
+        bordering.dedup();
+        // Cells of one type have no borders, however wide the blend: nothing is searched for them.
+        let borders = if half_blend == 0.0 || bordering.is_empty() {
             vec![Vec::new(); faces.len()]
         } else {
-            faces
+            let spacing = (surface.total_area() / kinds.len() as f64).sqrt();
+            let borders = Borders {
+                surface,
+                own: &own,
+                bordering: &bordering,
+                spacing,
+                laid_out: AtomicU64::new(0),
+                most,
+            };
+            let found: Option<Vec<Vec<Vec<Border>>>> = faces
                 .par_chunks(CHUNK)
-                .flat_map_iter(|chunk| {
+                .map(|chunk| {
                     let mut finder = PatchFinder::new(surface);
-                    chunk
-                        .iter()
-                        .map(|&face| felt(surface, &mut finder, &own, face, half_blend))
-                        .collect::<Vec<_>>()
+                    let felt = |&face: &u32| borders.felt(&mut finder, face, half_blend);
+                    chunk.iter().map(felt).collect()
                 })
-                .collect()
+                .collect();
+            found?.into_iter().flatten().collect()
         };
-        Self {
+        Some(Self {
             voronoi,
             corners: (0..count).map(|face| surface.corners(face)).collect(),
             kinds: kinds.to_vec(),
@@ -135,7 +180,7 @@ impl TypeField {
             half_blend,
             borders,
             bare: None,
-        }
+        })
     }
 
     /// The same with controls applied: places that they block are bare.
@@ -306,30 +351,71 @@ fn borders_in(voronoi: &Voronoi, kinds: &[u16], face: u32) -> Vec<Border> {
     borders
 }
 
-/// The borders around a face that lie within `reach` of it.
-fn felt(
-    surface: &Surface,
-    finder: &mut PatchFinder,
-    own: &[Vec<Border>],
-    face: u32,
-    reach: f64,
-) -> Vec<Border> {
-    let corners = surface.corners(face);
-    let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-    let size = corners.map(|corner| corner.distance(centre));
-    let reach_of_centre = reach + size[0].max(size[1]).max(size[2]);
-    let mut borders = Vec::new();
-    for (other, unfold) in finder.patch(face, reach).faces() {
-        for border in &own[*other as usize] {
-            let (from, to) = (unfold.apply(border.from), unfold.apply(border.to));
-            if distance_to_segment(from, to, centre) <= reach_of_centre {
-                borders.push(Border {
-                    from,
-                    to,
-                    kinds: border.kinds,
-                });
+/// What the borders that faces feel are found in.
+struct Borders<'a> {
+    surface: &'a Surface,
+    /// For each face the borders within it.
+    own: &'a [Vec<Border>],
+    /// The types that have borders.
+    bordering: &'a [u16],
+    /// Mean distance between cells, mm.
+    spacing: f64,
+    /// Faces laid out so far, and how many may be.
+    laid_out: AtomicU64,
+    most: u64,
+}
+
+impl Borders<'_> {
+    /// The borders within `reach` of a face that may be the nearest of one of their types at a point
+    /// of it; `None` if too many faces have been laid out.
+    fn felt(&self, finder: &mut PatchFinder, face: u32, reach: f64) -> Option<Vec<Border>> {
+        let corners = self.surface.corners(face);
+        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let size = corners.map(|corner| corner.distance(centre));
+        let size = size[0].max(size[1]).max(size[2]);
+        let mut radius = reach.min(FIRST_RADIUS * self.spacing);
+        loop {
+            let patch = finder.patch(face, radius);
+            let laid_out = patch.faces().len() as u64;
+            if self.laid_out.fetch_add(laid_out, Ordering::Relaxed) + laid_out > self.most {
+                return None;
             }
+            let mut borders = Vec::new();
+            let mut nearest = vec![f64::INFINITY; self.bordering.len()];
+            let places = |kinds: [u16; 2]| {
+                kinds.map(|kind| self.bordering.partition_point(|&other| other < kind))
+            };
+            for (other, unfold) in patch.faces() {
+                for border in &self.own[*other as usize] {
+                    let (from, to) = (unfold.apply(border.from), unfold.apply(border.to));
+                    let distance = distance_to_segment(from, to, centre);
+                    if distance <= reach + size {
+                        for place in places(border.kinds) {
+                            nearest[place] = nearest[place].min(distance);
+                        }
+                        borders.push((
+                            distance,
+                            Border {
+                                from,
+                                to,
+                                kinds: border.kinds,
+                            },
+                        ));
+                    }
+                }
+            }
+            // Seen from any point of the face, nothing beyond is nearer than what was found.
+            let farthest = nearest.iter().copied().fold(0.0, f64::max) + 2.0 * size;
+            if radius < reach && farthest > radius {
+                radius = reach.min(2.0 * radius);
+                continue;
+            }
+            borders.retain(|(distance, border)| {
+                places(border.kinds)
+                    .iter()
+                    .any(|&place| *distance <= nearest[place] + 2.0 * size)
+            });
+            return Some(borders.into_iter().map(|(_, border)| border).collect());
         }
     }
-    borders
 }

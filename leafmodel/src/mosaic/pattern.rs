@@ -59,12 +59,43 @@ pub enum PatternError {
         /// For how many there are contents.
         contents: usize,
     },
+    /// Cells spread over so many triangles that it would take minutes to find those near each.
+    #[error(
+        "the surface has {faces} triangles for {cells} cells, so that each triangle would be \
+         compared with {} others, {:.0e} times in all, more than {MOST_VISITS:.0e}: make the body \
+         less slender, or its mesh coarser",
+        (visits(*faces, *cells) / *faces as f64).round(),
+        visits(*faces, *cells)
+    )]
+    TooFine {
+        /// How many triangles there are.
+        faces: usize,
+        /// How many cells.
+        cells: usize,
+    },
     /// The width of the blend is out of range.
     #[error("blend_mm is {blend_mm}, it must be from 0 to 100")]
     Blend {
         /// Its width, mm.
         blend_mm: f64,
     },
+}
+
+/// Most triangles that are visited to find the cells near each: some 20 ns each.
+const MOST_VISITS: f64 = 3e9;
+
+/// How many triangles are visited to find those within two mean distances between cells of each.
+fn visits(faces: usize, cells: usize) -> f64 {
+    let faces = faces as f64;
+    faces * (4.0 * std::f64::consts::PI * faces / cells.max(1) as f64).min(faces)
+}
+
+/// Refuses a surface of too many triangles for so few cells.
+fn check_fineness(faces: usize, cells: usize) -> Result<(), PatternError> {
+    if visits(faces, cells) > MOST_VISITS {
+        return Err(PatternError::TooFine { faces, cells });
+    }
+    Ok(())
 }
 
 impl MosaicPattern {
@@ -112,15 +143,22 @@ impl MosaicPattern {
     ) -> Result<(Mosaic, TypeField), PatternError> {
         self.validate()?;
         let days = [self.plan.days];
+        let faces = surface.faces().len();
+        check_fineness(faces, self.plan.most_cells())?;
         let mosaic = Mosaic::grow_until(surface, &self.plan, seed, &days, is_stopped)?.remove(0);
-        let field = self.field(&mosaic, self.blend_mm);
+        check_fineness(faces, mosaic.cells.len())?;
+        let field = self.field(&mosaic, self.blend_mm)?;
         Ok((mosaic, field))
     }
 
     /// The types of a mosaic of this plan at every point, blended over another width, mm.
-    pub fn field(&self, mosaic: &Mosaic, blend_mm: f64) -> TypeField {
-        let field = TypeField::of_mosaic(mosaic, self.plan.types.len(), blend_mm);
-        field.heeding(Arc::clone(&mosaic.surface), &self.plan.controls)
+    ///
+    /// # Errors
+    ///
+    /// [`MosaicError::WideBlend`].
+    pub fn field(&self, mosaic: &Mosaic, blend_mm: f64) -> Result<TypeField, PatternError> {
+        let field = TypeField::of_mosaic(mosaic, self.plan.types.len(), blend_mm)?;
+        Ok(field.heeding(Arc::clone(&mosaic.surface), &self.plan.controls))
     }
 
     /// Grows the mosaic on a leaf's lamina.

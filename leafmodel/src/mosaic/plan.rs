@@ -229,6 +229,24 @@ impl MosaicPlan {
         self.initial_cells as f64 * kind.initial_probability * times
     }
 
+    /// More cells than there will be: all divide as the fastest type does where controls let it
+    /// divide most.
+    pub(super) fn most_cells(&self) -> usize {
+        if self.growth != SurfaceGrowth::None {
+            return MOST_CELLS;
+        }
+        let factors = self.controls.iter().map(|control| match control.steers {
+            Steered::DivisionRate { low, high, .. } => low.max(high).max(1.0),
+            Steered::InitialType(_) | Steered::Adhesion { .. } | Steered::Blocked => 1.0,
+        });
+        let fastest = self.types.iter().map(|kind| kind.division_days);
+        let days = fastest.fold(f64::INFINITY, f64::min) / factors.product::<f64>();
+        // Cells whose times are Poisson distributed grow by e^r a day with e^(−r) = 1 − ln 2 / days;
+        // 0.8 leaves room.
+        let growth = -libm::log1p(-(0.8 / days).min(1.0)) * self.days;
+        (self.initial_cells as f64 * libm::exp(growth)).min(MOST_CELLS as f64) as usize
+    }
+
     fn cells(&self, days: f64) -> f64 {
         (0..self.types.len()).fold(0.0, |sum, number| sum + self.cells_of(number, days))
     }

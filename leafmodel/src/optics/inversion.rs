@@ -4,8 +4,8 @@
 //!   which contents are free.
 //! - **Out**: the contents of the least sum of squares, their standard errors, and what is left.
 //! - **Always true**: contents are in range; the same spectra give the same bits.
-//! - **Left out**: errors of the model itself. Standard errors take what is left as independent
-//!   from one wavelength to the next, which noise is and the model's own error is not.
+//! - **Left out**: what the model's own error shifts. Where what is left is correlated along a
+//!   spectrum, as smooth noise and the model's own error are, errors are wider ([`correlated`]).
 //!
 //! PROSPECT has one face. Where the abaxial one was measured too, its reflectance is that of the
 //! adaxial face times [`abaxial_ratio`], whose contrast is one more unknown: a rule, not a model of
@@ -30,15 +30,20 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod correlated;
 pub mod least_squares;
 
 use super::faces::{CONTRASTS, USUAL_CONTRAST, abaxial_ratio};
 use super::prospect_d::OutsideTable;
 use super::{Coefficients, Constituent, Contents, PerConstituent, ProspectD};
-use least_squares::{Parameter, minimise};
+use correlated::{Correlation, Fitted};
+use least_squares::{Minimum, Parameter, State, minimise};
 
 /// Greatest number of wavelengths on which starts compete.
 const FEW: usize = 64;
+
+/// Half of the width of an interval of 95 % in standard errors, by the normal distribution.
+pub const INTERVAL: f64 = 1.96;
 
 /// Greatest structure that is looked for; measured leaves have 1 to 3.
 const MOST_STRUCTURE: f64 = 5.0;
@@ -66,6 +71,7 @@ pub struct Spectra<'a> {
 /// What is looked for, at which wavelengths.
 #[derive(Clone, Debug)]
 pub struct Inversion {
+    nm: Vec<f64>,
     coefficients: Vec<Coefficients>,
     free: Vec<Constituent>,
     fixed: Contents,
@@ -74,11 +80,15 @@ pub struct Inversion {
 /// What was found.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// The contents; those that were not free as they were given.
+    /// The contents; those that were not free as they were given, those that are not determined as
+    /// the model took them.
     pub contents: Contents,
-    /// Standard errors; `None` for a content that was not free, is at the end of its range, or is
-    /// not told by the spectra.
-    pub errors: PerConstituent<Option<f64>>,
+    /// What is known of each content.
+    pub known: PerConstituent<Determined>,
+    /// Covariances of what is determined.
+    pub covariance: Covariance,
+    /// How what is left is correlated along the spectra, if it is.
+    pub correlation: Option<Correlation>,
     /// How much brighter the abaxial face is, if it was measured.
     pub contrast: Option<Contrast>,
     /// Found less measured, at each wavelength: reflectance; empty if there is none.
@@ -94,8 +104,54 @@ pub struct Found {
 pub struct Contrast {
     /// The contrast.
     pub value: f64,
-    /// Its standard error; `None` at the end of its range, or if the spectra do not tell it.
-    pub error: Option<f64>,
+    /// What is known of it.
+    pub known: Determined,
+}
+
+/// What spectra say of a content.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Determined {
+    /// It was not looked for.
+    Given,
+    /// Its value, with this standard error.
+    Within(f64),
+    /// It is at the end of its range, beyond which the spectra would fit better.
+    AtEnd,
+    /// Nothing, for this reason.
+    Not(&'static str),
+}
+
+impl Determined {
+    /// The standard error.
+    pub fn error(self) -> Option<f64> {
+        match self {
+            Self::Within(error) => Some(error),
+            Self::Given | Self::AtEnd | Self::Not(_) => None,
+        }
+    }
+
+    /// Whether there is a value.
+    pub fn has_value(self) -> bool {
+        !matches!(self, Self::Not(_))
+    }
+
+    /// Why there is no value, or no error.
+    pub fn reason(self) -> Option<&'static str> {
+        match self {
+            Self::Given | Self::Within(_) => None,
+            Self::AtEnd => Some("at the end of its range"),
+            Self::Not(reason) => Some(reason),
+        }
+    }
+}
+
+/// Covariances of what was found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Covariance {
+    /// Contents, and `None` for the contrast of the faces.
+    pub of: Vec<Option<Constituent>>,
+    /// In their order.
+    pub rows: Vec<Vec<f64>>,
 }
 
 impl Found {
@@ -141,6 +197,7 @@ impl Inversion {
     pub fn new(nm: &[f64], free: &[Constituent], fixed: Contents) -> Result<Self, OutsideTable> {
         let coefficients = nm.iter().map(|&nm| ProspectD::coefficients(nm));
         Ok(Self {
+            nm: nm.to_vec(),
             coefficients: coefficients.collect::<Result<_, _>>()?,
             free: free.to_vec(),
             fixed,
@@ -162,26 +219,114 @@ impl Inversion {
         let best = tried.min_by(|a, b| a.sum.total_cmp(&b.sum));
         let start = best.map_or_else(Vec::new, |best| best.parameters);
         let found = minimise(&known, &start, |at| self.left(at, spectra, 1));
-        let mut errors = PerConstituent::splat(None);
-        for (&of, error) in self.free.iter().zip(&found.errors) {
-            errors[of] = *error;
+        let (states, covariance, correlation) = self.determined(&known, &found, spectra);
+        let mut of_contents = PerConstituent::splat(Determined::Given);
+        for (&of, state) in self.free.iter().zip(&states) {
+            of_contents[of] = *state;
         }
-        let mut left = self.left(&found.parameters, spectra, 1).into_iter();
+        let mut left = found.left.into_iter();
         let mut taken = |is_there: bool| -> Vec<f64> {
             let count = if is_there { self.coefficients.len() } else { 0 };
             left.by_ref().take(count).collect()
         };
         Found {
             contents: self.with(&found.parameters),
-            errors,
+            known: of_contents,
+            covariance,
+            correlation,
             contrast: spectra.abaxial.map(|_| Contrast {
                 value: found.parameters[self.free.len()],
-                error: found.errors[self.free.len()],
+                known: states[self.free.len()],
             }),
             reflectance_left: taken(spectra.reflectance.is_some()),
             abaxial_left: taken(spectra.abaxial.is_some()),
             transmittance_left: taken(spectra.transmittance.is_some()),
         }
+    }
+
+    /// What is known of each unknown, the covariance of those that are determined, and the
+    /// correlation of what is left.
+    fn determined(
+        &self,
+        known: &[Parameter],
+        found: &Minimum,
+        spectra: Spectra<'_>,
+    ) -> (Vec<Determined>, Covariance, Option<Correlation>) {
+        let numbers: Vec<usize> = (0..known.len())
+            .filter(|&i| found.states[i] == State::Determined)
+            .collect();
+        let mut rows = found.covariance();
+        let correlated = self.correlated(found, spectra);
+        if let Some((wider, _)) = &correlated {
+            widen(&mut rows, wider);
+        }
+        let mut states: Vec<Determined> = found
+            .states
+            .iter()
+            .map(|state| match state {
+                // Those that are determined follow.
+                State::AtBound | State::Determined => Determined::AtEnd,
+                State::WithoutInfluence => Determined::Not("these values do not depend on it"),
+                State::LikeOthers => Determined::Not("others change these values alike"),
+                State::TooFewResiduals => {
+                    Determined::Not("there are not more values than unknowns")
+                }
+            })
+            .collect();
+        let mut kept = Vec::new();
+        for (place, &i) in numbers.iter().enumerate() {
+            let error = rows[place][place].sqrt();
+            let [low, high] = known[i].bounds;
+            let reach = INTERVAL * error;
+            let is_all = found.parameters[i] - reach <= low && found.parameters[i] + reach >= high;
+            states[i] = if is_all {
+                Determined::Not("its interval of 95 % covers its whole range")
+            } else {
+                kept.push(place);
+                Determined::Within(error)
+            };
+        }
+        let covariance = Covariance {
+            of: kept
+                .iter()
+                .map(|&place| self.free.get(numbers[place]).copied())
+                .collect(),
+            rows: kept
+                .iter()
+                .map(|&a| kept.iter().map(|&b| rows[a][b]).collect())
+                .collect(),
+        };
+        (states, covariance, correlated.map(|found| found.1))
+    }
+
+    /// The covariance of what is determined, if what is left is correlated along the spectra.
+    fn correlated(
+        &self,
+        found: &Minimum,
+        spectra: Spectra<'_>,
+    ) -> Option<(Vec<Vec<f64>>, Correlation)> {
+        if !self.nm.is_sorted() {
+            return None;
+        }
+        let measured = [spectra.reflectance, spectra.abaxial, spectra.transmittance];
+        let measured: Vec<&[f64]> = measured.into_iter().flatten().collect();
+        let count = self.nm.len();
+        let left = found.left.chunks_exact(count.max(1));
+        let values: Vec<Vec<f64>> = measured
+            .iter()
+            .zip(left.clone())
+            .map(|(measured, left)| measured.iter().zip(left).map(|(a, b)| a + b).collect())
+            .collect();
+        let fitted: Vec<Fitted<'_>> = values
+            .iter()
+            .zip(left)
+            .map(|(values, left)| Fitted {
+                nm: &self.nm,
+                values,
+                left,
+            })
+            .collect();
+        correlated::covariance(&fitted, &found.influence, found.unknowns)
     }
 
     fn with(&self, values: &[f64]) -> Contents {
@@ -217,6 +362,19 @@ impl Inversion {
         of_r.append(&mut of_abaxial);
         of_r.append(&mut of_t);
         of_r
+    }
+}
+
+/// Widens covariances so that no variance is below another one's. Correlations of the parameters are
+/// those of the other.
+fn widen(rows: &mut [Vec<f64>], wider: &[Vec<f64>]) {
+    let factors: Vec<f64> = (0..rows.len())
+        .map(|i| (rows[i][i] / wider[i][i]).max(1.0).sqrt())
+        .collect();
+    for (i, row) in rows.iter_mut().enumerate() {
+        for (j, value) in row.iter_mut().enumerate() {
+            *value = wider[i][j] * factors[i] * factors[j];
+        }
     }
 }
 

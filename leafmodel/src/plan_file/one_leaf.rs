@@ -13,11 +13,12 @@ use crate::document::nearest::nearest;
 use crate::document::opened::Opened;
 use crate::document::overrides;
 use crate::document::reader::Block;
-use crate::document::report::DocumentErrors;
+use crate::document::report::{DocumentErrors, Warning};
 use crate::document::source::{Place, Sources, escaped};
 use crate::document::tree::Table;
 use crate::document::written::Extent;
 use crate::leaf::LeafPlan;
+use crate::species;
 
 /// Where a leaf is described.
 #[derive(Clone, Copy, Debug)]
@@ -93,18 +94,31 @@ fn meant(nearest: Option<&str>) -> String {
 /// # Errors
 ///
 /// [`LeafNotChosen`]; messages about values are those of any scene.
+///
+/// What is allowed but probably not meant comes with the leaf.
 pub fn load_one_leaf(
     file: LeafFile<'_>,
     assets: Option<&'static dyn Assets>,
     veins_alone: bool,
     overridden: &[String],
     settings: &[String],
-) -> Result<Named<LeafPlan>, LeafNotChosen> {
+) -> Result<(Named<LeafPlan>, Vec<Warning>), LeafNotChosen> {
+    // The plan with all its keys, which short ones are looked up in.
+    let mut in_full_text = None;
     let mut opened = match file {
         LeafFile::File { path, .. } => Opened::file(path, overridden, schema)?,
         LeafFile::Plan { name, plan } => {
-            let text = leaf_to_toml(name, plan, Extent::Changed);
-            Opened::text(&text, name, Path::new("."), overridden, schema)?
+            let folder = Path::new(".");
+            let whole = leaf_to_toml(name, plan, Extent::Changed);
+            let whole = Opened::text(&whole, name, folder, overridden, schema)?;
+            if species::find(name).is_some_and(|preset| preset.plan() == *plan) {
+                // Another kind of outline or veins then takes the place of the preset's, as in a file.
+                in_full_text = Some(whole);
+                let text = format!("format = 1\n[leaves.{name}]\npreset = \"{name}\"\n");
+                Opened::text(&text, name, folder, overridden, schema)?
+            } else {
+                whole
+            }
         }
     };
     opened.cx.assets = assets;
@@ -125,7 +139,7 @@ pub fn load_one_leaf(
     };
     let chosen = chosen.cloned();
     if let Some(name) = chosen.as_ref().filter(|_| !settings.is_empty()) {
-        let known = known_keys(&opened, name);
+        let known = known_keys(in_full_text.as_ref().unwrap_or(&opened), name);
         let types = schema();
         for setting in settings {
             let text = in_full(setting, name, &known)?;
@@ -137,10 +151,11 @@ pub fn load_one_leaf(
     } else {
         plans(&opened)
     };
-    let (leaves, _) = opened.finish(leaves)?;
+    let (leaves, warnings) = opened.finish(leaves)?;
     leaves
         .into_iter()
         .find(|leaf| Some(&leaf.name) == chosen.as_ref())
+        .map(|leaf| (leaf, warnings))
         .ok_or_else(|| LeafNotChosen::WhichLeaf {
             file: match file {
                 LeafFile::File { path, .. } => path.display().to_string(),
@@ -244,7 +259,7 @@ mod tests {
             plan: &plan,
         };
         let settings: Vec<String> = settings.iter().map(|text| (*text).to_owned()).collect();
-        load_one_leaf(file, None, false, &[], &settings).map(|leaf| leaf.value)
+        load_one_leaf(file, None, false, &[], &settings).map(|(leaf, _)| leaf.value)
     }
 
     fn auxin(plan: &LeafPlan) -> &AuxinPlan {
@@ -263,9 +278,52 @@ mod tests {
                 name: preset.name,
                 plan: &plan,
             };
-            let leaf = load_one_leaf(file, None, false, &[], &[])
+            let (leaf, _) = load_one_leaf(file, None, false, &[], &[])
                 .unwrap_or_else(|error| panic!("{error}"));
             assert_eq!((leaf.name.as_str(), leaf.value), (preset.name, plan));
+        }
+    }
+
+    #[test]
+    fn a_setting_puts_another_kind_in_the_place_of_a_presets_as_a_file_does() {
+        // Paths beside a preset start at the working folder.
+        let folder = tempfile::tempdir_in(".").expect("a folder");
+        let drawing = "<svg xmlns=\"http://www.w3.org/2000/svg\"><g display=\"none\"><path d=\"M0 0H1V1Z\"/></g>\
+            <path d=\"M5 9 L7 6 L5 1 L3 6 Z\"/></svg>";
+        std::fs::write(folder.path().join("leaf.svg"), drawing).expect("it can be written");
+        let path = folder.path().join("leaf.toml");
+        for preset in ["birch", "poplar", "reticulate"] {
+            let text = format!("format = 1\n[leaves.{preset}]\npreset = \"{preset}\"\n");
+            std::fs::write(&path, text).expect("it can be written");
+            let setting = ["outline.svg.path=leaf.svg".to_owned()];
+            let in_file = LeafFile::File {
+                path: &path,
+                leaf: None,
+            };
+            let (expected, warnings) = load_one_leaf(in_file, None, true, &[], &setting)
+                .unwrap_or_else(|error| panic!("{preset}: {error}"));
+            assert!(matches!(expected.value.outline.contour, Contour::Svg(_)));
+            assert_eq!(warnings.len(), 1, "{warnings:?}");
+            assert!(
+                warnings[0].message().contains("are hidden"),
+                "{}",
+                warnings[0].message()
+            );
+            let plan = species::find(preset).expect("a preset").plan();
+            let shown = folder.path().file_name().expect("a name").to_string_lossy();
+            let named = LeafFile::Plan {
+                name: preset,
+                plan: &plan,
+            };
+            let setting = format!("outline.svg.path={shown}/leaf.svg");
+            let (found, _) = load_one_leaf(named, None, true, &[], &[setting])
+                .unwrap_or_else(|error| panic!("{preset}: {error}"));
+            let (Contour::Svg(found), Contour::Svg(expected)) =
+                (found.value.outline.contour, expected.value.outline.contour)
+            else {
+                panic!("{preset}: no drawing");
+            };
+            assert_eq!(found.points, expected.points);
         }
     }
 

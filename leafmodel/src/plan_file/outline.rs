@@ -6,6 +6,7 @@ use super::development::{self, development};
 use super::growth_form::{self, growth_form};
 use super::specimen::{self, specimen, teeth};
 use crate::document::context::{Context, QUOTED};
+use crate::document::encoding::{Decoded, decoded};
 use crate::document::error::DocumentError;
 use crate::document::keys::{BlockList, Keys, Variant};
 use crate::document::limits::Limits;
@@ -294,10 +295,16 @@ fn read_svg(named: &SvgContour, keys: &Keys<'_>) -> Option<SvgContour> {
     let block = keys.reader()?;
     let (path, at) = text_at(block.cx, block.node("path")?, "path")?;
     let file = resolve(block.cx, path, at, WANTED)?;
-    let text = fs::read_to_string(file)
+    let text = fs::read(file)
         .map_err(|error| format!("cannot be read: {error}"))
-        .map_err(|problem| (problem, "make it a readable UTF-8 file"));
-    let parsed = text.and_then(|text| {
+        .and_then(|bytes| decoded(&bytes).map_err(|error| error.to_string()))
+        .map_err(|problem| {
+            (
+                problem,
+                "make it a readable text file, in UTF-8 for example",
+            )
+        });
+    let parsed = text.and_then(|Decoded { text, .. }| {
         let reading = SvgContour::read(path, &text, named.id.as_deref());
         reading.map_err(|error| (error.to_string(), help(&error)))
     });
@@ -326,6 +333,14 @@ fn warn_of_guesses(cx: &Context, at: &Place, reading: &SvgReading) {
         );
         let help = "name the margin's path by its `id`";
         cx.warn(at, "scene::first_path", message, help);
+    }
+    if !reading.left_out.is_empty() {
+        let message = format!(
+            "of \"{path}\" the following is left out: {}",
+            escaped(&reading.left_out.join("; "), 8 * QUOTED)
+        );
+        let help = "name the margin's path by its `id` if another one is meant";
+        cx.warn(at, "scene::left_out_of_drawing", message, help);
     }
     if reading.gap > GAP {
         let message = format!(

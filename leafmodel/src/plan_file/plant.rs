@@ -20,6 +20,7 @@ pub fn plant_preset(plan: &mut PlantPlan, keys: &mut Keys<'_>) {
         kind: "preset",
         all: PRESETS,
         name_of: |preset| preset.name,
+        about: |preset| preset.about,
     };
     let mut preset = None;
     let about = "A plant whose numbers hold where nothing else is said.";
@@ -27,6 +28,8 @@ pub fn plant_preset(plan: &mut PlantPlan, keys: &mut Keys<'_>) {
     if let Some(preset) = preset {
         *plan = preset.plan();
         keys.set_base(preset.name);
+    } else if keys.has_path(&["preset"]) {
+        keys.set_unknown_base();
     }
 }
 

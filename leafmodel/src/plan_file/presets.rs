@@ -3,7 +3,7 @@
 use crate::document::context::{Context, QUOTED};
 use crate::document::error::DocumentError;
 use crate::document::keys::Keys;
-use crate::document::nearest::nearest;
+use crate::document::nearest::meant;
 use crate::document::schema::Type;
 use crate::document::source::escaped;
 use crate::document::tree::{Node, Value};
@@ -18,6 +18,8 @@ pub(super) struct Chosen<T: 'static> {
     pub(super) kind: &'static str,
     pub(super) all: &'static [T],
     pub(super) name_of: fn(&T) -> &'static str,
+    /// What it is, in words.
+    pub(super) about: fn(&T) -> &'static str,
 }
 
 impl<T> Kind for Chosen<T> {
@@ -31,7 +33,12 @@ impl<T> Kind for Chosen<T> {
             let error = DocumentError::UnknownName {
                 kind: self.kind,
                 name: escaped(written, QUOTED),
-                nearest: nearest(written, names()).map(str::to_owned),
+                nearest: meant(
+                    written,
+                    self.all
+                        .iter()
+                        .map(|one| ((self.name_of)(one), (self.about)(one))),
+                ),
                 known: listed(names()),
             };
             cx.error(at, error);
@@ -56,6 +63,7 @@ pub fn leaf_preset(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
         kind: "preset",
         all: species::PRESETS,
         name_of: |preset| preset.name,
+        about: |preset| preset.about,
     };
     let mut preset = None;
     let about = "A leaf whose numbers hold where nothing else is said: see `lamina grow --list`.";
@@ -73,6 +81,8 @@ pub fn leaf_preset(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
             }
             keys.set_base(preset.name);
         }
+        // Whatever is missing would be the preset's.
+        (None, _) if keys.has_path(&["preset"]) => keys.set_unknown_base(),
         (None, Some(_)) => keys.refuse(
             &["individual"],
             "a leaf without a preset is of no plant".to_owned(),
@@ -89,6 +99,7 @@ pub fn colour_preset(contents: &mut Contents, keys: &mut Keys<'_>) {
         kind: "preset",
         all: &presets::ALL,
         name_of: |preset| preset.name,
+        about: |preset| preset.about,
     };
     let mut preset = None;
     let about =
@@ -97,5 +108,7 @@ pub fn colour_preset(contents: &mut Contents, keys: &mut Keys<'_>) {
     if let Some(preset) = preset {
         *contents = preset.contents;
         keys.set_base(preset.name);
+    } else if keys.has_path(&["preset"]) {
+        keys.set_unknown_base();
     }
 }

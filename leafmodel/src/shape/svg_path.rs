@@ -4,21 +4,17 @@
 //! - **Out**: the contour as a polygon in the coordinates of the file, and from it an [`Outline`]
 //!   of any length.
 //! - **Always true**: transforms of the path and of its ancestors are applied; the polygon stays
-//!   within 10⁻⁴ of the path's extent of its curves.
-//! - **Left out**: shapes other than `path`, style sheets, and the `viewBox`, which moves and
-//!   scales everything alike.
+//!   within 10⁻⁴ of the path's extent of its curves; hidden elements are skipped.
+//! - **Left out**: the `viewBox`, which moves and scales everything alike.
 //!
 //! In SVG y points down: the base is the lowest point of the contour as one sees it, the apex the
 //! highest, unless both are given.
 
-pub(crate) mod path_data;
-
-use glam::{DAffine2, DMat2, DVec2};
-use roxmltree::{Document, Node, ParsingOptions};
-use svgtypes::{TransformListParser, TransformListToken};
+use glam::DVec2;
 use thiserror::Error;
 
 use super::cubic::FLATNESS;
+use super::drawing::{self, BadAttribute, Drawing, Shape};
 use super::outline::{Outline, OutlineError};
 
 /// Greatest number of corners of a polygon.
@@ -50,6 +46,8 @@ pub struct SvgReading {
     pub gap: f64,
     /// How many other paths are drawn, of which none was asked for by its `id`.
     pub passed_over: usize,
+    /// What else of the drawing is left out, unless a path was asked for by its `id`: a line per reason.
+    pub left_out: Vec<String>,
 }
 
 /// Why a file gives no contour.
@@ -62,7 +60,7 @@ pub enum SvgError {
         problem: String,
     },
     /// There is no path.
-    #[error("has no path that is drawn; turn shapes into paths")]
+    #[error("has no path or basic shape that is drawn")]
     NoPath,
     /// No path has that `id`.
     #[error("has no path with the id \"{id}\"")]
@@ -70,10 +68,10 @@ pub enum SvgError {
         /// The name.
         id: String,
     },
-    /// Path data or a transform cannot be read.
+    /// Path data, a length or a transform cannot be read.
     #[error("has an attribute `{attribute}` that cannot be read: {problem}")]
     BadAttribute {
-        /// `d`, `transform` or `style`.
+        /// `d`, `transform`, `style`, or a length of a basic shape.
         attribute: &'static str,
         /// What is wrong.
         problem: String,
@@ -113,39 +111,32 @@ impl SvgContour {
     ///
     /// [`SvgError`]; its messages are written to follow the name of the file.
     pub fn read(file: &str, text: &str, id: Option<&str>) -> Result<SvgReading, SvgError> {
-        // Drawing programs write a document type with entities into their files.
-        let options = ParsingOptions {
-            allow_dtd: true,
-            nodes_limit: 10_000_000,
-            ..ParsingOptions::default()
-        };
-        let document = Document::parse_with_options(text, options).map_err(|error| {
-            let problem = error.to_string();
-            SvgError::NotXml { problem }
-        })?;
-        let path = find(&document, id)?;
-        let passed_over = match id {
-            Some(_) => 0,
-            None => paths(&document)
-                .filter(|&other| other != path && is_drawn(other))
-                .count(),
-        };
-        let data = path.attribute("d").unwrap_or_default();
-        let parts = path_data::parts(data).map_err(|problem| SvgError::BadAttribute {
-            attribute: "d",
-            problem,
-        })?;
+        let document = drawing::parse(text).map_err(|problem| SvgError::NotXml { problem })?;
+        let css = drawing::style_sheets(&document);
+        let drawing =
+            Drawing::read(&document, &css).map_err(|problem| SvgError::NotXml { problem })?;
+        let shape = find(&drawing, id)?;
+        let others = drawing
+            .drawn()
+            .filter(|other| other.node != shape.node && other.is_path() == shape.is_path());
+        let passed_over = id.map_or_else(|| others.count(), |_| 0);
+        let parts = shape
+            .parts()
+            .map_err(
+                |BadAttribute { attribute, problem }| SvgError::BadAttribute { attribute, problem },
+            )?;
         let [part] = parts.as_slice() else {
             return Err(match parts.len() {
                 0 => SvgError::NoPath,
                 parts => SvgError::SeveralParts { parts },
             });
         };
-        let transform = transform_of(path)?;
+        // Drawn taller or wider than its coordinates say.
+        let stretch = DVec2::new(1.0, drawing.stretch());
         let mut cubics = part.clone();
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for cubic in &mut cubics {
-            cubic.0 = cubic.0.map(|p| transform.transform_point2(p));
+            cubic.0 = cubic.0.map(|p| p * stretch);
             for p in cubic.0 {
                 if !p.is_finite() {
                     let problem = "a coordinate is not finite";
@@ -181,6 +172,11 @@ impl SvgContour {
             contour,
             gap: if apart > 0.0 { apart / extent } else { 0.0 },
             passed_over,
+            left_out: if id.is_some() {
+                Vec::new()
+            } else {
+                left_out(&drawing, shape)
+            },
         })
     }
 
@@ -222,83 +218,36 @@ impl SvgContour {
     }
 }
 
-/// All paths of a file.
-fn paths<'d>(document: &'d Document<'_>) -> impl Iterator<Item = Node<'d, 'd>> {
-    document
-        .descendants()
-        .filter(|node| node.is_element() && node.tag_name().name() == "path")
+/// The path or basic shape of that `id`, drawn if there is one, or else the first path that is drawn,
+/// or else the first shape.
+fn find<'a, 'd>(drawing: &'a Drawing<'d>, id: Option<&str>) -> Result<&'a Shape<'d>, SvgError> {
+    let Some(id) = id else {
+        let mut paths = drawing.drawn().filter(|shape| shape.is_path());
+        let first = paths.next().or_else(|| drawing.drawn().next());
+        return first.ok_or(SvgError::NoPath);
+    };
+    let called = |shape: &&Shape| shape.node.attribute("id") == Some(id);
+    let drawn = drawing.drawn().find(called);
+    drawn
+        .or_else(|| drawing.shapes.iter().find(called))
+        .ok_or_else(|| SvgError::NoSuchPath { id: id.to_owned() })
 }
 
-/// The path of that `id`, or else the first that is drawn.
-fn find<'d>(document: &'d Document<'_>, id: Option<&str>) -> Result<Node<'d, 'd>, SvgError> {
-    let mut paths = paths(document);
-    match id {
-        Some(id) => paths
-            .find(|node| node.attribute("id") == Some(id))
-            .ok_or_else(|| SvgError::NoSuchPath { id: id.to_owned() }),
-        None => paths.find(|&node| is_drawn(node)).ok_or(SvgError::NoPath),
+/// What is left out of a drawing besides other shapes of the same kind.
+fn left_out(drawing: &Drawing<'_>, taken: &Shape<'_>) -> Vec<String> {
+    let lines = drawing.left_out.iter().map(|(reason, left)| {
+        let names = left.names.join(", ");
+        format!("{} ({}): {names}", reason.words(), left.count)
+    });
+    let mut lines: Vec<String> = lines.collect();
+    let others = drawing
+        .drawn()
+        .filter(|shape| shape.is_path() != taken.is_path());
+    let others = others.count();
+    if others > 0 {
+        lines.push(format!("basic shapes beside the path ({others})"));
     }
-}
-
-/// Whether an element is drawn where it stands.
-pub(crate) fn is_drawn(node: Node<'_, '_>) -> bool {
-    // What is within these elements is a template or a clip.
-    const NOT_DRAWN: [&str; 7] = [
-        "defs", "clipPath", "mask", "pattern", "symbol", "marker", "font",
-    ];
-    !node
-        .ancestors()
-        .any(|node| NOT_DRAWN.contains(&node.tag_name().name()))
-}
-
-/// The transform from a path's own coordinates to those of the file.
-///
-/// # Errors
-///
-/// [`SvgError::BadAttribute`] if a transform cannot be read.
-pub(crate) fn transform_of(path: Node<'_, '_>) -> Result<DAffine2, SvgError> {
-    let mut whole = DAffine2::IDENTITY;
-    for node in path.ancestors() {
-        if node
-            .attribute("style")
-            .is_some_and(|style| style.contains("transform"))
-        {
-            return Err(SvgError::BadAttribute {
-                attribute: "style",
-                problem: "write the transform as an attribute of its own".to_owned(),
-            });
-        }
-        let Some(list) = node.attribute("transform") else {
-            continue;
-        };
-        let mut own = DAffine2::IDENTITY;
-        for token in TransformListParser::from(list) {
-            let token = token.map_err(|error| SvgError::BadAttribute {
-                attribute: "transform",
-                problem: error.to_string(),
-            })?;
-            own *= affine(token);
-        }
-        whole = own * whole;
-    }
-    Ok(whole)
-}
-
-fn affine(token: TransformListToken) -> DAffine2 {
-    let linear = |a, b, c, d| DAffine2::from_mat2(DMat2::from_cols_array(&[a, b, c, d]));
-    match token {
-        TransformListToken::Matrix { a, b, c, d, e, f } => {
-            DAffine2::from_cols_array(&[a, b, c, d, e, f])
-        }
-        TransformListToken::Translate { tx, ty } => DAffine2::from_translation(DVec2::new(tx, ty)),
-        TransformListToken::Scale { sx, sy } => linear(sx, 0.0, 0.0, sy),
-        TransformListToken::Rotate { angle } => {
-            let (sin, cos) = libm::sincos(angle.to_radians());
-            linear(cos, sin, -sin, cos)
-        }
-        TransformListToken::SkewX { angle } => linear(1.0, 0.0, libm::tan(angle.to_radians()), 1.0),
-        TransformListToken::SkewY { angle } => linear(1.0, libm::tan(angle.to_radians()), 0.0, 1.0),
-    }
+    lines
 }
 
 #[cfg(test)]

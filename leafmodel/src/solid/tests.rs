@@ -318,6 +318,43 @@ fn what_is_too_slender_for_triangles_is_refused_in_words_of_the_plan() {
 }
 
 #[test]
+fn a_body_so_slender_that_its_cells_are_searched_for_minutes_is_refused_before() {
+    // A needle, 10,000 times as long as wide, as a mesh of four faces.
+    let needle = |length: f64| {
+        let corners = [
+            [0.0; 3],
+            [10.0, 0.0, 0.0],
+            [0.0, 10.0, length],
+            [0.0, 0.0, 10.0],
+        ];
+        let positions: Vec<DVec3> = corners.into_iter().map(DVec3::from_array).collect();
+        let faces = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        let shape = SolidShape::Mesh(Arc::new(SolidMesh {
+            file: String::new(),
+            scale_mm: 1.0,
+            shape: creased(&positions, &faces),
+        }));
+        let mut pattern = pattern(0.0);
+        pattern.plan.initial_cells = 50;
+        pattern.plan.days = 3.0;
+        SolidPlan {
+            map_size: 32,
+            ..plan(shape, Some(pattern))
+        }
+    };
+    grow(&needle(1e3));
+    // What it takes to refuse it is to cut it: no cell has been placed.
+    let refused = Solid::grow(&needle(1e5), &|| panic!("cells grow already"));
+    let error = refused.expect_err("it takes minutes").to_string();
+    let expected = "mosaic: the surface has 177148 triangles for ";
+    assert!(error.starts_with(expected), "{error}");
+    assert!(
+        error.ends_with("make the body less slender, or its mesh coarser"),
+        "{error}"
+    );
+}
+
+#[test]
 fn how_high_a_turned_body_stands_changes_nothing_but_that() {
     let area = |profile: &[[f64; 2]], up: f64| {
         let points = profile.iter().map(|&[x, y]| DVec2::new(x, y + up));

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::Frame;
 use crate::venation::network::{NetworkError, VeinEdge, VeinNode, VenationNetwork};
-use crate::venation::order::orders;
+use crate::venation::order::{Look, orders};
 use crate::venation::topology::Topology;
 
 /// A vein from node to node, its points and radii in pixels.
@@ -182,13 +182,13 @@ pub(super) fn network(
             });
         }
     }
-    give_orders(&nodes, &mut edges, roots.len());
+    give_orders(&nodes, &mut edges, roots.len(), segment_mm);
     VenationNetwork::from_parts(nodes, edges, segment_mm)
 }
 
 /// Gives edges their orders: those that hang together with the base by width and branching, as in
 /// networks that are grown; those that do not have the order whose mean radius is the nearest.
-fn give_orders(nodes: &[VeinNode], edges: &mut [VeinEdge], roots: usize) {
+fn give_orders(nodes: &[VeinNode], edges: &mut [VeinEdge], roots: usize, segment_mm: f64) {
     let pairs: Vec<[u32; 2]> = edges.iter().map(|e| [e.from, e.to]).collect();
     let topology = Topology::new(nodes.len(), &pairs);
     let Ok(base_to_tip) = topology.base_to_tip() else {
@@ -199,7 +199,14 @@ fn give_orders(nodes: &[VeinNode], edges: &mut [VeinEdge], roots: usize) {
         .iter()
         .map(|e| 0.5 * (e.radius_from + e.radius_to))
         .collect();
-    let found = orders(&topology, &positions, &radii, &base_to_tip, &[]);
+    let found = orders(
+        &topology,
+        &positions,
+        &radii,
+        &base_to_tip,
+        &[],
+        Look::Length { segment_mm },
+    );
     for (edge, order) in edges.iter_mut().zip(&found.edges) {
         edge.order = (*order).max(1);
     }

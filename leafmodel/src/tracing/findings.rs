@@ -39,6 +39,15 @@ pub enum FindingKind {
     Petiole,
     /// The base was not given: it is where the widest vein meets the margin.
     BaseGuessed,
+    /// The base or the apex that was given is not at the margin, and was moved there.
+    Moved {
+        /// `base` or `apex`.
+        end: &'static str,
+        /// How far it was moved, mm; the place is where it was.
+        by_mm: f64,
+        /// Whether it was outside of the blade.
+        is_outside: bool,
+    },
     /// Veins that do not hang together with the base.
     Apart {
         /// Their length, mm.
@@ -84,6 +93,16 @@ impl fmt::Display for Finding {
                 f,
                 "the base is taken to be where the widest vein meets the margin, {at}: \
                  give the base if that is wrong"
+            ),
+            FindingKind::Moved {
+                end,
+                by_mm,
+                is_outside,
+            } => write!(
+                f,
+                "the {end} that was given, {at}, lies {} the leaf: it is moved by {by_mm:.2} mm to the \
+                 nearest place of the margin",
+                if is_outside { "outside of" } else { "inside" }
             ),
             FindingKind::Apart { length_mm } => write!(
                 f,

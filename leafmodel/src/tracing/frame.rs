@@ -30,6 +30,10 @@ const LEAST_BASE: f64 = 0.4;
 /// of its veins: a midrib that ends some pixels before the margin, and not a fine vein beside it.
 const NEARER_BY: f64 = 6.0;
 
+/// How far a base or an apex that is given may be from the margin without a word, as a fraction of
+/// the blade's extent.
+const FAR_OFF: f64 = 0.02;
+
 /// So many of the widest points of veins are looked at for the one that reaches the margin.
 const MOST_WIDE: usize = 10_000;
 
@@ -98,6 +102,21 @@ pub(super) fn in_millimetres(
         place_px
     });
     let base = nearest_on_closed(&margin, wanted).at;
+    let extent = extent(&margin);
+    for (end, given) in [("base", settings.base_px), ("apex", settings.apex_px)] {
+        let Some(given) = given else { continue };
+        let off = nearest_on_closed(&margin, given).at.distance(given);
+        if off > FAR_OFF * extent {
+            findings.push(Finding {
+                kind: FindingKind::Moved {
+                    end,
+                    by_mm: off * settings.mm_per_pixel,
+                    is_outside: !blade.cells[blade.cell_at(given)],
+                },
+                place_px: Some(given),
+            });
+        }
+    }
     let apex = match (settings.apex_px, &settings.blade) {
         (Some(apex), _) => nearest_on_closed(&margin, apex).at,
         (None, Blade::Frame) => nearest_on_closed(&margin, DVec2::new(base.x, 0.0)).at,
@@ -122,6 +141,7 @@ pub(super) fn in_millimetres(
         return Err(TraceError::VeinsOutside { share });
     }
     let mut veins = lines.veins.clone();
+    part_at_base(&mut veins, base);
     let mut roots = roots(&veins, &frame, &mut findings);
     join_base(&mut veins, &mut roots[0], base, lines.segment_px);
     let segment_mm = lines.segment_px * settings.mm_per_pixel;
@@ -170,6 +190,13 @@ fn outline(
         }
         result => Ok(result?),
     }
+}
+
+/// The longer side of a line's bounds.
+fn extent(line: &[DVec2]) -> f64 {
+    let low = line.iter().copied().reduce(DVec2::min).unwrap_or_default();
+    let high = line.iter().copied().reduce(DVec2::max).unwrap_or_default();
+    (high - low).max_element()
 }
 
 /// The point of a line that is farthest from a place.
@@ -285,6 +312,57 @@ fn crossing(line: &[DVec2], start: DVec2, way: DVec2) -> Option<DVec2> {
     });
     let far = meetings.fold(f64::INFINITY, f64::min);
     far.is_finite().then(|| start + way * far)
+}
+
+/// Makes a node of the place of a vein that is nearest to the base, if it is clearly nearer than all
+/// nodes: between the base and the first lateral a wide midrib may be so short that it was cut off as
+/// a spur, and the rest of it leads into the lateral.
+fn part_at_base(veins: &mut Veins, base: DVec2) {
+    let mut nearest: Option<(f64, usize, usize)> = None;
+    for (number, vein) in veins.list.iter().enumerate() {
+        for (i, (point, radius)) in vein.points.iter().zip(&vein.radii).enumerate() {
+            let key = point.distance(base) - NEARER_BY * radius;
+            if nearest.is_none_or(|(least, ..)| key < least) {
+                nearest = Some((key, number, i));
+            }
+        }
+    }
+    let Some((_, number, i)) = nearest else {
+        return;
+    };
+    let vein = &veins.list[number];
+    let (place, radius) = (vein.points[i], vein.radii[i]);
+    let to_node = veins.nodes.iter().map(|node| node.distance(base));
+    let to_node = to_node.fold(f64::INFINITY, f64::min);
+    let is_within = i > 0 && i + 1 < vein.points.len();
+    if !is_within || place.distance(base) > to_node - radius {
+        return;
+    }
+    let node = veins.nodes.len() as u32;
+    veins.nodes.push(place);
+    let piece = |ends: [u32; 2], range: std::ops::RangeInclusive<usize>| {
+        let mut piece = Vein {
+            ends,
+            points: vein.points[range.clone()].to_vec(),
+            radii: vein.radii[range].to_vec(),
+        };
+        // Both pieces may have the same ends.
+        if piece.points.len() == 2 {
+            piece
+                .points
+                .insert(1, piece.points[0].midpoint(piece.points[1]));
+            piece
+                .radii
+                .insert(1, 0.5 * (piece.radii[0] + piece.radii[1]));
+        }
+        piece
+    };
+    let last = vein.points.len() - 1;
+    let pieces = [
+        piece([vein.ends[0], node], 0..=i),
+        piece([node, vein.ends[1]], i..=last),
+    ];
+    veins.list.splice(number..=number, pieces);
 }
 
 /// Lets the veins begin at the base: the middle line of the widest vein ends about its radius

@@ -11,6 +11,11 @@ const BINS: usize = 1024;
 /// Window over which light is made even, as a share of the blade's longer side.
 const LIGHT_WINDOW: f64 = 0.125;
 
+/// How far from its least and greatest value, as a fraction of their difference, a picture of two
+/// values may be, and the greatest fraction of its pixels that may be elsewhere.
+const TWO_VALUES: f32 = 0.05;
+const MOST_OTHERS: f64 = 0.01;
+
 /// Least difference of the means on both sides of a level, as a share of the brighter: a picture
 /// without veins has noise alone.
 const LEAST_CONTRAST: f64 = 0.04;
@@ -58,6 +63,54 @@ pub(super) fn ink(
             sauvola(&picture, blade, settings.veins, half, k)
         }
     })
+}
+
+/// The pixels of lines one pixel wide in a picture of two values, a mask or a drawing: a Gaussian
+/// against noise, which such a picture has not, would take diagonal ones away. `None` for other
+/// pictures.
+pub(super) fn hairlines(picture: &Raster, settings: &Settings) -> Option<Vec<bool>> {
+    let (width, height) = (picture.width(), picture.height());
+    let values = picture.values();
+    let bounds = (f32::INFINITY, f32::NEG_INFINITY);
+    let (low, high) = values.iter().fold(bounds, |(low, high), &value| {
+        (low.min(value), high.max(value))
+    });
+    let slack = TWO_VALUES * (high - low);
+    let is_other = |value: &&f32| **value > low + slack && **value < high - slack;
+    let others = values.iter().filter(is_other).count();
+    if high <= low || others as f64 > MOST_OTHERS * values.len() as f64 {
+        return None;
+    }
+    let level = match settings.threshold {
+        Threshold::Level(level) => level as f32,
+        Threshold::Otsu { .. } | Threshold::Sauvola { .. } => 0.5 * (low + high),
+    };
+    let is_vein = |x: usize, y: usize| {
+        let value = values[y * width + x];
+        match settings.veins {
+            Ink::Dark => value < level,
+            Ink::Bright => value > level,
+        }
+    };
+    // A pixel of a wider vein is in a square of four.
+    let is_square = |x: usize, y: usize| {
+        x + 1 < width
+            && y + 1 < height
+            && is_vein(x, y)
+            && is_vein(x + 1, y)
+            && is_vein(x, y + 1)
+            && is_vein(x + 1, y + 1)
+    };
+    let lines = (0..width * height).map(|at| {
+        let (x, y) = (at % width, at / width);
+        let (left, up) = (x.checked_sub(1), y.checked_sub(1));
+        let is_wide = is_square(x, y)
+            || left.is_some_and(|left| is_square(left, y))
+            || up.is_some_and(|up| is_square(x, up))
+            || left.zip(up).is_some_and(|(left, up)| is_square(left, up));
+        is_vein(x, y) && !is_wide
+    });
+    Some(lines.collect())
 }
 
 /// The picture after a Gaussian that mixes no background into the blade: else the rim of a blade

@@ -9,6 +9,7 @@ use super::graph::Graph;
 use super::grid::Raster;
 use super::pruning::Pruning;
 use super::radii::measured;
+use super::through::straightened;
 use super::{Settings, TraceError};
 
 /// Greatest distance of a smooth line from the pieces that stand for it, pixels.
@@ -63,25 +64,27 @@ pub(super) fn lines(
         .iter_mut()
         .map(|chain| {
             let is_junction = chain.ends.map(|end| degree[end as usize] > 2);
-            let radii = measured(chain, &graph, ink, is_junction);
-            chain.points = smooth(&chain.points);
-            radii
+            measured(chain, &graph, ink, is_junction)
         })
         .collect();
+    for chain in &chains {
+        // Free ends were moved to the middle of their veins.
+        for (end, point) in [(0, 0), (1, chain.points.len() - 1)] {
+            if degree[chain.ends[end] as usize] == 1 {
+                graph.nodes[chain.ends[end] as usize].place = chain.points[point];
+            }
+        }
+    }
+    straightened(&mut chains, &radii, &mut graph);
+    for chain in &mut chains {
+        chain.points = smooth(&chain.points);
+    }
     tell_thin(&chains, &radii, settings, findings);
     let segment_px = match settings.segment_mm {
         Some(segment_mm) => segment_mm / settings.mm_per_pixel,
         None => (2.0 * median_by_length(&chains, &radii)).max(SHORTEST_PIECE),
     };
-    let mut places: Vec<DVec2> = graph.nodes.iter().map(|node| node.place).collect();
-    for chain in &chains {
-        // Free ends were moved to the middle of their veins.
-        for (end, point) in [(0, 0), (1, chain.points.len() - 1)] {
-            if degree[chain.ends[end] as usize] == 1 {
-                places[chain.ends[end] as usize] = chain.points[point];
-            }
-        }
-    }
+    let places: Vec<DVec2> = graph.nodes.iter().map(|node| node.place).collect();
     let mut pairs: Vec<[u32; 2]> = chains.iter().map(|chain| sorted(chain.ends)).collect();
     pairs.sort_unstable();
     let list = chains

@@ -23,6 +23,11 @@ pub(super) const HALF_PIXEL: f64 = 0.5;
 /// Greatest shift of a line towards the middle of its vein, pixels.
 const FARTHEST_SHIFT: f64 = 1.5;
 
+/// How far from a junction of a reach other veins are in the way, pixels.
+pub(super) fn shadow_of(reach: f64) -> f64 {
+    SHADOW * reach + 1.0
+}
+
 /// What is measured at a point.
 #[derive(Clone, Copy)]
 struct Section {
@@ -48,7 +53,7 @@ pub(super) fn measured(
     let shadow = |end: usize| {
         let node = &graph_nodes.nodes[chain.ends[end] as usize];
         if is_junction[end] {
-            SHADOW * node.reach + 1.0
+            shadow_of(node.reach)
         } else {
             0.0
         }

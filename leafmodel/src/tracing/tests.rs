@@ -378,3 +378,129 @@ fn a_petiole_is_taken_off_and_its_foot_is_the_base() {
     );
     assert!((traced.outline.area() / (std::f64::consts::PI * 144.0) - 1.0).abs() < 0.01);
 }
+
+#[test]
+fn lines_one_pixel_wide_are_traced_in_any_direction() {
+    // A stalk with two diagonal arms.
+    let is_line = |x: usize, y: usize| {
+        let arm = (11..=49).contains(&y) && x.abs_diff(60) == 49 - y;
+        arm || (x == 60 && (10..110).contains(&y))
+    };
+    for (veins, ink) in [(Ink::Bright, [0.0, 1.0]), (Ink::Dark, [1.0, 0.0])] {
+        let values = (0..120 * 120).map(|at| ink[usize::from(is_line(at % 120, at / 120))]);
+        let picture = Raster::new(120, 120, values.collect()).expect("a mask");
+        let settings = Settings {
+            blade: Blade::Frame,
+            veins,
+            threshold: Threshold::Level(0.5),
+            ..Settings::new(0.01)
+        };
+        let traced = trace(&picture, &settings).expect("lines");
+        let measures = measure(&traced.outline, &traced.network, 3.0);
+        assert_eq!(measures.number("junction_count"), Some(1.0));
+        let (length, expected) = (
+            traced.network.vein_length_mm(),
+            0.99 + 0.76 * 2.0_f64.sqrt(),
+        );
+        assert!(
+            (length - expected).abs() < 0.02,
+            "{length} mm is not {expected}"
+        );
+    }
+}
+
+#[test]
+fn a_wide_midrib_is_followed_from_the_base_to_its_tip() {
+    use crate::shape::outline::Outline;
+    use crate::venation::network::{VeinEdge, VeinNode};
+
+    // An ellipse, 7 by 10 mm, a midrib that tapers, and secondaries on both sides in turn; the first is
+    // nearer to the base than two radii of the midrib.
+    let margin = (0..200).map(|i| {
+        let turn = std::f64::consts::TAU * f64::from(i) / 200.0;
+        DVec2::new(3.5 * libm::sin(turn), 5.0 - 5.0 * libm::cos(turn))
+    });
+    let outline = Outline::new(margin.collect(), DVec2::ZERO, DVec2::new(0.0, 10.0));
+    let outline = outline.expect("an ellipse");
+    let mut places = vec![DVec2::ZERO];
+    let mut edges = Vec::new();
+    let radius = |y: f64| 0.16 - 0.013 * y;
+    let mut edge = |from: usize, to: usize, [radius_from, radius_to]: [f64; 2], order: u8| {
+        edges.push(VeinEdge {
+            from: from as u32,
+            to: to as u32,
+            radius_from,
+            radius_to,
+            order,
+        });
+    };
+    let (mut at, mut y) = (0, 0.0);
+    for number in 0..12_u32 {
+        let next = 0.3 + 0.8 * f64::from(number);
+        places.push(DVec2::new(0.0, next));
+        let node = places.len() - 1;
+        edge(at, node, [radius(y), radius(next)], 1);
+        (at, y) = (node, next);
+        if number < 10 {
+            let side = if number % 2 == 0 { 1.0 } else { -1.0 };
+            let length = 0.6 * (9.5 - next).min(3.0 + next);
+            places.push(DVec2::new(0.8 * side * length, next + 0.6 * length));
+            let wide = 0.45 * radius(next);
+            edge(node, places.len() - 1, [wide, 0.6 * wide], 2);
+        }
+    }
+    let length = y;
+    let nodes = places
+        .into_iter()
+        .map(|position| VeinNode { position, born: 0 });
+    let network = VenationNetwork::from_parts(nodes.collect(), edges, 0.05).expect("a network");
+    let mm_per_pixel = 0.01;
+    let picture = drawn(&outline, &network, mm_per_pixel);
+    let (low, high) = outline.bounds();
+    let base_px = DVec2::new(-low.x, high.y) / mm_per_pixel + 12.0;
+    let settings = Settings {
+        base_px: Some(base_px),
+        ..Settings::new(mm_per_pixel)
+    };
+    let traced = trace(&picture, &settings).expect("a leaf");
+    let measures = measure(&traced.outline, &traced.network, 3.0);
+    let found = measures.number("midrib_length_mm").expect("a midrib");
+    // Where the stub below the first secondary was, the line still bends by a few pixels.
+    assert!(
+        (found / length - 1.0).abs() < 0.02,
+        "{found} mm is not {length}"
+    );
+    assert!(
+        !traced
+            .findings
+            .iter()
+            .any(|f| matches!(f.kind, FindingKind::Moved { .. }))
+    );
+    // A base that is given beside the leaf is moved to it, and that is reported.
+    let beside = Settings {
+        base_px: Some(base_px - DVec2::new(300.0, 0.0)),
+        ..settings
+    };
+    let traced = trace(&picture, &beside).expect("a leaf");
+    let moved = traced
+        .findings
+        .iter()
+        .find_map(|finding| match finding.kind {
+            FindingKind::Moved {
+                end,
+                by_mm,
+                is_outside,
+            } => Some((end, by_mm, is_outside)),
+            FindingKind::Specks { .. }
+            | FindingKind::Holes { .. }
+            | FindingKind::Spurs { .. }
+            | FindingKind::Crossings { .. }
+            | FindingKind::Thin { .. }
+            | FindingKind::Petiole
+            | FindingKind::BaseGuessed
+            | FindingKind::Apart { .. } => None,
+        });
+    let (end, by_mm, is_outside) = moved.expect("it is reported");
+    assert_eq!((end, is_outside), ("base", true));
+    assert!(by_mm > 1.0, "{by_mm} mm");
+}

@@ -94,7 +94,14 @@ impl TransportLeaf {
         let positions: Vec<DVec2> = nodes.iter().map(|node| node.position).collect();
         let topology = Topology::new(nodes.len(), &pairs);
         let base_to_tip: Vec<u32> = (0..nodes.len() as u32).collect();
-        let orders = order::orders(&topology, &positions, &radii, &base_to_tip, &[]);
+        let orders = order::orders(
+            &topology,
+            &positions,
+            &radii,
+            &base_to_tip,
+            &[],
+            order::Look::Segments,
+        );
         let edges = (0..).zip(&pairs).map(|(edge, &[from, to])| {
             let radius_to = radii[edge as usize];
             // A lateral starts with its own radius; only a vein that continues tapers between its

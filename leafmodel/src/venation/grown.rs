@@ -88,6 +88,7 @@ impl Grown {
             &radii,
             &base_to_tip,
             &self.laid_orders,
+            order::Look::Segments,
         );
         if plan.unseen_veinlets > 0.0 {
             let major = |edge: u32| orders.edges[edge as usize] <= 2;

@@ -31,6 +31,24 @@ const FORK_SKEW: f64 = 0.35;
 /// Number of segments over which directions are taken.
 const LOOK: usize = 4;
 
+/// Over how many radii of the widest vein at a node directions are taken at least, where that is
+/// asked for.
+const LOOK_RADII: f64 = 4.0;
+
+/// Over how much of a vein directions are taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Look {
+    /// A few segments: in networks that are grown, whose segments are alike.
+    Segments,
+    /// A few segments of this length, mm, and at least a few radii of the widest vein at the node: in
+    /// networks that are traced or read. Their pieces may be far finer than a vein is wide, and
+    /// the point where lines meet lies off the middle of the widest.
+    Length {
+        /// The length of a segment, mm.
+        segment_mm: f64,
+    },
+}
+
 /// The finest order; still finer veins get it too.
 const FINEST: u8 = 12;
 
@@ -51,8 +69,9 @@ pub(crate) fn orders(
     radii: &[f64],
     base_to_tip: &[u32],
     laid: &[u8],
+    look: Look,
 ) -> Orders {
-    let survey = Survey::new(topology, positions, radii);
+    let survey = Survey::new(topology, positions, radii, look);
     let mut edges = vec![0; topology.edge_count()];
     // For each order the edges that start a vein of it, found while coarser orders are followed.
     let mut starts: Vec<Vec<u32>> = vec![Vec::new(); usize::from(FINEST) + 1];
@@ -157,6 +176,7 @@ struct Survey<'a> {
     topology: &'a Topology<'a>,
     positions: &'a [DVec2],
     radii: &'a [f64],
+    look: Look,
     /// The widest edge into each node.
     main_entry: Vec<Option<u32>>,
     continuations: Vec<Option<u32>>,
@@ -167,7 +187,12 @@ struct Survey<'a> {
 }
 
 impl<'a> Survey<'a> {
-    fn new(topology: &'a Topology<'a>, positions: &'a [DVec2], radii: &'a [f64]) -> Self {
+    fn new(
+        topology: &'a Topology<'a>,
+        positions: &'a [DVec2],
+        radii: &'a [f64],
+        look: Look,
+    ) -> Self {
         let widest = |edges: &[u32]| {
             edges
                 .iter()
@@ -181,6 +206,7 @@ impl<'a> Survey<'a> {
             topology,
             positions,
             radii,
+            look,
             main_entry: (0..nodes)
                 .map(|node| widest(topology.entering(node)))
                 .collect(),
@@ -228,15 +254,58 @@ impl<'a> Survey<'a> {
 
     /// Direction in which the vein arrives at a node; zero at its start.
     fn arrival(&self, node: u32) -> DVec2 {
-        let back = (0..LOOK).fold(node, |at, _| self.back[at as usize]);
-        self.direction(back, node)
+        match self.look {
+            Look::Segments => {
+                let back = (0..LOOK).fold(node, |at, _| self.back[at as usize]);
+                self.direction(back, node)
+            }
+            Look::Length { segment_mm } => {
+                let first = self.back[node as usize];
+                -self.along(node, first, &self.back, self.length_at(node, segment_mm))
+            }
+        }
     }
 
     /// Direction in which a vein leaves along an edge.
     fn departure(&self, edge: u32) -> DVec2 {
         let [from, to] = self.topology.edge(edge);
-        let ahead = (1..LOOK).fold(to, |at, _| self.ahead[at as usize]);
-        self.direction(from, ahead)
+        match self.look {
+            Look::Segments => {
+                let ahead = (1..LOOK).fold(to, |at, _| self.ahead[at as usize]);
+                self.direction(from, ahead)
+            }
+            Look::Length { segment_mm } => {
+                self.along(from, to, &self.ahead, self.length_at(from, segment_mm))
+            }
+        }
+    }
+
+    /// The length over which directions at a node are taken.
+    fn length_at(&self, node: u32, segment_mm: f64) -> f64 {
+        let (out, entering) = (self.topology.leaving(node), self.topology.entering(node));
+        let radii = out.iter().chain(entering).map(|&e| self.radii[e as usize]);
+        let widest = radii.fold(0.0, f64::max);
+        f64::max(LOOK as f64 * segment_mm, LOOK_RADII * widest)
+    }
+
+    /// The direction from a node by its neighbour to the place that is a length away along `steps`.
+    fn along(&self, from: u32, neighbour: u32, steps: &[u32], length: f64) -> DVec2 {
+        let start = self.positions[from as usize];
+        let (mut at, mut next, mut left) = (from, neighbour, length);
+        loop {
+            let way = self.positions[next as usize] - self.positions[at as usize];
+            let piece = way.length();
+            if piece >= left {
+                let end = self.positions[at as usize] + way * (left / piece);
+                return (end - start).normalize_or_zero();
+            }
+            left -= piece;
+            (at, next) = (next, steps[next as usize]);
+            // The end of a vein; there are no circles.
+            if next == at {
+                return self.direction(from, at);
+            }
+        }
     }
 
     fn direction(&self, from: u32, to: u32) -> DVec2 {
@@ -272,7 +341,7 @@ mod tests {
         let order = topology.base_to_tip().expect("no circle");
         let flows = flows(&topology, &order, |_| 0.0);
         let radii: Vec<f64> = flows.edges.iter().map(|&q| radius(q, 0.01, 2.0)).collect();
-        orders(&topology, &positions, &radii, &order, &[]).edges
+        orders(&topology, &positions, &radii, &order, &[], Look::Segments).edges
     }
 
     #[test]
@@ -324,6 +393,58 @@ mod tests {
         fan(3, 40, &mut places, &mut edges);
         let orders = orders_of(&places, &edges);
         assert_eq!(orders[..5], [1, 1, 1, 3, 2]);
+    }
+
+    #[test]
+    fn a_midrib_goes_on_where_its_line_bends_to_a_lateral_within_its_own_width() {
+        // As traced: pieces far finer than the midrib is wide, and the node where the lateral's line
+        // meets that of the midrib lies aside.
+        let line = |from: DVec2, to: DVec2, count: u32| {
+            (1..=count).map(move |i| from.lerp(to, f64::from(i) / f64::from(count)))
+        };
+        let [base, node, above] = [(0.0, 0.0), (0.7, 5.0), (0.0, 5.3)].map(DVec2::from);
+        let [apex, far] = [(0.0, 12.0), (6.0, 7.0)].map(DVec2::from);
+        let mut places = vec![base];
+        let (mut edges, mut radii) = (Vec::new(), Vec::new());
+        let mut add = |start: u32, points: Vec<DVec2>, radius: f64| {
+            let mut before = start;
+            for point in points {
+                places.push(point);
+                edges.push([before, places.len() as u32 - 1]);
+                radii.push(radius);
+                before = places.len() as u32 - 1;
+            }
+            before
+        };
+        let below =
+            line(base, DVec2::new(0.0, 4.8), 100).chain(line(DVec2::new(0.0, 4.8), node, 10));
+        let junction = add(0, below.collect(), 1.0);
+        add(
+            junction,
+            line(node, above, 10)
+                .chain(line(above, apex, 100))
+                .collect(),
+            0.95,
+        );
+        let lateral = places.len();
+        let mut before = junction;
+        for point in line(node, far, 80) {
+            places.push(point);
+            edges.push([before, places.len() as u32 - 1]);
+            radii.push(0.5);
+            before = places.len() as u32 - 1;
+        }
+        let topology = Topology::new(places.len(), &edges);
+        let sorted = topology.base_to_tip().expect("no circle");
+        let look = Look::Length { segment_mm: 0.05 };
+        let found = orders(&topology, &places, &radii, &sorted, &[], look).edges;
+        for (edge, order) in edges.iter().zip(found) {
+            assert_eq!(
+                order == 1,
+                (edge[1] as usize) < lateral,
+                "{edge:?}: {order}"
+            );
+        }
     }
 
     #[test]

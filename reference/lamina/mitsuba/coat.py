@@ -65,7 +65,33 @@ class Coat:
     @property
     def mean(self) -> float:
         """(1/π) ∫ E μ dω over the hemisphere."""
-        return _mean(self)
+        return _means(self)[0]
+
+    @property
+    def steep(self) -> float:
+        """(1/π) ∫ E μ² dω over the hemisphere."""
+        return _means(self)[1]
+
+
+@dataclass(frozen=True)
+class Through:
+    """How light goes through the leaf at one face: the page's κ and P."""
+
+    kappa: float
+    passed: float
+
+
+def through(coats: tuple[Coat, ...]) -> tuple[Through, ...]:
+    """κ and P of the adaxial and the abaxial face."""
+    upright = [1.0 - coat.normal for coat in coats]
+    passed = [1.0 - coat.mean for coat in coats]
+    most = max(up / mean for up, mean in zip(upright, passed, strict=True))
+    faces = []
+    for coat, up, mean in zip(coats, upright, passed, strict=True):
+        less = up / most
+        slope = (mean - less) / (mean - (2.0 / 3.0 - coat.steep))
+        faces.append(Through(slope, less))
+    return tuple(faces)
 
 
 def fresnel(cos_i: Array, eta: float) -> Array:
@@ -147,7 +173,7 @@ def _normal(coat: Coat) -> float:
 
 
 @lru_cache(maxsize=64)
-def _mean(coat: Coat) -> float:
+def _means(coat: Coat) -> tuple[float, float]:
     nodes, weights = legendre_nodes(48)
     root = 0.5 * (nodes + 1.0)
     mu = root * root
@@ -157,4 +183,5 @@ def _mean(coat: Coat) -> float:
     m, a = (grid.ravel() for grid in np.meshgrid(mu, azimuth, indexing="ij"))
     sine = np.sqrt(1.0 - m * m)
     e = albedo(coat, sine * np.cos(a), sine * np.sin(a), m).reshape(len(mu), -1).mean(axis=1)
-    return float(np.sum(e * 4.0 * root**3 * 0.5 * weights))
+    part = e * 4.0 * root**3 * 0.5 * weights
+    return float(np.sum(part)), float(np.sum(part * mu))

@@ -12,7 +12,8 @@ Parameters of the plugin:
 - `prospect` (the table's file) and `extrapolate`, for the first two;
 - `spread_u`, `spread_v`: one thickness of the blade in texture coordinates, for maps whose light
   spreads sideways (`docs/src/theory/light-spread.md`);
-- `abaxial_ratio`: a spectrum; if absent, the page's ratio by absorptance;
+- `abaxial_ratio` or `abaxial_reflectance`: a spectrum; if both are absent, the page's ratio by
+  absorptance;
 - `half`: `adaxial` or `abaxial`, if this is one face of a closed blade;
 - `adaxial_eta`, `adaxial_alpha_across`, `adaxial_alpha_along`, and the same for `abaxial_`.
 
@@ -29,7 +30,8 @@ import mitsuba as mi
 import numpy as np
 import OpenImageIO as oiio
 
-from lamina.mitsuba.coat import COUNT_AZIMUTH, COUNT_MU, Coat
+from lamina.mitsuba import facet
+from lamina.mitsuba.coat import COUNT_AZIMUTH, COUNT_MU, Coat, Through, through
 from lamina.mitsuba.lookup import Table, bits, cell, nearest
 from lamina.mitsuba.prospect import BETALAINS, CONTENTS, Prospect
 
@@ -109,31 +111,36 @@ def five_numbers(uv: Any, wavelengths: Any) -> list[Any]:
 class Tissue:
     """The coefficients c(f_o, f_i) at the wavelengths of a hit, and what sampling needs."""
 
-    def __init__(self, r: Any, t: Any, ratio: Any, coats: tuple[Coat, ...]) -> None:
+    def __init__(
+        self, r: Any, t: Any, below: Any, coats: tuple[Coat, ...], ways: tuple[Through, ...]
+    ) -> None:
         top, bottom = coats
+        self.ways = ways
+        upper, lower = self.ways
         passed = 1.0 - top.normal
-        bound = min(1.0, (1.0 - bottom.mean) / (1.0 - top.mean))
+        bound = min(1.0, lower.passed / upper.passed)
         self.t_ab = dr.minimum(t / passed, bound)
         self.r_a = dr.clip((r - top.normal) / passed, 0.0, 1.0 - self.t_ab)
-        self.through = self.t_ab / (1.0 - bottom.mean)
-        self.t_ba = self.through * (1.0 - top.mean)
-        a_b = dr.maximum(0.0, 1.0 - ratio * r - t) / (1.0 - bottom.normal)
+        self.through = self.t_ab / lower.passed
+        self.t_ba = self.through * upper.passed
+        a_b = dr.maximum(0.0, 1.0 - below - t) / (1.0 - bottom.normal)
         self.r_b = dr.clip(1.0 - self.t_ba - a_b, 0.0, 1.0 - self.t_ba)
         self.back_a = self.r_a / (1.0 - top.mean)
         self.back_b = self.r_b / (1.0 - bottom.mean)
 
     def passing(self, t: Any, coats: tuple[Coat, ...]) -> None:
         """Lets through what entered elsewhere; reflectances stay."""
-        top, bottom = coats
-        back = (1.0 - top.mean) / (1.0 - bottom.mean)
+        top = coats[0]
+        upper, lower = self.ways
+        back = upper.passed / lower.passed
         most = dr.minimum(1.0 - self.r_a, (1.0 - self.r_b) / back)
         self.t_ab = dr.minimum(t / (1.0 - top.normal), most)
         self.t_ba = self.t_ab * back
-        self.through = self.t_ab / (1.0 - bottom.mean)
+        self.through = self.t_ab / lower.passed
 
     def cut(self, face: int, coats: tuple[Coat, ...]) -> None:
         """Leaves one face with half of the tissue; the page's section "A closed blade"."""
-        p = [1.0 - float(coat.mean) for coat in coats]
+        p = [way.passed for way in self.ways]
         k = [float(1.0 / np.sqrt(share) - np.sqrt(share)) for share in p]
         t = dr.minimum(dr.sqrt(self.t_ab * self.t_ba), 0.999)
         r = [self.r_a, self.r_b]
@@ -153,13 +160,30 @@ class Tissue:
         (self.r_a, self.t_ab), (self.r_b, self.t_ba) = (
             (outside, inside) if face == 0 else (inside, outside)
         )
-        passed = [p[0], 1.0] if face == 0 else [1.0, p[1]]
-        self.through = self.t_ab / passed[1]
-        self.back_a, self.back_b = self.r_a / passed[0], self.r_b / passed[1]
+        cut = Through(0.0, 1.0)
+        self.ways = (self.ways[0], cut) if face == 0 else (cut, self.ways[1])
+        self.through = self.t_ab / self.ways[1].passed
+        means = [1.0 - coats[0].mean, 1.0] if face == 0 else [1.0, 1.0 - coats[1].mean]
+        self.back_a, self.back_b = self.r_a / means[0], self.r_b / means[1]
 
     def c(self, same: Any, adaxial: Any) -> Any:
         """c for two directions: on the same face or not, and on which one."""
         return dr.select(same, dr.select(adaxial, self.back_a, self.back_b), self.through)
+
+    def turned(self, mu_o: Any, mu_i: Any, adaxial: Any, means: tuple[Any, Any]) -> Any:
+        """f_turned but for both 1 − E and 1/π; `means` are the faces' 1 − Ē."""
+        value = dr.zeros(Double)
+        for number, (way, t) in enumerate(zip(self.ways, (self.t_ab, self.t_ba), strict=True)):
+            if way.kappa > 0.0:
+                share = way.kappa * way.kappa * (1.0 - mu_o) * (1.0 - mu_i)
+                own = t * Double(share / means[number])
+                value = dr.select(adaxial == (number == 0), own, value)
+        return value
+
+    def less(self, mu: Any, adaxial: Any) -> Any:
+        """1 − κ (1 − μ) of a face."""
+        upper, lower = self.ways
+        return 1.0 - dr.select(adaxial, upper.kappa, lower.kappa) * (1.0 - mu)
 
     def chances(self, adaxial: Any) -> tuple[Any, Any]:
         """What the tissue reflects and lets through seen from a face: mean over wavelengths."""
@@ -195,6 +219,9 @@ class LeafBSDF(mi.BSDF):
         self.spread: tuple[float, float] | None = None
         if "abaxial_ratio" in props:
             self.abaxial_ratio = props.get_unbounded_texture("abaxial_ratio")
+        self.abaxial_reflectance = None
+        if "abaxial_reflectance" in props:
+            self.abaxial_reflectance = props.get_texture("abaxial_reflectance")
         if self.kind == "measured":
             self.reflectance = props.get_texture("reflectance")
             self.transmittance = props.get_texture("transmittance")
@@ -242,7 +269,14 @@ class LeafBSDF(mi.BSDF):
     def tissue(self, si: Any, active: Any) -> Tissue:
         """The tissue's coefficients at a hit."""
         r, t = self.spectra(si, active)
-        tissue = Tissue(r, t, self.ratio(si, r, t, active), self.coats)
+        below = self.ratio(si, r, t, active) * r
+        if self.abaxial_reflectance is not None:
+            below = Double(self.abaxial_reflectance.eval(si, active))
+        # Of leaves that were not measured nothing says how much light from below they let through.
+        ways = tuple(Through(0.0, 1.0 - coat.mean) for coat in self.coats)
+        if self.kind == "measured":
+            ways = through(self.coats)
+        tissue = Tissue(r, t, below, self.coats, ways)
         if self.spread is not None:
             tissue.passing(self.spread_transmittance(si, *self.spread), self.coats)
         if self.half is not None:
@@ -383,7 +417,14 @@ class LeafBSDF(mi.BSDF):
         e_view = self.coat_albedo(view, adaxial)
         e_light = self.coat_albedo(light, cos_light > 0.0)
         tissue = self.tissue(si, active)
-        base = tissue.c(same, adaxial) * Double((1.0 - e_view) * (1.0 - e_light) * light.z / dr.pi)
+        less = tissue.less(view.z, adaxial) * tissue.less(light.z, cos_light > 0.0)
+        c = tissue.c(same, adaxial) * Double(dr.select(same, 1.0, less))
+        means = tuple(
+            max(1.0 - coat.mean - way.passed, 1e-30)
+            for coat, way in zip(self.outer, tissue.ways, strict=True)
+        )
+        c += dr.select(same, tissue.turned(view.z, light.z, adaxial, means), 0.0)
+        base = c * Double((1.0 - e_view) * (1.0 - e_light) * light.z / dr.pi)
         coat = dr.select(same, self.coat_times_cosine(view, light, adaxial), 0.0)
         value = mi.UnpolarizedSpectrum(base) + coat
 
@@ -394,6 +435,7 @@ class LeafBSDF(mi.BSDF):
 
     def sample(self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True) -> Any:
         """Draws a direction; gives it with value over density."""
+        si = facet.seen(si)
         cos_view = mi.Frame3f.cos_theta(si.wi)
         active = mi.Bool(active) & (cos_view != 0.0)
         adaxial = cos_view > 0.0
@@ -410,9 +452,9 @@ class LeafBSDF(mi.BSDF):
         local = dr.select(in_coat, mirrored, diffuse)
         active &= local.z > 0.0
         side = adaxial == (in_coat | reflected)
-        wo = self.returned(local, axes, side)
+        wo = facet.leaving(si, self.returned(local, axes, side))
 
-        value, pdf = self.value_and_pdf(si, wo, active)
+        value, pdf = facet.folded(self.value_and_pdf, si, wo, active)
         active &= pdf > 0.0
         bs = dr.zeros(mi.BSDFSample3f)
         bs.wo = wo
@@ -434,15 +476,15 @@ class LeafBSDF(mi.BSDF):
 
     def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
         """f times the cosine."""
-        return self.value_and_pdf(si, wo, mi.Bool(active))[0]
+        return self.eval_pdf(ctx, si, wo, active)[0]
 
     def pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
         """Density of `sample`."""
-        return self.value_and_pdf(si, wo, mi.Bool(active))[1]
+        return self.eval_pdf(ctx, si, wo, active)[1]
 
     def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
         """Both at once."""
-        return self.value_and_pdf(si, wo, mi.Bool(active))
+        return facet.folded(self.value_and_pdf, facet.seen(si), wo, mi.Bool(active))
 
     def traverse(self, callback: Any) -> None:
         """The leaf has no parameters that are changed after loading."""

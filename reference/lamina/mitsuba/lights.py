@@ -131,8 +131,9 @@ class Sky(Radiance):
         total = mi.UnpolarizedSpectrum(0.0)
         for weight, spectrum in zip(weights[:3], self.spectra[:3], strict=True):
             total += weight * spectrum.at(si.wavelengths)
-        total = dr.maximum(total, 0.0)
+        # A picture's colours outside of Rec. 709 are below 0 at some wavelengths; a sky never is.
         if self.has_ground:
+            total = dr.maximum(total, 0.0)
             ground = self.spectra[-1].at(si.wavelengths)
             total = dr.select(down < 0.5, total + weights[3] * ground, ground)
         return dr.select(active, total, 0.0)

@@ -31,6 +31,7 @@ class PlasticBSDF(LeafBSDF):
         alpha = props.get("alpha")
         self.coats = (Coat(props.get("eta"), alpha, alpha),) * 2
         self.half, self.outer = None, self.coats
+        self.abaxial_reflectance = None
         self.albedo = Table(np.stack([coat.table for coat in self.coats]))
         self.spread = None
         self.kind = "plastic"

@@ -20,7 +20,7 @@ import mitsuba as mi
 import numpy as np
 
 from lamina.exr import read_channels
-from lamina.mitsuba import solid_bsdf
+from lamina.mitsuba import facet, solid_bsdf
 from lamina.mitsuba.coat import Coat
 from lamina.mitsuba.leaf_bsdf import FACES, Double, LeafBSDF
 from lamina.mitsuba.lookup import Table, cell
@@ -212,9 +212,24 @@ class ReliefBSDF(LeafBSDF):
         e_light = dr.select(same, own.albedo(cosine), other.albedo(cosine))
         tissue = self.tissue(si, active)
         reflected = dr.select(adaxial, tissue.r_a, tissue.r_b) / Double(1.0 - own.mean)
-        passed_a, passed_b = Double(1.0 - coat_a.mean), Double(1.0 - coat_b.mean)
-        through = dr.minimum(tissue.t_ab / passed_b, tissue.t_ba / passed_a)
-        base = dr.select(same, reflected, through)
+        kept = [
+            way.passed / (1.0 - coat.mean)
+            for way, coat in zip(tissue.ways, self.outer, strict=True)
+        ]
+        passed_a, passed_b = (1.0 - coat_a.mean) * kept[0], (1.0 - coat_b.mean) * kept[1]
+        through = dr.minimum(tissue.t_ab / Double(passed_b), tissue.t_ba / Double(passed_a))
+        upper = tissue.less(seen.z, adaxial)
+        lower = tissue.less(cosine, ~adaxial)
+        # What a face does not let through at grazing angles it sends back.
+        means = [
+            dr.maximum((1.0 - coat.mean) * (1.0 - part), 1e-30)
+            for coat, part in zip((coat_a, coat_b), kept, strict=True)
+        ]
+        own_kappa = dr.select(adaxial, tissue.ways[0].kappa, tissue.ways[1].kappa)
+        turned = own_kappa * own_kappa * (1.0 - seen.z) * (1.0 - cosine)
+        turned *= dr.select(adaxial, passed_b / means[0], passed_a / means[1])
+        reflected = reflected + through * Double(turned)
+        base = dr.select(same, reflected, through * Double(upper * lower))
         base = base * Double((1.0 - e_view) * (1.0 - e_light) * back * cosine / dr.pi)
         coat = dr.select(same, own.times_cosine(seen, lit), 0.0)
         value = mi.UnpolarizedSpectrum(base) + coat
@@ -223,11 +238,13 @@ class ReliefBSDF(LeafBSDF):
 
     def sample(self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True) -> Any:
         """Draws a direction by its cosine, to either side; gives it with value over density."""
+        si = facet.seen(si)
         active = mi.Bool(active) & (si.wi.z != 0.0)
         wo = mi.warp.square_to_cosine_hemisphere(sample2)
         is_above = sample1 < 0.5
         wo.z = dr.select(is_above, wo.z, -wo.z)
-        value, pdf = self.value_and_pdf(si, wo, active)
+        wo = facet.leaving(si, wo)
+        value, pdf = facet.folded(self.value_and_pdf, si, wo, active)
         active &= pdf > 0.0
         bs = dr.zeros(mi.BSDFSample3f)
         bs.wo = wo

@@ -38,6 +38,7 @@ class SolidBSDF(LeafBSDF):
         alpha = props.get("coat_alpha")
         self.coats = (Coat(props.get("coat_eta"), alpha, alpha),) * 2
         self.half, self.outer = None, self.coats
+        self.abaxial_reflectance = None
         self.albedo = Table(np.stack([coat.table for coat in self.coats]))
         self.depth = float(props.get("depth_mm"))
         self.scattering = float(props.get("scattering_per_mm"))

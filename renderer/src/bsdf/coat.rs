@@ -12,6 +12,10 @@ pub struct Coat {
     pub(super) ggx: Ggx,
     eta: f32,
     pub(super) albedo: DirectionalAlbedo,
+    /// `κ`: how much less light of grazing directions goes through the leaf than passes the coat.
+    slope: f32,
+    /// `P`, the mean of what goes on through the leaf of light that is alike from all directions.
+    through_mean: f32,
 }
 
 impl Coat {
@@ -21,11 +25,34 @@ impl Coat {
             alpha_x: alpha_across,
             alpha_y: alpha_along,
         };
+        let albedo = DirectionalAlbedo::new(ggx, eta);
         Self {
             ggx,
             eta,
-            albedo: DirectionalAlbedo::new(ggx, eta),
+            slope: 0.0,
+            through_mean: 1.0 - albedo.mean(),
+            albedo,
         }
+    }
+
+    /// The coats of a measured leaf, through which as much light goes either way at normal incidence.
+    ///
+    /// What goes through is reciprocal only if light from above is to light from below as `(1 − E⊥) /
+    /// P` of the upper coat is to that of the lower. The coat of which this is less lets less light of
+    /// grazing directions through, and sends that back.
+    pub fn pair(mut coats: [Self; 2]) -> [Self; 2] {
+        let upright = coats.each_ref().map(|coat| 1.0 - coat.albedo.normal());
+        let ratio = [0, 1].map(|side| upright[side] / coats[side].passed_mean());
+        if ratio[0] == ratio[1] {
+            return coats;
+        }
+        let side = usize::from(ratio[1] < ratio[0]);
+        let coat = &mut coats[side];
+        let passed = coat.passed_mean();
+        let most = passed - coat.albedo.passed_steeply();
+        coat.slope = ((passed - upright[side] / ratio[1 - side]) / most).clamp(0.0, 1.0);
+        coat.through_mean = passed - coat.slope * most;
+        coats
     }
 
     /// No coat.
@@ -64,6 +91,23 @@ impl Coat {
     #[inline]
     pub(super) fn lobe(&self, wo: Vec3, lambda: f32, wi: Vec3) -> (f32, f32) {
         coat_lobe(self.ggx, self.eta, wo, lambda, wi)
+    }
+
+    /// Fraction of light of this cosine that the tissue would let through and sends back, `κ (1 − µ)`.
+    #[inline]
+    pub(super) fn turned(&self, mu: f32) -> f32 {
+        self.slope * (1.0 - mu)
+    }
+
+    /// `P`.
+    pub(super) fn through_mean(&self) -> f32 {
+        self.through_mean
+    }
+
+    /// One over the mean of what is turned back, 0 if nothing is.
+    pub(super) fn over_turned_mean(&self) -> f32 {
+        let mean = self.passed_mean() - self.through_mean;
+        if mean > 0.0 { 1.0 / mean } else { 0.0 }
     }
 
     /// `1 − Ē`.

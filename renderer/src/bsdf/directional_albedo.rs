@@ -20,6 +20,8 @@ pub struct DirectionalAlbedo {
     /// `[azimuth][µ]`.
     values: Box<[[f32; MU_NODES]]>,
     mean: f32,
+    /// `2/π ∫ E µ² dω`, the mean weighted once more with the cosine.
+    steep: f32,
 }
 
 const MU_NODES: usize = 129;
@@ -44,6 +46,7 @@ impl DirectionalAlbedo {
             return Self {
                 values: Box::new([[0.0; MU_NODES]]),
                 mean: 0.0,
+                steep: 0.0,
             };
         }
         let azimuths = if ggx.alpha_x == ggx.alpha_y {
@@ -61,8 +64,22 @@ impl DirectionalAlbedo {
         let entries = (0..azimuths * MU_NODES).into_par_iter().map(entry);
         let entries: Vec<f32> = entries.collect();
         let values: Box<[[f32; MU_NODES]]> = entries.as_chunks().0.into();
-        let mean = mean_of(&values);
-        Self { values, mean }
+        // Exact along µ: integrals of a linear function times µ and µ² over an interval.
+        let mean = mean_of(&values, |[low, high], [at_low, at_high]| {
+            2.0 * (high - low) * (at_low * (2.0 * low + high) + at_high * (low + 2.0 * high)) / 6.0
+        });
+        let steep = mean_of(&values, |[low, high], [at_low, at_high]| {
+            let middle = 0.5 * (low + high);
+            let sum = at_low * low * low
+                + 2.0 * (at_low + at_high) * middle * middle
+                + at_high * high * high;
+            2.0 * (high - low) * sum / 6.0
+        });
+        Self {
+            values,
+            mean,
+            steep,
+        }
     }
 
     /// `E(ω)`, the same for ω and −ω.
@@ -96,6 +113,11 @@ impl DirectionalAlbedo {
     /// `Ē = 1/π ∫ E µ dω`.
     pub fn mean(&self) -> f32 {
         self.mean
+    }
+
+    /// `1/π ∫ (1 − E) µ² dω`.
+    pub(super) fn passed_steeply(&self) -> f32 {
+        2.0 / 3.0 - self.steep
     }
 }
 
@@ -135,16 +157,15 @@ pub(super) fn reflected_share(ggx: Ggx, eta: f32, mu: f32, sin2_phi: f32, points
     (sum / points.len() as f64) as f32
 }
 
-/// `2/π ∫₀^{π/2} dφ ∫ 2 E µ dµ` of the table as interpolated.
-fn mean_of(values: &[[f32; MU_NODES]]) -> f32 {
-    // Exact along µ: the integral of a linear function times µ over each interval.
+/// `2/π ∫₀^{π/2} dφ ∫ 2 E w dµ` of the table as interpolated; `interval` gives the integral over one
+/// interval of µ from its ends and the values there.
+fn mean_of(values: &[[f32; MU_NODES]], interval: impl Fn([f64; 2], [f64; 2]) -> f64) -> f32 {
     let row_mean = |row: &[f32; MU_NODES]| -> f64 {
         (0..MU_NODES - 1)
             .map(|i| {
-                let (low, high) = (f64::from(mu_of(i as f32)), f64::from(mu_of(i as f32 + 1.0)));
-                let (at_low, at_high) = (f64::from(row[i]), f64::from(row[i + 1]));
-                let width = high - low;
-                2.0 * width * (at_low * (2.0 * low + high) + at_high * (low + 2.0 * high)) / 6.0
+                let ends = [i, i + 1];
+                let cosines = ends.map(|node| f64::from(mu_of(node as f32)));
+                interval(cosines, ends.map(|node| f64::from(row[node])))
             })
             .sum()
     };

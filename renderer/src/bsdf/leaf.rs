@@ -33,6 +33,8 @@ pub struct LeafView<'a, const N: usize> {
     /// side of `wi`.
     reflecting: Lanes<N>,
     through: Lanes<N>,
+    /// The same of light that is turned back at grazing angles instead of let through.
+    turned: Lanes<N>,
     /// Probabilities of the coat, of tissue reflection and of transmission.
     lobes: [f32; 3],
 }
@@ -46,6 +48,11 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
     #[inline]
     pub fn new(coats: &'a [Coat; 2], tissue: Tissue<N>) -> Self {
         Self { coats, tissue }
+    }
+
+    /// Its adaxial and abaxial coat.
+    pub(super) fn coats(&self) -> &'a [Coat; 2] {
+        self.coats
     }
 
     /// Its tissue.
@@ -69,12 +76,13 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
         let passed = 1.0 - albedo;
         let reflectance = self.tissue.reflectance[side];
         let transmittance = self.tissue.transmittance[side];
-        let reflected = passed * reflectance.mean();
-        let transmitted = passed * transmittance.mean();
+        let turned = coat.turned(wo.z.abs());
+        let reflected = passed * (reflectance + transmittance * turned).mean();
+        let transmitted = passed * (1.0 - turned) * transmittance.mean();
         let total = albedo + reflected + transmitted;
         let share = if total > 0.0 { 1.0 / total } else { 0.0 };
         // c(A, B) is the same in both directions.
-        let through = self.tissue.transmittance[0] * (1.0 / self.coats[1].passed_mean());
+        let through = self.tissue.transmittance[0] * (1.0 / self.coats[1].through_mean());
         LeafView {
             coats,
             wo,
@@ -84,7 +92,8 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
                 0.0
             },
             reflecting: reflectance * (passed * FRAC_1_PI / coat.passed_mean()),
-            through: through * (passed * FRAC_1_PI),
+            through: through * (passed * (1.0 - turned) * FRAC_1_PI),
+            turned: transmittance * (passed * turned * coat.over_turned_mean() * FRAC_1_PI),
             lobes: [albedo, reflected, transmitted].map(|lobe| lobe * share),
         }
     }
@@ -124,15 +133,16 @@ impl<const N: usize> LeafView<'_, N> {
         }
         let [coat, other] = self.coats;
         let [shining, reflected, transmitted] = self.lobes;
-        let cosine = wi.z.abs() * FRAC_1_PI;
+        let mu = wi.z.abs();
+        let cosine = mu * FRAC_1_PI;
         if self.wo.z * wi.z < 0.0 {
             return Scattered {
-                f: self.through * (1.0 - other.reflected(wi)),
+                f: self.through * ((1.0 - other.reflected(wi)) * (1.0 - other.turned(mu))),
                 pdf: transmitted * cosine,
             };
         }
         let diffuse = Scattered {
-            f: self.reflecting * (1.0 - coat.reflected(wi)),
+            f: (self.reflecting + self.turned * coat.turned(mu)) * (1.0 - coat.reflected(wi)),
             pdf: reflected * cosine,
         };
         if !coat.shines() {

@@ -9,6 +9,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use glam::{Vec2, Vec3};
 
+use super::coat::Coat;
 use super::coat_table::LocalCoat;
 use super::dust::{LocalDust, between};
 use super::leaf::LeafBsdf;
@@ -56,6 +57,8 @@ pub struct ReliefView<'a, const N: usize> {
     /// Normal of the other face.
     other: Vec3,
     coats: [LocalCoat<'a>; 2],
+    /// The coats of the leaf without relief, which say what is turned back at grazing angles.
+    plain: [&'a Coat; 2],
     /// Dust of the side of the view, and of the other.
     dusts: [Option<LocalDust>; 2],
     grains: Lanes<N>,
@@ -66,6 +69,7 @@ pub struct ReliefView<'a, const N: usize> {
     sent_back: f32,
     reflecting: Lanes<N>,
     through: Lanes<N>,
+    turned: Lanes<N>,
     lobes: [f32; 3],
 }
 
@@ -175,6 +179,11 @@ impl<'a, const N: usize> ReliefBsdf<'a, N> {
             |dust: Option<LocalDust>| dust.map_or(Lanes::ZERO, |dust| grains * dust.sent_mean);
         let onward = onward(own.dust, grains, outward.z);
         let [to_own, to_other] = [own, other].map(ReliefFace::passed_mean);
+        // The part of it that is not turned back is taken for that of the leaf without relief.
+        let coats = self.leaf.coats();
+        let plain = [&coats[side], &coats[1 - side]];
+        let kept = plain.map(|coat| coat.through_mean() / coat.passed_mean());
+        let [from_own, from_other] = [to_own * kept[0], to_other * kept[1]];
         let tissue = self.leaf.tissue();
         let (own_reflectance, t) = tissue.seen(side);
         let (other_reflectance, _) = tissue.seen(1 - side);
@@ -184,7 +193,7 @@ impl<'a, const N: usize> ReliefBsdf<'a, N> {
         // light from either side within bounds, and both directions alike.
         let mut through = t_own;
         for lane in 0..N {
-            through.0[lane] = (t_own.0[lane] / to_other).min(t_other.0[lane] / to_own);
+            through.0[lane] = (t_own.0[lane] / from_other).min(t_other.0[lane] / from_own);
         }
         // Bloom and dust are sampled as the tissue is.
         let missed = own.dust.map_or(1.0, |dust| dust.missed(outward.z));
@@ -192,8 +201,11 @@ impl<'a, const N: usize> ReliefBsdf<'a, N> {
         let grainy = own
             .dust
             .map_or(0.0, |dust| grains.mean() * dust.sent(outward.z));
-        let reflected = passed * (reflectance * onward).mean() + sent_back + grainy;
-        let transmitted = passed * (through * onward).mean() * to_other;
+        let turned = plain[0].turned(outward.z);
+        let crossing = passed * (through * onward).mean() * from_other;
+        let reflected =
+            passed * (reflectance * onward).mean() + crossing * turned + sent_back + grainy;
+        let transmitted = crossing * (1.0 - turned);
         let total = shining + reflected + transmitted;
         let share = if total > 0.0 { 1.0 / total } else { 0.0 };
         let other_normal = normal_of(other.slope);
@@ -205,7 +217,14 @@ impl<'a, const N: usize> ReliefBsdf<'a, N> {
             other: other_normal,
             lambda: own.coat.ggx.lambda(outward),
             reflecting: reflectance * onward * (passed * FRAC_1_PI * back[0] / to_own),
-            through: through * onward * (passed * FRAC_1_PI * back[1]),
+            through: through * onward * (passed * (1.0 - turned) * FRAC_1_PI * back[1]),
+            turned: if turned > 0.0 {
+                let mean = (to_own - from_own) / from_other;
+                through * onward * (passed * turned * FRAC_1_PI * back[0] / mean)
+            } else {
+                Lanes::ZERO
+            },
+            plain,
             dusts,
             grains,
             onward,
@@ -242,13 +261,16 @@ impl<const N: usize> ReliefView<'_, N> {
         if through {
             let onward = onward(self.dusts[1], self.grains, mu);
             return Scattered {
-                f: self.through * onward * ((1.0 - other.reflected(mu)) * tilted),
+                f: self.through
+                    * onward
+                    * ((1.0 - other.reflected(mu)) * (1.0 - self.plain[1].turned(mu)) * tilted),
                 pdf: transmitted * cosine,
             };
         }
         let sent_back = coat.sent_back(mu);
         let bloom = coat.bloom(self.sent_back, sent_back);
-        let below = self.reflecting * (1.0 - coat.reflected(mu));
+        let turned = self.turned * self.plain[0].turned(mu);
+        let below = (self.reflecting + turned) * (1.0 - coat.reflected(mu));
         let mut f = (below + self.onward * bloom) * tilted;
         let mut missed = 1.0;
         if let Some(dust) = &self.dusts[0] {

@@ -100,16 +100,31 @@ impl Aperture {
         axes: [Vec3; 2],
         direction: Vec3,
     ) -> (Vec3, Vec3, f32) {
+        let (offset, meeting, facing) = self.bending(point, axes, direction);
+        if self.tilt.is_none() {
+            return (offset, direction * self.focus_distance - offset, facing);
+        }
+        (offset, direction - offset * meeting, facing)
+    }
+
+    /// From the middle of the lens to a point of its opening, one over the distance at which the rays
+    /// of a film point meet, in units of `direction`, and how squarely the film sees the lens. The
+    /// distance is 0 or less where they never meet. The parameters are those of
+    /// [`Aperture::through`].
+    pub(super) fn bending(
+        &self,
+        point: Vec2,
+        axes: [Vec3; 2],
+        direction: Vec3,
+    ) -> (Vec3, f32, f32) {
         let Some(tilt) = &self.tilt else {
             let offset = axes[0] * point.x + axes[1] * point.y;
-            return (offset, direction * self.focus_distance - offset, 1.0);
+            return (offset, 1.0 / self.focus_distance, 1.0);
         };
         let offset = tilt.right * point.x + tilt.up * point.y;
         let facing = direction.dot(tilt.normal);
-        // One over the distance at which the rays meet, in units of `direction`; 0 or less where
-        // they never do.
         let meeting = facing * tilt.per_focal_length - tilt.per_image_distance;
-        (offset, direction - offset * meeting, facing)
+        (offset, meeting, facing)
     }
 }
 

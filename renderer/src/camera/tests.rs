@@ -3,7 +3,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::{DVec3, Vec2, Vec3};
 
 use super::thin_lens::{Field, Focus, Iris, Lens, LensError, Opening, ThinLens, lens_axes};
-use super::view::{Projection, View};
+use super::view::{Near, Projection, View};
 use super::*;
 
 /// A view along +y from the origin, x to the right and z up.
@@ -13,6 +13,7 @@ fn view(projection: Projection) -> View {
         look_at: DVec3::Y,
         up: DVec3::Z,
         projection,
+        near: Near::default(),
     }
 }
 

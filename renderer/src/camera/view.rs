@@ -15,6 +15,18 @@ pub struct View {
     pub up: DVec3,
     /// How points come to the film.
     pub projection: Projection,
+    /// Where its rays are traced.
+    pub near: Near,
+}
+
+/// Where the rays of a view are traced in single precision: near what is seen, wherever the camera
+/// is. The world that is seen decides it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Near {
+    /// The point of the scene that is the origin of rays, m.
+    pub origin: DVec3,
+    /// How far in front of the camera rays start, along its axis, m. Nothing that is seen is nearer.
+    pub distance: f64,
 }
 
 /// How points come to the film.
@@ -29,28 +41,18 @@ pub enum Projection {
     },
 }
 
-/// Distance of a camera from the origin of its scene beyond which the world is traced around the
-/// camera, m. Single precision resolves 0.01 mm there.
-const FAR: f64 = 100.0;
-
 impl View {
-    /// The point of the scene around which rays are traced in single precision: the scene's own
-    /// origin, or for a camera far from it the camera's place in whole metres.
-    pub fn origin(&self) -> DVec3 {
-        if self.position.length() <= FAR {
-            DVec3::ZERO
-        } else {
-            self.position.round()
+    /// Half the height of what the picture shows: at distance 1, or for parallel rays everywhere.
+    pub fn half_height(&self) -> f64 {
+        match &self.projection {
+            Projection::Perspective(lens) => libm::tan(0.5 * lens.vertical_fov),
+            Projection::Orthographic { height } => 0.5 * height,
         }
     }
 
-    /// This view, moved by an offset.
-    pub fn moved(&self, by: DVec3) -> Self {
-        Self {
-            position: self.position + by,
-            look_at: self.look_at + by,
-            ..self.clone()
-        }
+    /// Where the ray in the middle of the picture starts, m.
+    pub fn start(&self) -> DVec3 {
+        self.position + self.axes().z_axis * self.near.distance
     }
 
     /// Unit vectors to the right of the picture, up, and into the scene.

@@ -2,7 +2,7 @@
 
 use super::bytes::{Out, Rest};
 use crate::camera::thin_lens::{Iris, ThinLens};
-use crate::camera::view::{Projection, View};
+use crate::camera::view::{Near, Projection, View};
 
 pub(super) fn put(view: &View, out: &mut Out) {
     let View {
@@ -10,8 +10,9 @@ pub(super) fn put(view: &View, out: &mut Out) {
         look_at,
         up,
         projection,
+        near: Near { origin, distance },
     } = view;
-    for point in [position, look_at, up] {
+    for point in [position, look_at, up, origin] {
         out.doubles(&point.to_array());
     }
     match projection {
@@ -35,13 +36,20 @@ pub(super) fn put(view: &View, out: &mut Out) {
             out.double(*height);
         }
     }
+    out.double(*distance);
 }
 
 pub(super) fn take(rest: &mut Rest<'_>) -> Option<View> {
+    let [position, look_at, up, origin] = [
+        rest.doubles()?.into(),
+        rest.doubles()?.into(),
+        rest.doubles()?.into(),
+        rest.doubles()?.into(),
+    ];
     Some(View {
-        position: rest.doubles()?.into(),
-        look_at: rest.doubles()?.into(),
-        up: rest.doubles()?.into(),
+        position,
+        look_at,
+        up,
         projection: if rest.flag()? {
             Projection::Orthographic {
                 height: rest.double()?,
@@ -59,6 +67,10 @@ pub(super) fn take(rest: &mut Rest<'_>) -> Option<View> {
                 },
                 tilt: rest.doubles()?,
             })
+        },
+        near: Near {
+            origin,
+            distance: rest.double()?,
         },
     })
 }
@@ -93,6 +105,10 @@ mod tests {
                 look_at: DVec3::new(4.0, 5.0, 6.0),
                 up: DVec3::new(7.0, 8.0, 9.0),
                 projection,
+                near: Near {
+                    origin: DVec3::new(10.0, 11.0, 12.0),
+                    distance: 13.0,
+                },
             };
             let mut out = Out::default();
             put(&view, &mut out);

@@ -12,12 +12,14 @@ mod optics;
 mod samples;
 mod shell;
 mod sweep;
+mod tables;
 mod tonemap;
 mod trace;
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::film::MOST_SAMPLES;
 
@@ -33,6 +35,7 @@ pub use optics::OpticsArguments;
 pub use samples::SampleRange;
 pub use shell::{CompletionsArguments, ManArguments};
 pub use sweep::{SweepArguments, TaskRange};
+pub use tables::{ReadingTablesArguments, TableArguments};
 pub use tonemap::TonemapArguments;
 pub use trace::{ThresholdKind, TraceArguments};
 
@@ -98,6 +101,37 @@ pub struct Arguments {
     /// because their end of it closes however they end
     #[arg(long, global = true, hide_short_help = true)]
     pub end_with_stdin: bool,
+    /// A folder outside of a scene's own whose files scenes and leaves may name; may be given several
+    /// times; the environment may list more of them
+    #[arg(long, global = true, value_name = "DIR", hide_short_help = true)]
+    pub allow: Vec<PathBuf>,
+}
+
+impl Arguments {
+    /// The command line as the program reads it: every value may be a negative number, so that its
+    /// range is named instead of a flag that nobody meant.
+    pub fn grammar() -> clap::Command {
+        fn with_negative_numbers(command: clap::Command) -> clap::Command {
+            command
+                .mut_args(|arg| {
+                    let takes_values = arg.get_action().takes_values();
+                    arg.allow_negative_numbers(takes_values)
+                })
+                .mut_subcommands(with_negative_numbers)
+        }
+        with_negative_numbers(Self::command())
+    }
+
+    /// The arguments of a line, the program's name first.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with it, or what it asks to be printed.
+    pub fn of_line<W: Into<OsString> + Clone>(
+        line: impl IntoIterator<Item = W>,
+    ) -> Result<Self, clap::Error> {
+        Self::from_arg_matches(&Self::grammar().try_get_matches_from(line)?)
+    }
 }
 
 /// The subcommands.
@@ -188,7 +222,7 @@ pub struct CheckArguments {
     #[arg(long)]
     pub build: bool,
     /// Memory that a render may take; the default is what the machine has free
-    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,
 }
 
@@ -207,12 +241,15 @@ pub struct RenderArguments {
     /// written instead of the PNG; the default is the scene's name in this folder
     #[arg(long, value_name = "STEM")]
     pub out: Option<PathBuf>,
+    /// Width and height of the film in pixels, instead of the scene's
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size)]
+    pub size: Option<[u32; 2]>,
     /// Samples a pixel, instead of the scene's
     #[arg(long, value_name = "N", value_parser = samples())]
     pub spp: Option<u32>,
     /// Relative error at which a part of the picture has enough samples, instead of the scene's:
     /// 0.01 is one percent, 0 gives every pixel all its samples
-    #[arg(long, value_name = "SHARE", value_parser = between::<0, 1>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", value_parser = between::<0, 1>)]
     pub noise: Option<f64>,
     /// Samples by a map instead of a target noise: an EXR of the picture's size with a channel
     /// `samples.Y`, as every picture has one; a block of 8 × 8 pixels gets the most that is named in
@@ -221,7 +258,7 @@ pub struct RenderArguments {
     pub samples_map: Option<PathBuf>,
     /// Stop rendering after this time, at the end of the pass that is under way; the checkpoint
     /// stays, so that --resume goes on
-    #[arg(long, value_name = "SECONDS", value_parser = between::<0, MOST_SECONDS>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = between::<0, MOST_SECONDS>)]
     pub time: Option<f64>,
     /// Seed of every random number, instead of the scene's
     #[arg(long, value_name = "N")]
@@ -244,7 +281,7 @@ pub struct RenderArguments {
     #[arg(long, value_name = "FILE")]
     pub checkpoint: Option<PathBuf>,
     /// Time between checkpoints; longer if to write one takes more than a fiftieth of it
-    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = between::<0, MOST_SECONDS>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = between::<0, MOST_SECONDS>)]
     pub checkpoint_every: f64,
     /// Write the picture to look at anew while it is rendered, every 5 seconds or as many as are
     /// given; less often if that takes more than a fiftieth of the time
@@ -255,7 +292,6 @@ pub struct RenderArguments {
         require_equals = true,
         default_missing_value = "5",
         value_parser = between::<0, MOST_SECONDS>,
-        allow_negative_numbers = true,
         conflicts_with = "samples"
     )]
     pub preview: Option<f64>,
@@ -264,7 +300,7 @@ pub struct RenderArguments {
     #[arg(long, value_name = "HOST:PORT")]
     pub tev: Option<String>,
     /// Memory that the render may take; the default is what the machine has free
-    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,
     /// Render only the samples number A to B − 1 of each pixel, into STEM.part for lamina merge
     #[arg(long, value_name = "A..B", value_parser = SampleRange::parse)]
@@ -302,6 +338,14 @@ fn between<const LOW: u32, const HIGH: u32>(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A width and a height, such as `640x480`.
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let number = |text: &str| text.trim().parse().ok();
+    let pair = text.split_once(['x', '×', ',']);
+    let pair = pair.and_then(|(width, height)| Some([number(width)?, number(height)?]));
+    pair.ok_or_else(|| "write a width and a height: 640x480".to_owned())
+}
+
 /// Two finite numbers with a comma between them; `wanted` tells what is to be written.
 fn two_numbers(text: &str, wanted: &str) -> Result<[f64; 2], String> {
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
@@ -328,7 +372,7 @@ pub struct MitsubaArguments {
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Memory that building the scene may take; the default is what the machine has free
-    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,
 }
 

@@ -6,12 +6,12 @@ use leafmodel::document::error::{DocumentError, LocatedError};
 use crate::cli::arguments::{CheckArguments, SceneArguments};
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, colour, load_scene, needs, say};
+use crate::cli::{Failure, load_scene, needs, say, warn};
 use crate::geometry;
 use crate::scene::assets;
 use crate::scene::description::{Description, Held, Mesh, Named, Reflectance};
 use crate::scene::load;
-use crate::scene::world::World;
+use crate::scene::world::{World, on_mesh};
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let CheckArguments {
@@ -38,9 +38,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
                 return Ok(());
             }
         };
-        for warning in warnings {
-            eprint!("{}", warning.render(colour()));
-        }
+        warn(&warnings);
         let leaves = counted(leaves.len(), "leaf", "leaves");
         say(format!("{}: {leaves}", scene.scene.display()));
         return Ok(());
@@ -49,7 +47,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     needs::check(&description, *memory)?;
     if *build {
         let _signals = Signals::listen()?;
-        return tell_world(scene, &description);
+        return tell_world(scene, &description, *memory);
     }
     read_files(&description)?;
     let film = &description.film;
@@ -86,20 +84,22 @@ fn read_files(description: &Description) -> Result<(), Failure> {
         {
             let told = |error| Failure::bad(format!("meshes.{name}: {error}"));
             let colours = description.wants_colours_of(number);
-            assets::model(file, beside, *scale, colours).map_err(told)?;
+            let model = assets::model(file, beside, *scale, colours).map_err(told)?;
+            note(on_mesh(name, &model.mesh, &model.left_out));
         }
         let Mesh::File { file, scale } = &mesh.value else {
             continue;
         };
         let bytes = assets::read(file).map_err(Failure::bad)?;
         let ending = file.extension().and_then(|ending| ending.to_str());
-        geometry::import(&bytes, ending.unwrap_or_default(), *scale as f32)
+        let mesh = geometry::import(&bytes, ending.unwrap_or_default(), *scale as f32)
             .map_err(|error| Failure::bad(format!("meshes.{name}: {}: {error}", file.display())))?;
+        note(on_mesh(name, &mesh, &[]));
     }
     for material in &description.materials {
-        if let Some(Reflectance::Picture { file, .. }) = material.value.reflectance() {
+        if let Some(Reflectance::Picture { file, layer, .. }) = material.value.reflectance() {
             let told = |error| Failure::bad(format!("materials.{}: {error}", material.name));
-            assets::reflectances(file).map_err(told)?;
+            assets::reflectances(file, layer.as_deref()).map_err(told)?;
         }
         let Some(Held::Map { file, .. }) = material.value.held() else {
             continue;
@@ -108,22 +108,31 @@ fn read_files(description: &Description) -> Result<(), Failure> {
         assets::contents_map(file).map_err(told)?;
     }
     for light in &description.lights {
-        if let Some(file) = light.value.picture() {
+        if let Some((file, layer)) = light.value.picture() {
             let told = |error| Failure::bad(format!("lights.{}: {error}", light.name));
-            assets::shining(file).map_err(told)?;
+            assets::shining(file, layer).map_err(told)?;
         }
     }
     Ok(())
 }
 
-/// Builds the scene and prints its size.
-fn tell_world(scene: &SceneArguments, description: &Description) -> Result<(), Failure> {
-    let patience = Patience::building(description.leaves.len());
-    let world = World::build_with(description, &patience.options()).map_err(Failure::bad)?;
-    drop(patience);
-    for note in &world.notes {
+/// Prints notes.
+fn note(notes: Vec<String>) {
+    for note in notes {
         eprintln!("note: {note}");
     }
+}
+
+/// Builds the scene and prints its size.
+fn tell_world(
+    scene: &SceneArguments,
+    description: &Description,
+    memory: Option<f64>,
+) -> Result<(), Failure> {
+    let patience = Patience::building(description.leaves.len(), memory);
+    let world = World::build_with(description, &patience.options()).map_err(Failure::bad)?;
+    drop(patience);
+    note(world.notes);
     for Named { name, value } in &description.plants {
         if let Some([crossing, leaves]) = value.crossing
             && crossing > 0

@@ -35,7 +35,9 @@ pub(super) fn run(arguments: &CheckBsdfArguments) -> Result<(), Failure> {
     let bytes = std::fs::read(file)
         .map_err(|error| Failure::bad(format!("{}: {error}", file.display())))?;
     let text = series::text(&bytes).map_err(|fault| Failure::bad(fault.shown(file, "")))?;
-    let table = bsdf::read(text).map_err(|fault| Failure::bad(fault.shown(file, text)))?;
+    let mut known = arguments.reading.known();
+    known.angles = arguments.angles;
+    let table = bsdf::read(text, &known).map_err(|fault| Failure::bad(fault.shown(file, text)))?;
     for note in &table.notes {
         eprintln!("note: {note}");
     }

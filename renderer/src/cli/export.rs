@@ -13,8 +13,9 @@ pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
     let signals = Signals::listen()?;
     check_folder(&arguments.out)?;
     let scene = load_scene(&arguments.scene)?.description;
+    mitsuba::check(&scene).map_err(Failure::bad)?;
     needs::check_geometry(&scene, "export", arguments.memory)?;
-    let patience = Patience::building(scene.leaves.len());
+    let patience = Patience::building(scene.leaves.len(), arguments.memory);
     let world = World::build_with(&scene, &patience.options()).map_err(Failure::bad)?;
     drop(patience);
     // What is begun is written to its end, or not at all.
@@ -34,6 +35,20 @@ pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
         eprintln!(
             "note: under drops Mitsuba takes leaves as they are in air, so that they send out 1/eta² of their \
              light; Lamina does not"
+        );
+    }
+    let leaking = mitsuba::leaking(&scene, &world);
+    if !leaking.is_empty() {
+        eprintln!(
+            "note: {} smooth and {} Mitsuba's own diffuse or dielectric BSDF, with which some light passes \
+             closed bodies at their outline and terminator: {}; leaves, solid tissue and plastic let none pass",
+            if leaking.len() == 1 {
+                "one object is"
+            } else {
+                "some objects are"
+            },
+            if leaking.len() == 1 { "has" } else { "have" },
+            leaking.join(", ")
         );
     }
     Ok(())

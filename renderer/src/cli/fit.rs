@@ -2,19 +2,18 @@
 
 mod input;
 mod plot;
+mod tables;
 
-use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use leafmodel::optics::faces::CONTRASTS;
-use leafmodel::optics::inversion::{self, Found, Inversion};
+use leafmodel::optics::inversion::{self, Determined, Found, INTERVAL, Inversion};
 use leafmodel::optics::prospect_d::{FIRST_NM, LAST_NM};
 use leafmodel::optics::{Constituent, Contents};
 use rayon::prelude::*;
-use serde_json::{Map, Value as Json, json};
 
-use crate::checkpoint::PROGRAM;
+pub(super) use self::tables::quoted;
+use self::tables::{contents, covariances, fitted_spectra, report};
 use crate::cli::arguments::FitArguments;
 use crate::cli::columns::in_columns;
 use crate::cli::places::check_outputs;
@@ -24,9 +23,6 @@ use crate::measured::spectra::Leaf;
 
 /// Least number of wavelengths from which contents can be told.
 const LEAST_WAVELENGTHS: usize = 8;
-
-/// Half of the width of an interval of 95 % in standard errors, by the normal distribution.
-const INTERVAL: f64 = 1.96;
 
 /// A leaf and what it was found to hold.
 struct Fitted<'a> {
@@ -52,6 +48,11 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
             "--spectra-out writes a table",
         ),
         (&arguments.plot, "svg", "--plot writes a drawing"),
+        (
+            &arguments.covariance_out,
+            "csv",
+            "--covariance-out writes a table",
+        ),
     ] {
         let has = |file: &&PathBuf| file.extension().is_some_and(|own| own == ending);
         if let Some(file) = file.as_ref().filter(|file| !has(file)) {
@@ -59,7 +60,11 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
             return Err(Failure::bad(format!("{flag}: let {file} end in .{ending}")));
         }
     }
-    let others = [&arguments.spectra_out, &arguments.plot];
+    let others = [
+        &arguments.spectra_out,
+        &arguments.plot,
+        &arguments.covariance_out,
+    ];
     let outputs = others.into_iter().filter_map(|file| file.as_deref());
     let outputs: Vec<&Path> = out.into_iter().chain(outputs).collect();
     check_outputs(&outputs, &input::files(arguments), "the command")?;
@@ -104,6 +109,12 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
     }
     if let Some(file) = &arguments.plot {
         write(file, &plot::svg(&fitted))?;
+    }
+    if let Some(file) = &arguments.covariance_out {
+        write(file, &covariances(&fitted))?;
+    }
+    for fitted in &fitted {
+        say_correlation(fitted);
     }
     if out.is_none() {
         say(human(&fitted, &free));
@@ -231,113 +242,16 @@ fn fit<'a>(leaf: &'a Leaf, free: &[Constituent], fixed: Contents) -> Result<Fitt
     })
 }
 
-/// A table with a line for each leaf.
-fn contents(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
-    let mut text = "leaf".to_owned();
-    for of in free {
-        let _ = write!(text, ",{0},{0}_standard_error", of.key());
+/// Says that errors are wider because what is left is correlated.
+fn say_correlation(Fitted { leaf, found }: &Fitted<'_>) {
+    if let Some(correlation) = found.correlation {
+        eprintln!(
+            "note: {}: what is left is correlated over {:.3} nm, so that the values count as fewer: \
+             errors are wider accordingly",
+            leafmodel::document::source::quoted(shown(leaf)),
+            Rounded(correlation.length_nm)
+        );
     }
-    // Tables of one face keep their columns.
-    let has_faces = fitted.iter().any(|fitted| fitted.found.contrast.is_some());
-    if has_faces {
-        text += ",face_contrast,face_contrast_standard_error";
-    }
-    text += ",rms,values\n";
-    for Fitted { leaf, found } in fitted {
-        text += &quoted(shown(leaf));
-        for &of in free {
-            let _ = write!(text, ",{}", found.contents[of]);
-            match found.errors[of] {
-                Some(error) => _ = write!(text, ",{error}"),
-                None => text.push(','),
-            }
-        }
-        if has_faces {
-            let contrast = found.contrast;
-            let error = contrast.and_then(|contrast| contrast.error);
-            for figure in [contrast.map(|contrast| contrast.value), error] {
-                match figure {
-                    Some(figure) => _ = write!(text, ",{figure}"),
-                    None => text.push(','),
-                }
-            }
-        }
-        let _ = writeln!(text, ",{},{}", found.rms(), found.values());
-    }
-    text
-}
-
-/// A name as a field of a table. A line that begins with `#` would be a comment.
-pub(super) fn quoted(name: &str) -> String {
-    if name.contains([',', '"', '\n', '#']) {
-        format!("\"{}\"", name.replace('"', "\"\""))
-    } else {
-        name.to_owned()
-    }
-}
-
-/// Everything as JSON.
-fn report(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
-    let leaves = fitted.iter().map(|Fitted { leaf, found }| {
-        let mut contents = Map::new();
-        for &of in free {
-            let figure = figure(found.contents[of], found.errors[of], Inversion::bounds(of));
-            contents.insert(of.key().to_owned(), figure);
-        }
-        let contrast = found.contrast;
-        json!({
-            "leaf": shown(leaf),
-            "contents": contents,
-            "face_contrast": contrast.map(|found| figure(found.value, found.error, CONTRASTS)),
-            "rms": found.rms(),
-            "values": found.values(),
-            "wavelength_nm": leaf.nm,
-            "reflectance_left": found.reflectance_left,
-            "abaxial_reflectance_left": found.abaxial_left,
-            "transmittance_left": found.transmittance_left,
-        })
-    });
-    let leaves: Vec<Json> = leaves.collect();
-    format!("{:#}\n", json!({ "program": PROGRAM, "leaves": leaves }))
-}
-
-/// A value with its errors.
-fn figure(value: f64, error: Option<f64>, [low, high]: [f64; 2]) -> Json {
-    let interval = error.map(|error| {
-        [value - INTERVAL * error, value + INTERVAL * error].map(|end| end.clamp(low, high))
-    });
-    json!({ "value": value, "standard_error": error, "interval_95": interval })
-}
-
-/// Measured and fitted values, a line for each wavelength of each leaf.
-fn fitted_spectra(fitted: &[Fitted<'_>]) -> String {
-    let has_faces = fitted.iter().any(|fitted| fitted.found.contrast.is_some());
-    let abaxial = if has_faces {
-        ",R_abaxial,R_abaxial_fitted"
-    } else {
-        ""
-    };
-    let mut text = format!("leaf,wavelength_nm,R,R_fitted{abaxial},T,T_fitted\n");
-    for Fitted { leaf, found } in fitted {
-        for (i, nm) in leaf.nm.iter().enumerate() {
-            let _ = write!(text, "{},{nm}", quoted(shown(leaf)));
-            for (measured, left, is_written) in [
-                (&leaf.reflectance, &found.reflectance_left, true),
-                (&leaf.abaxial, &found.abaxial_left, has_faces),
-                (&leaf.transmittance, &found.transmittance_left, true),
-            ] {
-                if !is_written {
-                    continue;
-                }
-                match measured.get(i) {
-                    Some(value) => _ = write!(text, ",{value},{}", value + left[i]),
-                    None => text += ",,",
-                }
-            }
-            text.push('\n');
-        }
-    }
-    text
 }
 
 /// What a reader of the terminal sees.
@@ -350,32 +264,33 @@ fn human(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
             shown(leaf),
             found.values()
         ));
-        let contents = free.iter().map(|&of| {
-            let (value, error) = (found.contents[of], found.errors[of]);
-            let error = told_error(value, error, Inversion::bounds(of));
-            let value = format!("{:.4} {}", Rounded(value), of.unit());
-            [of.words().to_owned(), value, error]
-        });
-        let contrast = found.contrast.map(|contrast| {
-            let error = told_error(contrast.value, contrast.error, CONTRASTS);
-            let value = format!("{:.4}", Rounded(contrast.value));
-            ["contrast of the faces".to_owned(), value, error]
-        });
+        let told = |words: &str, value: f64, unit: &str, known: Determined| {
+            let error = match known {
+                Determined::Within(error) => format!("± {:.2}", Rounded(INTERVAL * error)),
+                Determined::Given | Determined::AtEnd | Determined::Not(_) => {
+                    known.reason().unwrap_or_default().to_owned()
+                }
+            };
+            let value = if known.has_value() {
+                format!("{:.4} {unit}", Rounded(value))
+                    .trim_end()
+                    .to_owned()
+            } else {
+                "not determined".to_owned()
+            };
+            [words.to_owned(), value, error]
+        };
+        let contents = free
+            .iter()
+            .map(|&of| told(of.words(), found.contents[of], of.unit(), found.known[of]));
+        let contrast = found
+            .contrast
+            .map(|contrast| told("contrast of the faces", contrast.value, "", contrast.known));
         let rows: Vec<[String; 3]> = contents.chain(contrast).collect();
         lines.push(in_columns(&rows));
     }
-    lines.push(
-        "± is half of the interval of 95 %, if the noise of each value is its own".to_owned(),
-    );
+    lines.push("± is half of the interval of 95 %".to_owned());
     lines.join("\n")
-}
-
-fn told_error(value: f64, error: Option<f64>, ends: [f64; 2]) -> String {
-    match error {
-        Some(error) => format!("± {:.2}", Rounded(INTERVAL * error)),
-        None if ends.contains(&value) => "at the end of its range".to_owned(),
-        None => "not told by these spectra".to_owned(),
-    }
 }
 
 /// A number with so many digits that count.
@@ -398,3 +313,6 @@ fn write(file: &Path, text: &str) -> Result<(), Failure> {
     say(file.display());
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;

@@ -5,13 +5,16 @@ mod table;
 
 use std::io::Write as _;
 use std::path::Path;
-use std::time::Instant;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use crate::cli::arguments::InstrumentsArguments;
-use crate::cli::progress::Patience;
-use crate::cli::{Failure, colour, needs, places, say};
+use crate::cli::progress::{BETWEEN_LINES, Patience};
+use crate::cli::signals::Signals;
+use crate::cli::{Failure, needs, places, say, warn};
 use crate::image::atomic;
-use crate::instruments::{Budget, Row, notes, read_out, sets_of};
+use crate::instruments::{Budget, CutPaths, Effort, Row, Watch, notes, read_out_watched, sets_of};
 use crate::scene::description::Description;
 use crate::scene::load;
 use crate::scene::plant_cache::PlantCache;
@@ -24,11 +27,10 @@ const USUAL_RAYS: u64 = 1 << 16;
 const MOST_RAYS: u64 = 1 << 32;
 
 pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
+    let signals = Signals::listen()?;
     let given = &arguments.scene;
     let loaded = load::load_for_instruments(&given.scene, &given.overrides)?;
-    for warning in &loaded.warnings {
-        eprint!("{}", warning.render(colour()));
-    }
+    warn(&loaded.warnings);
     let scene = loaded.description;
     let mut inputs = loaded.inputs;
     inputs.push(given.scene.clone());
@@ -49,17 +51,22 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
         error: arguments.error,
         seed: arguments.seed,
     };
-    let rows = pool.install(|| measure(arguments, &scene, &chosen, &budget))?;
+    let Measured { rows, cuts, ended } =
+        pool.install(|| measure(arguments, &scene, &chosen, &budget, &signals))?;
     for path in &arguments.out {
         let text = if has_ending(path, "json") {
-            table::json(&scene, &budget, &rows)
+            table::json(&scene, &budget, (&rows, &cuts), ended.is_ok())
         } else {
             table::csv(&rows)
         };
         atomic::replace(path, |file| file.write_all(text.as_bytes())).map_err(Failure::system)?;
         say(path.display());
     }
-    if let Some(path) = &arguments.plot {
+    if let Some(path) = arguments
+        .plot
+        .as_ref()
+        .filter(|_| ended.is_ok() || !rows.is_empty())
+    {
         let drawing = plot::svg(&rows).ok_or_else(|| {
             Failure::bad(format!(
                 "{}: there is nothing to draw: a line needs figures at two wavelengths, view angles \
@@ -71,7 +78,27 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
             .map_err(Failure::system)?;
         say(path.display());
     }
-    Ok(())
+    match ended {
+        Err(Ended::Failed(failure)) => Err(failure),
+        Err(Ended::Late) | Ok(()) => Ok(()),
+    }
+}
+
+/// What was measured.
+struct Measured {
+    rows: Vec<Row>,
+    /// Paths that the limit of events cut, of each instrument.
+    cuts: Cuts,
+    /// Why not all of it was, or not with all rays.
+    ended: Result<(), Ended>,
+}
+
+/// Why a measurement ended early.
+enum Ended {
+    /// The time was over.
+    Late,
+    /// One of the instruments cannot measure, or somebody interrupted it.
+    Failed(Failure),
 }
 
 /// Numbers of the instruments that are read out.
@@ -98,45 +125,169 @@ fn choose(arguments: &InstrumentsArguments, scene: &Description) -> Result<Vec<u
     Ok(numbers.collect())
 }
 
+/// The paths that were cut in the measurement of each instrument.
+type Cuts = Vec<(String, CutPaths)>;
+
 /// Builds the scene and reads the instruments out.
 fn measure(
     arguments: &InstrumentsArguments,
     scene: &Description,
     chosen: &[usize],
     budget: &Budget,
-) -> Result<Vec<Row>, Failure> {
+    signals: &Signals,
+) -> Result<Measured, Failure> {
     needs::check_geometry(scene, "measurement", arguments.memory)?;
     let Some((sampler, first)) = sets_of(scene) else {
-        return Ok(Vec::new());
+        return Ok(Measured {
+            rows: Vec::new(),
+            cuts: Vec::new(),
+            ended: Ok(()),
+        });
     };
     let world = build(arguments, scene, &sampler)?;
     for note in &world.notes {
         eprintln!("note: {note}");
     }
-    let mut rows = Vec::new();
-    for &number in chosen {
+    signals.begin_work();
+    let time = arguments.time.map(Duration::from_secs_f64);
+    let until = time.map(|time| Instant::now() + time);
+    let (mut rows, mut cuts) = (Vec::new(), Vec::new());
+    for (place, &number) in chosen.iter().enumerate() {
         let started = Instant::now();
         let name = &scene.instruments[number].name;
         for note in notes(&world, scene, number) {
             eprintln!("note: {name}: {note}");
         }
-        let found = read_out(&world, scene, number, first[number], budget).map_err(Failure::bad)?;
+        let progress = Rays::new(name, budget);
+        let watch = Watch {
+            until,
+            stop: &signals.stop,
+            tell: &|rays| progress.tell(rays),
+        };
+        let effort = Effort {
+            budget: *budget,
+            watch: Some(&watch),
+        };
+        let found = match read_out_watched(&world, scene, number, first[number], &effort) {
+            Ok(found) => found,
+            Err(error) => {
+                let ended = Err(Ended::Failed(Failure::bad(error)));
+                return Ok(Measured { rows, cuts, ended });
+            }
+        };
+        report_cuts(name, &found.cut, scene.integrator.max_events);
+        cuts.push((name.clone(), found.cut));
+        let found = found.rows;
         let greatest = found.iter().map(|row| row.error).fold(0.0, f64::max);
         eprintln!(
             "{name}: {} figures in {:.1} s, standard errors up to {greatest:.1e}",
             found.len(),
             started.elapsed().as_secs_f64()
         );
-        if let Some(target) = budget.error.filter(|&target| greatest > target) {
+        let rays = progress.rays();
+        let is_open = |row: &&Row| {
+            let allowed = budget.error.map(|target| target.allowed(row.value));
+            allowed.is_some_and(|allowed| row.error > allowed)
+        };
+        let open = found.iter().filter(is_open).count();
+        if open > 0 {
             eprintln!(
-                "warning: {name}: {} rays are not enough for --error {target}: the greatest \
-                 standard error is {greatest:.1e}",
-                budget.rays
+                "warning: {name}: {rays} rays are not enough for --error: {open} figures have greater \
+                 standard errors, up to {greatest:.1e}"
             );
         }
         rows.extend(found);
+        let left = chosen[place + 1..].iter();
+        let left: Vec<&str> = left
+            .map(|&number| scene.instruments[number].name.as_str())
+            .collect();
+        let is_cut = open > 0 || (budget.error.is_none() && (1..budget.rays).contains(&rays));
+        let is_stopped = signals.stop.load(Ordering::Relaxed);
+        let is_over = is_stopped || until.is_some_and(|until| Instant::now() >= until);
+        if is_over && (is_cut || !left.is_empty()) {
+            let by = if is_stopped {
+                "the interruption"
+            } else {
+                "--time"
+            };
+            eprintln!(
+                "note: {by} ended the measurement after {rays} rays of `{name}`{}",
+                if left.is_empty() {
+                    String::new()
+                } else {
+                    format!("; not measured: {}", left.join(", "))
+                }
+            );
+            let ended = Err(if is_stopped {
+                Ended::Failed(Failure::Interrupted)
+            } else {
+                Ended::Late
+            });
+            return Ok(Measured { rows, cuts, ended });
+        }
     }
-    Ok(rows)
+    Ok(Measured {
+        rows,
+        cuts,
+        ended: Ok(()),
+    })
+}
+
+/// Says so if the limit of events cut paths.
+fn report_cuts(name: &str, cut: &CutPaths, most_events: u32) {
+    if cut.paths > 0 {
+        eprintln!(
+            "note: {name}: {} paths were cut after {most_events} events (`integrator.max_events`); what they \
+             carried, at most {:.1e} of the light, counts as absorbed",
+            cut.paths, cut.at_most
+        );
+    }
+}
+
+/// The progress of an instrument, a line every ten seconds.
+struct Rays<'a> {
+    name: &'a str,
+    budget: &'a Budget,
+    started: Instant,
+    last_line: Mutex<Instant>,
+    followed: AtomicU64,
+}
+
+impl<'a> Rays<'a> {
+    fn new(name: &'a str, budget: &'a Budget) -> Self {
+        let started = Instant::now();
+        Self {
+            name,
+            budget,
+            started,
+            last_line: Mutex::new(started),
+            followed: AtomicU64::new(0),
+        }
+    }
+
+    fn rays(&self) -> u64 {
+        self.followed.load(Ordering::Relaxed)
+    }
+
+    fn tell(&self, rays: u64) {
+        self.followed.store(rays, Ordering::Relaxed);
+        let mut last = self
+            .last_line
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        if last.elapsed() < BETWEEN_LINES {
+            return;
+        }
+        *last = Instant::now();
+        let (name, seconds) = (self.name, self.started.elapsed().as_secs_f64());
+        if let Some(error) = self.budget.error {
+            eprintln!("{name}: {rays} rays after {seconds:.0} s, until --error {error}");
+            return;
+        }
+        let all = self.budget.rays;
+        let left = seconds * (all as f64 / rays.max(1) as f64 - 1.0).max(0.0);
+        eprintln!("{name}: {rays} of {all} rays after {seconds:.0} s, about {left:.0} s to go");
+    }
 }
 
 fn build(
@@ -146,7 +297,7 @@ fn build(
 ) -> Result<World, Failure> {
     let cache = arguments.cache.as_deref().map(PlantCache::open);
     let cache = cache.transpose().map_err(Failure::bad)?;
-    let patience = Patience::building(scene.leaves.len());
+    let patience = Patience::building(scene.leaves.len(), arguments.memory);
     let options = BuildOptions {
         cache: cache.as_ref(),
         wavelengths: Some(sampler),

@@ -9,11 +9,11 @@ use std::time::Instant;
 
 use leafmodel::measure::Subject;
 
-pub(super) use self::input::Input;
+pub(super) use self::input::{Input, text_of};
 use self::report::Report;
 pub(super) use self::report::{by_order, measured};
 use crate::cli::arguments::MeasureArguments;
-use crate::cli::{Failure, places, say};
+use crate::cli::{Failure, places, say, trace};
 use crate::image::atomic;
 
 pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
@@ -28,6 +28,11 @@ pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
     let measuring = Instant::now();
     let subject = Subject::new(blade, &input.network, input.known);
     let report = Report::new(arguments, &input, &subject);
+    let density = report.number("vein_density_mm_per_mm2");
+    let scale = "--mm-per-unit, --mm-per-pixel, --area or --outline";
+    if let Some(warning) = trace::implausible_density(density, scale) {
+        eprintln!("{warning}");
+    }
     let seconds = measuring.elapsed().as_secs_f64();
     eprint!("{}", report.table());
     for path in &arguments.out {

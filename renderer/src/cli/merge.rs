@@ -34,5 +34,8 @@ pub(super) fn run(arguments: &MergeArguments) -> Result<(), Failure> {
     for path in outputs {
         say(path.display());
     }
+    for note in rendered.notes() {
+        eprintln!("note: {note}");
+    }
     Ok(())
 }

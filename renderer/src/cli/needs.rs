@@ -5,25 +5,21 @@ use crate::film::Film;
 use crate::geometry::scatter::{Amount, Volume};
 use crate::integrator::layers::Layout;
 use crate::scene::description::{Description, Drop, Lump, Mesh, Object, ObjectShape, StrewnOn};
+use crate::scene::world::memory::{OF_A_TRIANGLE, OF_AN_INSTANCE};
 use crate::spectrum::WavelengthSampler;
 
 const MIB: f64 = 1024.0 * 1024.0;
 const GIB: f64 = 1024.0 * MIB;
 
-/// Memory of a triangle with its share of the trees while they are built, bytes; measured with
-/// spheres of 16.8 million triangles (4.9 GB).
-const OF_A_TRIANGLE: f64 = 290.0;
-
-/// Memory of a place of an object of two parts, as a leaf with its petiole is, bytes: instances and
-/// placements with their shares of the upper tree; measured with 168,000 places (363 MB).
-const OF_A_PLACE: f64 = 2200.0;
+/// Memory of a place of an object of two parts, as a leaf with its petiole is, bytes.
+const OF_A_PLACE: f64 = 2.0 * OF_AN_INSTANCE;
 
 /// Copies of a picture's layers while its file is made: values, compressed blocks, the file.
 const COPIES: f64 = 3.0;
 
 /// Fails if a scene, once grown and built, and its picture need more memory than `allowed` (GiB),
 /// or than the machine has free, or has a film that cannot be made. Meshes and pictures that are
-/// read are not counted: their files tell how large they are.
+/// read are not counted here, but when they have been read.
 pub(super) fn check(scene: &Description, allowed: Option<f64>) -> Result<(), Failure> {
     let film = &scene.film;
     let layout = Layout::new(&WavelengthSampler::new(&film.kind));
@@ -163,13 +159,14 @@ pub(super) fn compare(
     allowed: Option<f64>,
 ) -> Result<(), Failure> {
     let needed = needs.iter().fold(0.0, |sum, (bytes, _)| sum + bytes);
-    let free = || free_bytes().unwrap_or(f64::INFINITY);
-    if needed <= allowed.map_or_else(free, |allowed| allowed * GIB) {
+    let most = most_bytes(allowed).unwrap_or(f64::INFINITY);
+    if needed <= most {
         return Ok(());
     }
     let limit = match allowed {
-        Some(allowed) => format!("the {allowed} GiB of --memory"),
-        None => format!("the {} that are free", shown(free())),
+        Some(allowed) if allowed * GIB <= most => format!("the {allowed} GiB of --memory"),
+        Some(_) => format!("the {} that the system lets this program have", shown(most)),
+        None => format!("the {} that are free", shown(most)),
     };
     let parts = needs.iter().filter(|(bytes, _)| *bytes >= MIB);
     let parts: Vec<String> = parts
@@ -184,6 +181,50 @@ pub(super) fn compare(
         shown(needed),
         (needed / GIB).ceil(),
     )))
+}
+
+/// Bytes that a scene may take while it is built: `allowed` GiB, or what the machine has free, and no
+/// more than the system lets this program have.
+pub(super) fn most_bytes(allowed: Option<f64>) -> Option<f64> {
+    let most = allowed.map(|allowed| allowed * GIB).or_else(free_bytes);
+    most.into_iter().chain(granted_bytes()).reduce(f64::min)
+}
+
+/// Bytes that the limits of this process and of its group (`ulimit -v`, a container's memory) leave;
+/// `None` without limits, or where the system does not report them.
+fn granted_bytes() -> Option<f64> {
+    let read = |path: &str| std::fs::read_to_string(path).ok();
+    let status = read("/proc/self/status")?;
+    let used = |name: &str| -> Option<f64> {
+        let line = status.lines().find_map(|line| line.strip_prefix(name))?;
+        let kib: f64 = line.split_whitespace().next()?.parse().ok()?;
+        Some(kib * 1024.0)
+    };
+    #[cfg(unix)]
+    let of_process = {
+        use rustix::process::{Resource, getrlimit};
+        let limit = getrlimit(Resource::As).current;
+        limit.and_then(|limit| Some(limit as f64 - used("VmSize:")?))
+    };
+    #[cfg(not(unix))]
+    let of_process: Option<f64> = None;
+    let group = read("/proc/self/cgroup").unwrap_or_default();
+    let group = group.lines().find_map(|line| line.strip_prefix("0::"));
+    let group = group.unwrap_or("/").trim_end_matches('/');
+    // Within a container its own group is the root.
+    let files = [
+        format!("/sys/fs/cgroup{group}/memory.max"),
+        "/sys/fs/cgroup/memory.max".to_owned(),
+    ];
+    let limit = files
+        .iter()
+        .find_map(|file| read(file)?.trim().parse::<f64>().ok());
+    let of_group = limit.and_then(|limit| Some(limit - used("VmRSS:")?));
+    of_process
+        .into_iter()
+        .chain(of_group)
+        .map(|bytes: f64| bytes.max(0.0))
+        .reduce(f64::min)
 }
 
 fn shown(bytes: f64) -> String {

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::cli::arguments::{CompareArguments, InfoArguments};
 use crate::cli::{Failure, say};
+use crate::image::colours::in_rec709;
 use crate::image::{Attribute, Picture, compare as numbers, openexr};
 
 fn read(path: &Path) -> Result<Picture, Failure> {
@@ -11,7 +12,11 @@ fn read(path: &Path) -> Result<Picture, Failure> {
 }
 
 pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
-    let (first, second) = (read(&arguments.first)?, read(&arguments.second)?);
+    let of = |path: &Path| {
+        let converted = in_rec709(read(path)?);
+        converted.map_err(|error| Failure::bad(format!("{}: {error}", path.display())))
+    };
+    let (first, second) = (of(&arguments.first)?, of(&arguments.second)?);
     let comparison = numbers::compare(&first, &second);
     let [(width, height), (other_width, other_height)] = comparison.sizes;
     if (width, height) != (other_width, other_height) {

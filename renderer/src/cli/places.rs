@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use crate::cli::Failure;
 use crate::cli::signals::Signals;
@@ -108,11 +109,11 @@ impl Lock {
             return Ok(None);
         };
         let name = place.file_name().unwrap_or_default().to_string_lossy();
-        let path = place.with_file_name(format!(".{name}.lock"));
+        let path = place.with_file_name(atomic::lock_name(&name));
         let refused =
             |error: std::io::Error| Failure::system(format!("{}: {error}", path.display()));
         // The one who had the lock may remove the file after it was opened here.
-        for _ in 0..100 {
+        for attempt in 0..100 {
             let mut options = OpenOptions::new();
             options.read(true).write(true).create(true).truncate(false);
             let mut file = options.open(&path).map_err(refused)?;
@@ -120,6 +121,11 @@ impl Lock {
                 Err(_) => {
                     let _ = fs::remove_file(&path);
                     return Ok(None);
+                }
+                // A program that cleans the folder holds it for a moment.
+                Ok(false) if attempt < 5 => {
+                    std::thread::sleep(Duration::from_millis(10));
+                    continue;
                 }
                 Ok(false) => {
                     let holder = fs::read_to_string(&path).unwrap_or_default();
@@ -222,7 +228,8 @@ mod tests {
         drop(lock);
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
         // A lock file of a program that was killed holds nobody up.
-        fs::write(folder.path().join(".a.exr.lock"), "process 1 on moon").expect("it is ours");
+        let left = folder.path().join(atomic::lock_name("a.exr"));
+        fs::write(left, "process 1 on moon").expect("it is ours");
         assert!(
             Lock::take(&output, &signals)
                 .expect("nobody has it")

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::cli::on_a_screen;
+use crate::cli::{needs, on_a_screen};
 use crate::integrator::render::Progress;
 use crate::scene::world::BuildOptions;
 
@@ -24,6 +24,7 @@ pub(super) struct Reporter {
 pub(super) struct Patience {
     grown: Arc<AtomicUsize>,
     at_rest: Arc<AtomicUsize>,
+    most_bytes: Option<f64>,
     /// Nothing is sent: the thread ends when this is dropped.
     _until: Sender<()>,
 }
@@ -31,15 +32,17 @@ pub(super) struct Patience {
 impl Patience {
     /// About the growth of one leaf.
     pub(super) fn growing() -> Self {
-        Self::new("growing", 0)
+        Self::new("growing", 0, None)
     }
 
-    /// About the building of a scene with so many leaves.
-    pub(super) fn building(leaves: usize) -> Self {
-        Self::new("growing and building the scene", leaves)
+    /// About the building of a scene with so many leaves, which may take `memory` GiB, or what is
+    /// free.
+    pub(super) fn building(leaves: usize, memory: Option<f64>) -> Self {
+        let most_bytes = needs::most_bytes(memory);
+        Self::new("growing and building the scene", leaves, most_bytes)
     }
 
-    fn new(work: &'static str, leaves: usize) -> Self {
+    fn new(work: &'static str, leaves: usize, most_bytes: Option<f64>) -> Self {
         let (until, dropped) = channel();
         let [grown, at_rest] = [(); 2].map(|()| Arc::new(AtomicUsize::new(0)));
         let counted = [&grown, &at_rest].map(Arc::clone);
@@ -63,22 +66,25 @@ impl Patience {
         Self {
             grown,
             at_rest,
+            most_bytes,
             _until: until,
         }
     }
 
-    /// So that the leaves that have grown are counted.
+    /// So that the leaves that have grown are counted and memory is limited.
     pub(super) fn options(&self) -> BuildOptions<'_> {
         BuildOptions {
             cache: None,
             grown: Some(&self.grown),
             at_rest: Some(&self.at_rest),
             wavelengths: None,
+            most_bytes: self.most_bytes,
         }
     }
 }
 
-const BETWEEN_LINES: Duration = Duration::from_secs(10);
+/// Time between two lines where there is no terminal.
+pub(super) const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
 impl Reporter {
     pub(super) fn new(time: Option<Duration>) -> Self {

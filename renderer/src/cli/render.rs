@@ -16,7 +16,7 @@ use self::preview::Preview;
 use self::report::{Times, report, tell_samples, tell_speed};
 use self::viewer::Viewer;
 use crate::checkpoint::{self, Heading};
-use crate::cli::arguments::RenderArguments;
+use crate::cli::arguments::{RenderArguments, SceneArguments};
 use crate::cli::picture_files;
 use crate::cli::progress::{Patience, Reporter};
 use crate::cli::signals::Signals;
@@ -26,13 +26,14 @@ use crate::integrator::caption::Caption;
 use crate::integrator::layers::Layout;
 use crate::integrator::render::{Begun, Contact, Ended, Rendered, begin, go_on};
 use crate::scene::description::Description;
+use crate::scene::load;
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::world::{BuildOptions, World};
 
 pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), Failure> {
     let started = Instant::now();
     let signals = Signals::listen()?;
-    let loaded = load_scene(&arguments.scene)?;
+    let loaded = load_scene(&sized(arguments))?;
     let files = Files::of(arguments, &loaded, &signals)?;
     let threads = arguments.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
@@ -46,7 +47,7 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
     let viewer = viewer(arguments, &plan.heading)?;
     let scene = loaded.description;
     let job = plan.heading.job;
-    let patience = Patience::building(scene.leaves.len());
+    let patience = Patience::building(scene.leaves.len(), arguments.memory);
     let world = pool.install(|| build_world(&scene, arguments, &patience))?;
     drop(patience);
     plan.heading.caption = Caption::of(&scene, &world.view, &world.light_colours);
@@ -158,6 +159,7 @@ impl Traced<'_> {
         tell_speed(&rendered, times);
         tell_samples(&rendered);
         let rejected = rendered.film.rejected();
+        let notes = rendered.notes();
         let begun = rendered.into_begun();
         let written = written.and_then(|()| match &self.files.pictures {
             // An interrupted part is its checkpoint.
@@ -189,8 +191,8 @@ impl Traced<'_> {
         if goes_on {
             eprintln!("{}", how_to_go_on(&self.files.checkpoint, self.line));
         }
-        if rejected > 0 {
-            eprintln!("note: {rejected} samples were not finite and are left out");
+        for note in notes {
+            eprintln!("note: {note}");
         }
         // More than one rejected sample in a million is not due to rounding.
         if rejected as f64 > 1e-6 * drawn as f64 {
@@ -220,6 +222,17 @@ impl Traced<'_> {
         let rest = rest.map(|file| format!("\n{}", how_to_go_on(file, self.line)));
         Failure::system(format!("{error}{}", rest.unwrap_or_default()))
     }
+}
+
+/// The scene with the size of its film, if the command line gives one.
+fn sized(arguments: &RenderArguments) -> SceneArguments {
+    let mut scene = arguments.scene.clone();
+    let kind = load::film_kind(&scene.scene, &scene.overrides);
+    if let (Some([width, height]), Some(kind)) = (arguments.size, kind) {
+        let size = format!("film.{kind}.size=[{width}, {height}]");
+        scene.overrides.push(size);
+    }
+    scene
 }
 
 /// The viewer that the command line names, before anything is grown for it.

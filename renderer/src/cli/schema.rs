@@ -3,7 +3,7 @@
 use std::fs;
 use std::io::Write as _;
 
-use leafmodel::document::schema::{filled, json_schema};
+use leafmodel::document::schema::filled;
 
 use crate::cli::arguments::SchemaArguments;
 use crate::cli::{Failure, check_writable, say};
@@ -26,7 +26,7 @@ pub(super) fn run(arguments: &SchemaArguments) -> Result<(), Failure> {
     if !arguments.pages.is_empty() {
         return Ok(());
     }
-    let json = json_schema(&schema, "A scene of Lamina, format 1");
+    let json = load::json_schema();
     let text = format!("{json:#}\n");
     match &arguments.out {
         None => say(text.trim_end()),

@@ -25,7 +25,7 @@ use serde_json::json;
 use self::process::Ended;
 use self::record::Record;
 use self::table::{Row, State};
-use self::tasks::{hexadecimal, identities, words_of};
+use self::tasks::{hexadecimal, words_of};
 use crate::cli::arguments::{SweepArguments, file_and_leaf};
 use crate::cli::signals::Signals;
 use crate::cli::{Failure, check_writable, grow, say, stats};
@@ -46,10 +46,20 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         eprintln!("this part of the {count} tasks is empty");
         return Ok(());
     }
+    eprintln!("{} of {count} tasks", range.len());
     let Some(folder) = &arguments.out else {
         return list::print(&sweep, arguments, range);
     };
-    let identities = identities(&sweep, range.clone())?;
+    let mut identities = Vec::new();
+    let mut said = Instant::now();
+    tasks::identities(&sweep, range.clone(), |_, identity| {
+        identities.push(identity);
+        if said.elapsed() >= BETWEEN_LINES {
+            said = Instant::now();
+            eprintln!("{} of {} tasks are read", identities.len(), range.len());
+        }
+        true
+    })?;
     let made = folder.join("tasks");
     let refused = |error| Failure::system(format!("{}: {error}", made.display()));
     std::fs::create_dir_all(&made).map_err(refused)?;

@@ -120,6 +120,14 @@ fn carry_out(arguments: &TraceArguments, kinds: &[Kind], started: Instant) -> Re
     let settings = settings(arguments)?;
     let shown = arguments.picture.display();
     let traced = traced(&arguments.picture, &picture, &settings)?;
+    let points = traced.outline.points().iter().copied();
+    if let Some(note) = note_on_length(points, "--mm-per-pixel") {
+        eprintln!("{note}");
+    }
+    let density = traced.network.vein_length_mm() / traced.outline.area();
+    if let Some(warning) = implausible_density(Some(density), "--mm-per-pixel") {
+        eprintln!("{warning}");
+    }
     for (path, kind) in arguments.out.iter().zip(kinds) {
         write(path, &kind.bytes(&traced, arguments.size)?)?;
     }
@@ -158,10 +166,42 @@ pub(super) fn with_usual_settings(picture: &Path, mm_per_pixel: f64) -> Result<T
 fn traced(path: &Path, picture: &Raster, settings: &Settings) -> Result<Traced, Failure> {
     let traced = trace(picture, settings);
     let traced = traced.map_err(|error| Failure::bad(format!("{}: {error}", path.display())))?;
+    for finding in &traced.findings {
+        if matches!(finding.kind, FindingKind::Moved { .. }) {
+            eprintln!("warning: {finding}");
+        }
+    }
     for finding in told(&traced.findings) {
         eprintln!("note: {finding}");
     }
     Ok(traced)
+}
+
+/// A note on a leaf that is longer than any, mm, and so on the flag that says how large it is.
+pub(super) fn note_on_length(points: impl Iterator<Item = DVec2>, flag: &str) -> Option<String> {
+    /// The longest undivided leaves have less.
+    const LONGEST_MM: f64 = 4000.0;
+    let nowhere = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+    let [low, high] = points.fold(nowhere, |[low, high], p| [low.min(p), high.max(p)]);
+    let length_mm = (high - low).max_element();
+    (length_mm > LONGEST_MM).then(|| {
+        format!(
+            "note: the leaf is {:.1} m long, and the longest in nature have some {} m: check {flag}",
+            length_mm / 1000.0,
+            LONGEST_MM / 1000.0
+        )
+    })
+}
+
+/// A warning about a length of veins per area, mm/mm², that no leaf has; `flag` gives the scale.
+pub(super) fn implausible_density(density: Option<f64>, flag: &str) -> Option<String> {
+    const DENSEST: f64 = 50.0;
+    density.filter(|density| *density > DENSEST).map(|density| {
+        format!(
+            "warning: there are {density:.0} mm of veins in each mm², and hardly a leaf has more than 25: \
+             check the scale ({flag})"
+        )
+    })
 }
 
 /// Findings to tell: of parts that are apart, the longest few.
@@ -175,17 +215,21 @@ fn told(findings: &[Finding]) -> Vec<String> {
         | FindingKind::Crossings { .. }
         | FindingKind::Thin { .. }
         | FindingKind::Petiole
-        | FindingKind::BaseGuessed => None,
+        | FindingKind::BaseGuessed
+        | FindingKind::Moved { .. } => None,
     };
     let (mut apart, others): (Vec<&Finding>, Vec<&Finding>) = findings
         .iter()
         .partition(|finding| length(finding).is_some());
+    let others = others
+        .into_iter()
+        .filter(|finding| !matches!(finding.kind, FindingKind::Moved { .. }));
     apart.sort_by(|a, b| {
         length(b)
             .unwrap_or(0.0)
             .total_cmp(&length(a).unwrap_or(0.0))
     });
-    let mut lines: Vec<String> = others.iter().map(ToString::to_string).collect();
+    let mut lines: Vec<String> = others.map(ToString::to_string).collect();
     lines.extend(apart.iter().take(MOST).map(ToString::to_string));
     if apart.len() > MOST {
         let rest = apart[MOST..].iter().filter_map(|finding| length(finding));
@@ -253,13 +297,14 @@ fn settings(arguments: &TraceArguments) -> Result<Settings, Failure> {
 
 /// A picture as grey values, if there is memory to trace it.
 fn read(path: &Path, allowed: Option<f64>) -> Result<Raster, Failure> {
-    let picture = scan::read_grey(path).map_err(Failure::bad)?;
-    let pixels = f64::from(picture.width) * f64::from(picture.height);
+    let (width, height) = scan::size(path).map_err(Failure::bad)?;
+    let pixels = f64::from(width) * f64::from(height);
     needs::compare(
         "tracing",
         &[(BYTES_A_PIXEL * pixels, "the picture")],
         allowed,
     )?;
+    let picture = scan::read_grey(path).map_err(Failure::bad)?;
     let values = picture.layers.into_iter().next();
     let values = values.map_or_else(Vec::new, |layer| layer.data);
     Raster::new(picture.width as usize, picture.height as usize, values)
@@ -275,4 +320,25 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     result.map_err(Failure::system)?;
     say(path.display());
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_leaf_longer_than_any_is_noted_with_the_flag_that_makes_it_so() {
+        let leaf = |length_mm: f64| {
+            let points = [
+                DVec2::ZERO,
+                DVec2::new(30.0, 0.5 * length_mm),
+                length_mm * DVec2::Y,
+            ];
+            note_on_length(points.into_iter(), "--mm-per-pixel")
+        };
+        assert_eq!(leaf(3900.0), None);
+        let note = leaf(11_800.0).expect("it is too long");
+        assert!(note.starts_with("note: the leaf is 11.8 m long"), "{note}");
+        assert!(note.ends_with("check --mm-per-pixel"), "{note}");
+    }
 }

@@ -150,6 +150,47 @@ pub fn check_ours(dir: &Path) -> Result<(), ExportError> {
     Ok(())
 }
 
+/// Refuses a scene that cannot be exported, as far as that shows before anything is grown.
+///
+/// # Errors
+///
+/// [`ExportError`] if it has a lens that Mitsuba lacks, a leaf that fluoresces, or one of layers.
+pub fn check(scene: &Description) -> Result<(), ExportError> {
+    if let Some(key) = sensor::foreign_key(&scene.camera.view) {
+        return Err(ExportError::Lens { key });
+    }
+    if let Some(place) = bsdf::layered(scene) {
+        return Err(ExportError::Layers { place });
+    }
+    let mut leaves = scene.leaves.iter();
+    let mut materials = scene.materials.iter();
+    let fluoresces = leaves.any(|leaf| leaf.value.fluorescence.is_some())
+        || materials.any(|material| bsdf::fluoresces(&material.value));
+    if fluoresces {
+        return Err(ExportError::Fluorescence);
+    }
+    Ok(())
+}
+
+/// Names of the smooth objects whose material is a BSDF of Mitsuba's own: there light may pass a
+/// closed body, because the shading normal decides on which side of a triangle it is.
+pub fn leaking<'s>(scene: &'s Description, world: &World) -> Vec<&'s str> {
+    let mut objects: Vec<usize> = (0..world.objects.len() as u32)
+        .filter(|&number| {
+            let mesh = world.geometry.mesh(world.geometry.instance(number).mesh);
+            let object = world.objects[number as usize];
+            mesh.normals().is_some() && bsdf::is_stock(&world.materials[object.material])
+        })
+        .map(|number| world.objects[number as usize].object)
+        .collect();
+    objects.sort_unstable();
+    objects.dedup();
+    let names = objects.into_iter();
+    names
+        .map(|number| scene.objects[number].name.as_str())
+        .collect()
+}
+
 /// Writes the folder `dir` completely or not at all; an earlier export there is replaced.
 ///
 /// # Errors
@@ -157,6 +198,7 @@ pub fn check_ours(dir: &Path) -> Result<(), ExportError> {
 /// [`ExportError`] if the scene has a lens that Mitsuba lacks or a leaf that fluoresces, something
 /// cannot be written, or `dir` is a folder of another kind.
 pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), ExportError> {
+    check(scene)?;
     if world.fluoresces {
         return Err(ExportError::Fluorescence);
     }
@@ -165,9 +207,6 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
         move |source| ExportError::Write { path, source }
     };
     check_ours(dir)?;
-    if let Some(key) = sensor::foreign_key(&world.view) {
-        return Err(ExportError::Lens { key });
-    }
     if let Some([first, second]) = media::nested(scene, world) {
         return Err(ExportError::Nested {
             first: first.to_owned(),
@@ -176,9 +215,6 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
     }
     if world.media.around_camera.innermost().is_some() {
         return Err(ExportError::CameraInside);
-    }
-    if let Some(place) = bsdf::layered(scene) {
-        return Err(ExportError::Layers { place });
     }
     let parent = dir.parent().filter(|parent| !parent.as_os_str().is_empty());
     let parent = parent.unwrap_or(Path::new("."));
@@ -233,9 +269,9 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
     }
     for light in &scene.lights {
         if let Light::Area { .. } = light.value
-            && let Some(file) = light.value.picture()
+            && let Some((file, layer)) = light.value.picture()
         {
-            let picture = assets::shining(file)?;
+            let picture = assets::shining(file, layer)?;
             let size = [picture.width, picture.texels.len() / picture.width];
             let picture = surroundings::weights(size, &picture.texels);
             let path = folder.join(units::weights_file(&light.name));

@@ -1,4 +1,5 @@
-//! Batches: aligned runs of a pixel's samples, whose means tell the error of its luminance.
+//! Batches: aligned runs of a pixel's samples, whose means show the error of its luminance and of each
+//! of its channels.
 //!
 //! Low-discrepancy samples fill the gaps between earlier ones, so they are no independent draws and
 //! their own variance overestimates the error. Samples 16 k to 16 k + 15 are spread evenly among
@@ -6,7 +7,7 @@
 //! all still varies by. Luminance is added up sample by sample, so it also counts that errors of
 //! channels partly cancel.
 //!
-//! - **In**: luminances of samples, by number, in any order and grouping.
+//! - **In**: luminances of samples and their channels, by number, in any order and grouping.
 //! - **Out**: the sum of the squares of the means of whole batches; sums of those that are not.
 //! - **Always true**: only integers are stored, so parts merge to the same bits in any order.
 //! - **Left out**: the mean itself, which follows from the channels.
@@ -37,8 +38,13 @@ pub(super) fn sum_of(fixed: i64) -> f64 {
     fixed as f64 / ONE
 }
 
-/// A sum of squares of means, in units of 2⁻⁴⁴. It saturates just below 2¹². (With an eighth byte a
-/// pixel of colour would take more than 160.)
+/// Numbers of a sample of which batches are kept: its luminance, then its channels; a single channel
+/// is luminance.
+pub(super) const fn series_of(channels: usize) -> usize {
+    if channels == 1 { 1 } else { 1 + channels }
+}
+
+/// A sum of squares of means, in units of 2⁻⁴⁴. It saturates just below 2¹².
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Squares([u8; 7]);
 
@@ -79,7 +85,7 @@ pub(super) struct Open {
     pub(super) number: u32,
     /// Number of samples that a pixel has of it, 1 to 15, rejected ones included.
     pub(super) count: u32,
-    /// The sum of these samples' luminances for each pixel of the block.
+    /// The sums of these samples' numbers for each pixel of the block.
     pub(super) sums: Vec<i64>,
 }
 
@@ -97,20 +103,20 @@ impl OpenBatches {
         self.0.iter().map(|open| open.count).sum()
     }
 
-    /// Sum of the luminances of a pixel in open batches.
-    pub(super) fn sum(&self, within: usize) -> f64 {
-        let sums = self.0.iter().map(|open| sum_of(open.sums[within]));
+    /// Sum of a number of a pixel in open batches, by its place in the block.
+    pub(super) fn sum(&self, place: usize) -> f64 {
+        let sums = self.0.iter().map(|open| sum_of(open.sums[place]));
         sums.sum()
     }
 
-    /// The batch of this number in a block of so many pixels.
-    fn of(&mut self, number: u32, pixels: usize) -> &mut Open {
+    /// The batch of this number in a block of so many sums.
+    fn of(&mut self, number: u32, count: usize) -> &mut Open {
         let found = self.0.binary_search_by_key(&number, |open| open.number);
         let place = found.unwrap_or_else(|place| {
             let open = Open {
                 number,
                 count: 0,
-                sums: vec![0; pixels],
+                sums: vec![0; count],
             };
             self.0.insert(place, open);
             place
@@ -118,11 +124,14 @@ impl OpenBatches {
         &mut self.0[place]
     }
 
-    /// Adds one pixel's part of a batch. Samples are counted once for all pixels of a block, by the
-    /// first one.
-    pub(super) fn add(&mut self, part: &Part, within: usize, pixels: usize) {
-        let open = self.of(part.number, pixels);
-        open.sums[within] += part.sum;
+    /// Adds one pixel's part of a batch to a block of so many sums. Samples are counted once for all
+    /// pixels of a block, by the first one.
+    pub(super) fn add(&mut self, part: Part, sums: &[i64], within: usize, count: usize) {
+        let open = self.of(part.number, count);
+        let own = &mut open.sums[within * sums.len()..][..sums.len()];
+        for (own, sum) in own.iter_mut().zip(sums) {
+            *own += sum;
+        }
         if within == 0 {
             open.count += part.count;
         }
@@ -165,11 +174,9 @@ pub(super) struct Part {
     pub(super) number: u32,
     /// Number of samples, rejected ones included.
     pub(super) count: u32,
-    /// Sum of their luminances.
-    pub(super) sum: i64,
 }
 
-/// Variance of the mean luminance over `samples` samples of a pixel, from the sum of the squares of
+/// Variance of the mean of a number over `samples` samples of a pixel, from the sum of the squares of
 /// the means of `batches` whole batches and the mean over these; `None` if there are fewer than
 /// two, or no samples.
 pub(super) fn variance_of_mean(squares: f64, batches: u32, mean: f64, samples: u32) -> Option<f64> {

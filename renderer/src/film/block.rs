@@ -3,22 +3,29 @@
 
 use std::collections::BTreeMap;
 
-use super::batches::{BATCH, OpenBatches, Part, Squares, fixed, square_of_mean};
+use super::batches::{BATCH, OpenBatches, Part, Squares, fixed, series_of, square_of_mean};
 use super::features::Words;
 use super::fixed::{LONGEST_RUN, MOST_OF_RUN, Run};
 use super::moments::Moments;
 
+/// Units of what is missing in 1.
+pub(super) const MISSING_ONE: f64 = 16_777_216.0;
+
 /// Pixels along a block's sides; blocks at the right and lower border may have fewer.
 pub const BLOCK_SIDE: u32 = 8;
 
-/// Counts of rejected samples and clamped values. Both are rare, so nothing is stored for pixels
-/// without any.
+/// Counts of rejected samples, clamped values and cut paths. All are rare, so nothing is stored for
+/// pixels without any.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Faults {
     /// Number of rejected samples by the place of their pixel in the film.
     pub(super) rejected: BTreeMap<usize, u32>,
     /// Number of clamped values.
     pub(super) clamped: u64,
+    /// Number of cut paths.
+    pub(super) cut: u64,
+    /// The most that is missing in all samples because of them, in units of 2⁻²⁴.
+    pub(super) missing: u64,
 }
 
 impl Faults {
@@ -27,10 +34,12 @@ impl Faults {
             *self.rejected.entry(place).or_default() += count;
         }
         self.clamped += other.clamped;
+        self.cut += other.cut;
+        self.missing = self.missing.saturating_add(other.missing);
     }
 
     pub(super) fn is_empty(&self) -> bool {
-        self.rejected.is_empty() && self.clamped == 0
+        self.rejected.is_empty() && self.clamped == 0 && self.cut == 0
     }
 }
 
@@ -51,6 +60,7 @@ pub struct Block<'a> {
     pub(super) luminance: &'a [f32],
     pub(super) drawn: &'a mut u32,
     pub(super) moments: &'a mut [Moments],
+    /// By pixel, and within each by the numbers of which batches are kept.
     pub(super) squares: &'a mut [Squares],
     pub(super) words: &'a Words,
     pub(super) wide: &'a mut [i64],
@@ -67,7 +77,7 @@ impl Block<'_> {
 
     /// Number of pixels.
     pub fn pixels(&self) -> u32 {
-        self.squares.len() as u32
+        (self.moments.len() / self.luminance.len()) as u32
     }
 
     /// Adds the next `samples` of every pixel: `expose` is called with column, row and the pixel's
@@ -76,6 +86,7 @@ impl Block<'_> {
     pub fn expose(&mut self, samples: u32, mut expose: impl FnMut(u32, u32, &mut PixelSums<'_>)) {
         let words = self.words;
         let mut runs = vec![Run::default(); self.luminance.len()];
+        let mut sums = vec![0; series_of(self.luminance.len())];
         let places = self
             .moments
             .chunks_exact_mut(self.luminance.len())
@@ -89,18 +100,23 @@ impl Block<'_> {
                 squares: &mut *self.squares,
                 open: &mut *self.open,
                 part: Part::default(),
+                sums: &mut sums,
                 within: within as usize,
                 words,
                 wide: &mut self.wide[within as usize * words.wide..][..words.wide],
                 narrow,
                 rejected: 0,
                 clamped: 0,
+                cut: 0,
+                missing: 0,
             };
             let (column, row) = (within % self.width, within / self.width);
             expose(self.x + column, self.y + row, &mut pixel);
             pixel.end_runs();
             pixel.end_part();
             self.faults.clamped += pixel.clamped;
+            self.faults.cut += pixel.cut;
+            self.faults.missing = self.faults.missing.saturating_add(pixel.missing);
             if pixel.rejected > 0 {
                 let place = self.place + within as usize;
                 *self.faults.rejected.entry(place).or_default() += pixel.rejected;
@@ -123,8 +139,9 @@ pub struct PixelSums<'a> {
     /// Those of the whole block.
     squares: &'a mut [Squares],
     open: &'a mut OpenBatches,
-    /// The samples of the present batch.
+    /// The samples of the present batch, and their sums.
     part: Part,
+    sums: &'a mut [i64],
     /// The pixel's place in the block.
     within: usize,
     words: &'a Words,
@@ -132,6 +149,8 @@ pub struct PixelSums<'a> {
     narrow: &'a mut [i32],
     rejected: u32,
     clamped: u64,
+    cut: u64,
+    missing: u64,
 }
 
 impl PixelSums<'_> {
@@ -165,7 +184,12 @@ impl PixelSums<'_> {
             return;
         }
         let shares = values.iter().zip(self.luminance);
-        self.part.sum += fixed(shares.map(|(value, share)| value * share).sum());
+        if let Some((luminance, channels)) = self.sums.split_first_mut() {
+            *luminance += fixed(shares.map(|(value, share)| value * share).sum());
+            for (sum, &value) in channels.iter_mut().zip(values) {
+                *sum += fixed(value);
+            }
+        }
         if ordinary {
             if self.run_length == LONGEST_RUN {
                 self.end_runs();
@@ -185,6 +209,15 @@ impl PixelSums<'_> {
         }
     }
 
+    /// Counts paths of a sample that were cut, without which it misses at most this much of a channel.
+    #[cold]
+    pub fn add_cut(&mut self, paths: u32, missing: f64) {
+        self.cut += u64::from(paths);
+        // Rounded up, and the greatest number if it does not fit.
+        let units = (missing * MISSING_ONE).ceil() as u64;
+        self.missing = self.missing.saturating_add(units);
+    }
+
     /// Adds the last ordinary values to the moments.
     fn end_runs(&mut self) {
         for (moments, run) in self.moments.iter_mut().zip(&mut *self.runs) {
@@ -197,9 +230,14 @@ impl PixelSums<'_> {
     fn end_part(&mut self) {
         let part = std::mem::take(&mut self.part);
         if part.count == BATCH {
-            self.squares[self.within].add(square_of_mean(part.sum));
+            let squares = &mut self.squares[self.within * self.sums.len()..];
+            for (square, &sum) in squares.iter_mut().zip(&*self.sums) {
+                square.add(square_of_mean(sum));
+            }
         } else if part.count > 0 {
-            self.open.add(&part, self.within, self.squares.len());
+            let count = self.squares.len();
+            self.open.add(part, self.sums, self.within, count);
         }
+        self.sums.fill(0);
     }
 }

@@ -9,7 +9,7 @@
 /// variance of dim pixels would vanish.)
 pub(super) const ONE: f64 = 18_446_744_073_709_551_616.0;
 /// Greatest value that is taken: 2³³ samples of it still fit into 128 bits.
-pub(super) const MOST: f32 = 1_073_741_824.0;
+pub const MOST: f32 = 1_073_741_824.0;
 
 /// A value and its square in units of 2⁻⁶⁴, both rounded to the nearest, halves to even; |`value`| ≤
 /// [`MOST`].

@@ -54,6 +54,11 @@ impl Moments {
         }
     }
 
+    /// Whether the squares did not fit.
+    pub(super) fn overflows(&self) -> bool {
+        self.squares == u128::MAX
+    }
+
     /// Sum of the samples.
     pub fn sum(&self) -> f64 {
         self.sum as f64 / ONE
@@ -68,13 +73,17 @@ impl Moments {
         }
     }
 
-    /// Unbiased sample variance over `samples`, the number of samples; 0 below two.
+    /// Unbiased sample variance over `samples`, the number of samples; 0 below two, infinite if the
+    /// squares did not fit.
     ///
     /// Low-discrepancy samples are spread more evenly than independent ones, so this overestimates
-    /// the error.
+    /// the error: batches know better.
     pub fn variance_of_mean(&self, samples: u32) -> f64 {
         if samples < 2 {
             return 0.0;
+        }
+        if self.overflows() {
+            return f64::INFINITY;
         }
         let count = f64::from(samples);
         let mean = self.mean(samples);
@@ -116,6 +125,7 @@ mod tests {
             moments.add(MOST);
         }
         assert_eq!(moments.squares, u128::MAX);
+        assert!(moments.overflows() && moments.variance_of_mean(100).is_infinite());
         assert_eq!(moments.mean(100), f64::from(MOST));
     }
 }

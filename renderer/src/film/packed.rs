@@ -8,11 +8,11 @@
 //!
 //! The numbers of a kind in a block (a channel's sums, a channel's squares, a word) have similar
 //! sizes. Each is stored without the bytes that are zero below, or repeat the sign above, in all
-//! numbers of its kind. Of 159 bytes a pixel of colour, some 60 to 105 remain.
+//! numbers of its kind. Of 180 bytes per pixel of colour, some 60 to 125 remain.
 
 use rayon::prelude::*;
 
-use super::batches::{BATCH, OpenBatches, Squares};
+use super::batches::{BATCH, OpenBatches, Squares, series_of};
 use super::features::Words;
 use super::moments::Moments;
 use super::{BLOCK_SIDE, Film, chunks_or_nothing};
@@ -49,8 +49,12 @@ impl Film {
                     pack(&mut out, of.map(|moments| moments.bits()[part]));
                 }
             }
-            let squares = self.squares[first..][..pixels].iter();
-            pack(&mut out, squares.map(|sum| i128::from(sum.bits())));
+            let series = series_of(channels);
+            let squares = &self.squares[first * series..][..pixels * series];
+            for number in 0..series {
+                let of = squares[number..].iter().step_by(series);
+                pack(&mut out, of.map(|sum| i128::from(sum.bits())));
+            }
             pack_open(&mut out, &self.open[row * across + column]);
             let wide = &self.wide[first * words.wide..][..pixels * words.wide];
             for word in 0..words.wide {
@@ -85,7 +89,10 @@ impl Film {
             .par_chunks_mut(across)
             .zip(self.open.par_chunks_mut(across))
             .zip(self.moments.par_chunks_mut(row_pixels * channels))
-            .zip(self.squares.par_chunks_mut(row_pixels))
+            .zip(
+                self.squares
+                    .par_chunks_mut(row_pixels * series_of(channels)),
+            )
             .zip(wide)
             .zip(self.narrow.par_chunks_mut(row_pixels * words.narrow))
             .with_max_len(1)
@@ -116,7 +123,9 @@ impl Film {
     pub fn fault_counts(&self) -> Vec<u64> {
         let rejected = self.faults.rejected.iter();
         let rejected = rejected.flat_map(|(&place, &count)| [place as u64, u64::from(count)]);
-        [self.faults.clamped].into_iter().chain(rejected).collect()
+        let faults = &self.faults;
+        let counts = [faults.clamped, faults.cut, faults.missing].into_iter();
+        counts.chain(rejected).collect()
     }
 
     /// Adds what [`Film::fault_counts`] gave of another film of this size.
@@ -125,7 +134,7 @@ impl Film {
     ///
     /// [`DamagedRow`] if it names a pixel that this film does not have.
     pub fn add_fault_counts(&mut self, counts: &[u64]) -> Result<(), DamagedRow> {
-        let (clamped, rejected) = counts.split_first().ok_or(DamagedRow)?;
+        let (&[clamped, cut, missing], rejected) = counts.split_first_chunk().ok_or(DamagedRow)?;
         let pixels = u64::from(self.width) * u64::from(self.height);
         for pair in rejected.chunks(2) {
             let &[place, count] = pair else {
@@ -138,7 +147,14 @@ impl Film {
             let own = self.faults.rejected.entry(place as usize).or_default();
             *own = own.checked_add(count).ok_or(DamagedRow)?;
         }
-        self.faults.clamped = self.faults.clamped.saturating_add(*clamped);
+        let faults = &mut self.faults;
+        for (own, added) in [
+            (&mut faults.clamped, clamped),
+            (&mut faults.cut, cut),
+            (&mut faults.missing, missing),
+        ] {
+            *own = own.saturating_add(added);
+        }
         Ok(())
     }
 
@@ -203,9 +219,13 @@ impl RowSums<'_> {
                     rest = unpack(rest, of, |moments, bits| moments.add_bits(part, bits))?;
                 }
             }
-            let squares = &mut self.squares[first..][..pixels];
-            rest = unpack(rest, squares.iter_mut(), |sum, bits| sum.add(bits as u64))?;
-            rest = unpack_open(rest, open, pixels)?;
+            let series = series_of(channels);
+            let squares = &mut self.squares[first * series..][..pixels * series];
+            for number in 0..series {
+                let of = squares[number..].iter_mut().step_by(series);
+                rest = unpack(rest, of, |sum, bits| sum.add(bits as u64))?;
+            }
+            rest = unpack_open(rest, open, pixels * series)?;
             open.close(squares);
             if open.samples() > *drawn {
                 return Err(DamagedRow);
@@ -260,14 +280,14 @@ fn pack_open(out: &mut Vec<u8>, open: &OpenBatches) {
     }
 }
 
-/// Adds the packed open batches of a block of so many pixels; returns what follows them.
+/// Adds the packed open batches of a block of so many sums; returns what follows them.
 fn unpack_open<'a>(
     bytes: &'a [u8],
     target: &mut OpenBatches,
-    pixels: usize,
+    count_of_sums: usize,
 ) -> Result<&'a [u8], DamagedRow> {
     let (&number, mut rest) = bytes.split_first_chunk().ok_or(DamagedRow)?;
-    let mut sums = vec![0; pixels];
+    let mut sums = vec![0; count_of_sums];
     for _ in 0..u16::from_le_bytes(number) {
         let (&number, behind) = rest.split_first_chunk().ok_or(DamagedRow)?;
         let (&count, behind) = behind.split_first().ok_or(DamagedRow)?;
@@ -387,17 +407,24 @@ mod tests {
             let rows = |row: usize| if row == 0 { &damaged } else { &rest[row - 1] };
             let mut target = film(0, 0);
             if target.add_rows(|row, sums| sums.add(rows(row))).is_ok() && target.is_sound() {
-                let finite = target.map(|pixel| pixel.variance_of_luminance().is_finite());
-                assert!(!finite.contains(&false), "byte {place}");
+                let unsound = target.map(|pixel| pixel.variance_of_luminance().is_nan());
+                assert!(!unsound.contains(&true), "byte {place}");
             }
         }
         let mut target = film(0, 0);
-        for counts in [&[][..], &[1, 2], &[1, 273, 1], &[1, 0, 1 << 40]] {
+        for counts in [
+            &[][..],
+            &[1, 2],
+            &[1, 0, 0, 2],
+            &[1, 0, 0, 273, 1],
+            &[1, 0, 0, 0, 1 << 40],
+        ] {
             assert_eq!(target.add_fault_counts(counts), Err(DamagedRow));
         }
         target
-            .add_fault_counts(&[0, 272, 1])
+            .add_fault_counts(&[3, 5, 7, 272, 1])
             .expect("the last pixel");
+        assert_eq!((target.clamped(), target.cut()), (3, 5));
         assert!(!target.is_sound(), "rejected but never drawn");
     }
 

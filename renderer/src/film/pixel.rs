@@ -9,8 +9,8 @@ use super::moments::Moments;
 pub struct Pixel<'a> {
     pub(super) luminance: &'a [f32],
     pub(super) moments: &'a [Moments],
-    /// The sum of squares of the means of its batches.
-    pub(super) squares: Squares,
+    /// The sums of squares of the means of its batches, of luminance and of each channel.
+    pub(super) squares: &'a [Squares],
     /// The open batches of its block, and its place there.
     pub(super) open: &'a OpenBatches,
     pub(super) within: usize,
@@ -51,21 +51,47 @@ impl Pixel<'_> {
         shares.sum()
     }
 
+    /// Variance of the mean of a channel: that of means of batches, which counts what low discrepancy
+    /// gains. Below two whole batches, and where it is too great to be stored, it is an upper bound,
+    /// that of single samples. 0 below two samples.
+    pub fn variance(&self, channel: usize) -> f64 {
+        let moments = &self.moments[channel];
+        let number = if self.squares.len() == 1 {
+            0
+        } else {
+            1 + channel
+        };
+        let scale = if number == 0 {
+            f64::from(self.luminance[0])
+        } else {
+            1.0
+        };
+        self.variance_of_batches(number, scale * moments.sum())
+            .filter(|_| scale > 0.0)
+            .map_or_else(
+                || moments.variance_of_mean(self.samples),
+                |variance| variance / (scale * scale),
+            )
+    }
+
     /// Variance of the mean of luminance: that of means of batches, which counts what low
     /// discrepancy gains and how errors of channels cancel.
     ///
     /// Below two whole batches, and where luminance is too great to be stored, it is an upper
     /// bound: that of single samples, all channels' errors alike. 0 below two samples.
     pub fn variance_of_luminance(&self) -> f64 {
-        self.variance_of_batches()
+        let sum = self.luminance() * f64::from(self.samples);
+        self.variance_of_batches(0, sum)
             .unwrap_or_else(|| self.greatest_variance_of_luminance())
     }
 
-    fn variance_of_batches(&self) -> Option<f64> {
+    /// Variance of the mean of a number of which batches are kept, whose sum over all samples is
+    /// `sum`.
+    fn variance_of_batches(&self, number: usize, sum: f64) -> Option<f64> {
         let in_batches = self.drawn - self.open.samples();
-        let sum = self.luminance() * f64::from(self.samples) - self.open.sum(self.within);
-        let mean = sum / f64::from(in_batches);
-        let squares = self.squares.sum()?;
+        let open = self.open.sum(self.within * self.squares.len() + number);
+        let mean = (sum - open) / f64::from(in_batches);
+        let squares = self.squares[number].sum()?;
         variance_of_mean(squares, in_batches / BATCH, mean, self.samples)
     }
 

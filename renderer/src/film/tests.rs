@@ -71,7 +71,7 @@ fn a_film_that_would_not_fit_is_refused_with_its_size() {
 #[test]
 fn a_pixel_takes_its_channels_an_error_a_count_and_its_sums() {
     let film = Film::new(512, 512, &[1.0; 3], &SUMS).expect("a small film");
-    let bytes = 3 * 32 + 7 + 4 + 3 * 8 + 7 * 4;
+    let bytes = 3 * 32 + (1 + 3) * 7 + 4 + 3 * 8 + 7 * 4;
     assert_eq!(Film::bytes_a_pixel(3, &SUMS), bytes);
     assert_eq!(
         size_of_val(&film.moments[..])
@@ -215,7 +215,7 @@ fn sums_of_many_great_values_are_those_of_each_by_itself() {
 }
 
 #[test]
-fn the_error_of_luminance_is_that_of_means_of_batches() {
+fn the_errors_of_luminance_and_of_channels_are_those_of_means_of_batches() {
     // Samples of a batch are evenly spread, and channels err against one another: what varies from
     // batch to batch is all that luminance errs by.
     let values = |number: u32| {
@@ -236,11 +236,31 @@ fn the_error_of_luminance_is_that_of_means_of_batches() {
         let film = film(count);
         let found = film.pixel(8, 0).variance_of_luminance();
         assert!((found - expected).abs() < 1e-6, "{count}: {found}");
+        for channel in 0..2 {
+            let pixel = film.pixel(8, 0);
+            let found = pixel.variance(channel);
+            assert!((found - expected).abs() < 1e-6, "{count}: {found}");
+        }
         assert!(film.pixel(8, 0).moments(0).variance_of_mean(count) > expected);
     }
     // One batch alone tells nothing: the bound by single samples, 0.25 · 12 + 0.75 · 4 by a mean.
     let found = film(16).pixel(0, 0).variance_of_luminance();
     assert!((found - 36.0 / 15.0).abs() < 1e-9, "{found}");
+    let film = film(16);
+    let pixel = film.pixel(0, 0);
+    assert_eq!(pixel.variance(1), pixel.moments(1).variance_of_mean(16));
+    // A single channel is luminance itself, but for its scale.
+    let mut one = Film::new(1, 1, &[0.5], &[]).expect("a small film");
+    one.expose(|block| {
+        block.expose(64, |_, _, pixel| {
+            for number in 0..64 {
+                let [value, _] = values(number);
+                pixel.add(number, &[value], None::<&[f32; 0]>);
+            }
+        });
+    });
+    let found = one.pixel(0, 0).variance(0);
+    assert!((found - 14.0 / 3.0 / 4.0).abs() < 1e-6, "{found}");
 }
 
 #[test]

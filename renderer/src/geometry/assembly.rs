@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{Vec2, Vec3, Vec3A};
+use glam::{Affine3A, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::bounds::Bounds;
@@ -33,6 +33,8 @@ pub struct Geometry {
     /// instances.
     trees: Vec<Arc<TriangleTree>>,
     placements: Vec<Placement>,
+    /// The point of the scene around which rays are traced.
+    origin: DVec3,
     tree: WideTree,
     /// The instance of each leaf of `tree`, or joined ones.
     carriers: Vec<Carrier>,
@@ -42,7 +44,7 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// Builds the trees. Without instances nothing is ever hit.
+    /// Builds the trees, for rays around the scene's origin. Without instances nothing is ever hit.
     ///
     /// # Errors
     ///
@@ -52,13 +54,27 @@ impl Geometry {
         meshes: Vec<TriangleMesh>,
         instances: Vec<Instance>,
     ) -> Result<Self, GeometryError> {
-        Self::built(meshes, instances, MOST_REPEATED)
+        Self::build_around(DVec3::ZERO, meshes, instances)
+    }
+
+    /// The same for rays around a point of the scene.
+    ///
+    /// # Errors
+    ///
+    /// As [`Geometry::build`].
+    pub fn build_around(
+        origin: DVec3,
+        meshes: Vec<TriangleMesh>,
+        instances: Vec<Instance>,
+    ) -> Result<Self, GeometryError> {
+        Self::built(meshes, instances, origin, MOST_REPEATED)
     }
 
     /// As [`Geometry::build`]; `most_repeated` as in [`joining::choose`].
     pub(super) fn built(
         meshes: Vec<TriangleMesh>,
         instances: Vec<Instance>,
+        origin: DVec3,
         most_repeated: usize,
     ) -> Result<Self, GeometryError> {
         for (number, instance) in instances.iter().enumerate() {
@@ -70,22 +86,28 @@ impl Geometry {
                 });
             }
         }
-        Self::placed(meshes.into(), &[], instances, most_repeated)
+        Self::placed(meshes.into(), &[], (instances, origin), most_repeated)
     }
 
-    /// The same meshes with some of the instances, each moved by an offset, m; in the order given.
+    /// The same meshes with some of the instances, each moved by an offset, m, in the order given,
+    /// for rays around a point of the scene.
     ///
     /// # Errors
     ///
     /// [`GeometryError`] if there are too many, or an offset is not finite.
-    pub fn with_places(&self, places: &[(u32, Vec3)]) -> Result<Self, GeometryError> {
+    pub fn with_places(
+        &self,
+        places: &[(u32, DVec3)],
+        origin: DVec3,
+    ) -> Result<Self, GeometryError> {
         let moved = places.iter().map(|&(number, by)| {
             let mut instance = self.placements[number as usize].instance;
-            instance.to_world.translation += Vec3A::from(by);
+            instance.translation += by;
             instance
         });
         let meshes = Arc::clone(&self.meshes);
-        let geometry = Self::placed(meshes, &self.trees, moved.collect(), MOST_REPEATED)?;
+        let moved = (moved.collect(), origin);
+        let geometry = Self::placed(meshes, &self.trees, moved, MOST_REPEATED)?;
         Ok(geometry.at_level(self.level))
     }
 
@@ -93,7 +115,7 @@ impl Geometry {
     fn placed(
         meshes: Arc<[TriangleMesh]>,
         trees: &[Arc<TriangleTree>],
-        instances: Vec<Instance>,
+        (instances, origin): (Vec<Instance>, DVec3),
         most_repeated: usize,
     ) -> Result<Self, GeometryError> {
         if instances.len() > MOST_INSTANCES {
@@ -106,7 +128,7 @@ impl Geometry {
             .enumerate()
             .map(|(number, instance)| {
                 let center = triangle_tree::center_of(&meshes[instance.mesh as usize]);
-                Placement::new(number, instance, center)
+                Placement::new(number, instance, origin, center)
             })
             .collect::<Result<Vec<_>, _>>()?;
         let joined = joining::choose(&meshes, &placements, most_repeated);
@@ -145,6 +167,7 @@ impl Geometry {
             meshes,
             trees,
             placements,
+            origin,
             tree,
             carriers: order().map(|&leaf| carriers[leaf as usize]).collect(),
             boxes: order().map(|&leaf| boxes[leaf as usize]).collect(),
@@ -206,8 +229,13 @@ impl Geometry {
         surface::uv_per_metre(hit, corners, (mesh, placement), directions)
     }
 
-    /// Smallest and largest coordinates of all instances' boxes, m; both the origin if there are
-    /// none.
+    /// The point of the scene around which rays are traced: it is the origin of their coordinates.
+    pub fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// Smallest and largest coordinates of all instances' boxes, m, around [`Geometry::origin`]; both
+    /// the origin if there are none.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let bounds = self.tree.bounds();
         if bounds.is_empty() {
@@ -220,12 +248,10 @@ impl Geometry {
     pub fn area_of(&self, instance: u32) -> f64 {
         let placed = self.instance(instance);
         let mesh = self.mesh(placed.mesh);
+        let linear = placed.linear.as_dmat3();
         let area = |triangle: &[u32; 3]| {
-            let [a, b, c] = triangle.map(|vertex| {
-                let point = mesh.positions()[vertex as usize];
-                placed.to_world.transform_point3(point).as_dvec3()
-            });
-            0.5 * (b - a).cross(c - a).length()
+            let [a, b, c] = triangle.map(|vertex| mesh.positions()[vertex as usize].as_dvec3());
+            0.5 * (linear * (b - a)).cross(linear * (c - a)).length()
         };
         mesh.triangles().iter().map(area).sum()
     }
@@ -235,12 +261,26 @@ impl Geometry {
         self.placements.len() as u32
     }
 
-    /// Smallest and largest coordinates of an instance's box, m.
-    pub fn bounds_of(&self, instance: u32) -> (Vec3, Vec3) {
+    /// Smallest and largest coordinates of an instance's box in the scene, m, as exact as its place.
+    pub fn bounds_of(&self, instance: u32) -> (DVec3, DVec3) {
         let placement = &self.placements[instance as usize];
-        let tree = &self.trees[placement.carrier.tree as usize];
-        let bounds = placement.world_bounds(tree.hull_of(instance));
-        (bounds.min, bounds.max)
+        let own = &placement.instance;
+        let (mesh, to_scene) = (self.mesh(own.mesh), own.to_scene());
+        if placement.carrier.tree < self.meshes.len() as u32 {
+            let hull = &self.trees[own.mesh as usize].hull;
+            let center = triangle_tree::center_of(mesh).as_dvec3();
+            let offset = to_scene.transform_point3(center);
+            return Bounds::of_transformed(hull, &to_scene.matrix3, offset);
+        }
+        let around = |[a, b]: [DVec3; 2], [c, d]: [DVec3; 2]| [a.min(c), b.max(d)];
+        let nowhere = || [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        let triangles = 0..mesh.triangles().len() as u32;
+        let [least, most] = triangles
+            .into_par_iter()
+            .flat_map_iter(|triangle| mesh.corners(triangle))
+            .map(|corner| [to_scene.transform_point3(corner.as_dvec3()); 2])
+            .reduce(nowhere, around);
+        (least, most)
     }
 
     /// Memory of meshes and trees, bytes.
@@ -263,6 +303,11 @@ impl Geometry {
     /// An instance by number.
     pub fn instance(&self, i: u32) -> &Instance {
         &self.placements[i as usize].instance
+    }
+
+    /// From the frame of an instance's mesh to that of rays.
+    pub fn to_world(&self, i: u32) -> Affine3A {
+        self.instance(i).around(self.origin)
     }
 }
 

@@ -72,9 +72,8 @@ impl Bounds {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// A box around the images of some boxes, rounded outwards and widened by a few roundings of
-    /// its coordinates.
-    pub(super) fn around_transformed(boxes: &[Self], linear: &DMat3, offset: DVec3) -> Self {
+    /// Least and greatest coordinates of the images of some boxes.
+    pub(super) fn of_transformed(boxes: &[Self], linear: &DMat3, offset: DVec3) -> (DVec3, DVec3) {
         let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let stretch = DMat3::from_cols(
             linear.x_axis.abs(),
@@ -88,6 +87,13 @@ impl Bounds {
             min = min.min(center - reach);
             max = max.max(center + reach);
         }
+        (min, max)
+    }
+
+    /// A box around the images of some boxes, rounded outwards and widened by a few roundings of
+    /// its coordinates.
+    pub(super) fn around_transformed(boxes: &[Self], linear: &DMat3, offset: DVec3) -> Self {
+        let (min, max) = Self::of_transformed(boxes, linear, offset);
         // Rays are carried into the mesh's frame in f32, so hits may lie this far outside the box.
         let pad = (max.abs().max(min.abs())) * 2.0_f64.powi(-21);
         Self {

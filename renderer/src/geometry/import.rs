@@ -2,10 +2,13 @@
 //!
 //! The bytes are not trusted: nothing is allocated for counts claimed by a header before the bytes
 //! for them are there, and every error names its place. Faces with more than three corners are
-//! split into a fan of triangles.
+//! [split into triangles](polygon).
 
 mod obj;
 mod ply;
+mod polygon;
+
+use std::ops::Range;
 
 use glam::{Vec2, Vec3};
 use leafmodel::document::source::escaped;
@@ -59,13 +62,50 @@ struct RawMesh {
     normals: Option<Vec<Vec3>>,
     uvs: Option<Vec<Vec2>>,
     triangles: Vec<[u32; 3]>,
+    /// Those of the triangles that are the fan of a face with more corners.
+    fans: Vec<Range<usize>>,
 }
 
 impl RawMesh {
-    /// Adds a face as a fan of triangles around its first corner.
-    fn push_fan(&mut self, corners: &[u32]) {
+    /// Adds a face: as a fan of triangles around its first corner, until all positions are known.
+    fn push_face(&mut self, corners: &[u32]) {
+        let first = self.triangles.len();
         for pair in corners[1..].windows(2) {
             self.triangles.push([corners[0], pair[0], pair[1]]);
+        }
+        if corners.len() > 3 {
+            self.fans.push(first..self.triangles.len());
+        }
+    }
+
+    /// Replaces the fans that do not cover their polygons.
+    fn triangulate(&mut self) {
+        let mut covered: Vec<[u32; 3]> = Vec::new();
+        let mut taken = 0;
+        for fan in std::mem::take(&mut self.fans) {
+            let own = &self.triangles[fan.clone()];
+            let corners = own.iter().map(|triangle| triangle[2]);
+            let corners: Vec<u32> = own[0][..2].iter().copied().chain(corners).collect();
+            let places = corners
+                .iter()
+                .map(|&corner| self.positions.get(corner as usize));
+            // A corner that is not there is an error later.
+            let Some(places) = places
+                .map(Option::<&Vec3>::copied)
+                .collect::<Option<Vec<_>>>()
+            else {
+                continue;
+            };
+            if let Some(better) = polygon::triangles(&places) {
+                covered.extend(&self.triangles[taken..fan.start]);
+                let numbered = better.iter();
+                covered.extend(numbered.map(|places| places.map(|place| corners[place])));
+                taken = fan.end;
+            }
+        }
+        if taken > 0 {
+            covered.extend(&self.triangles[taken..]);
+            self.triangles = covered;
         }
     }
 }
@@ -75,8 +115,8 @@ impl RawMesh {
 ///
 /// PLY: ASCII or binary; `vertex` with x y z, optionally nx ny nz, optionally u v (or s t, or
 /// `texture_u` `texture_v`); `face` with `vertex_indices` (or `vertex_index`); everything else is
-/// ignored. OBJ: v, vt, vn, f with negative indices; uvs are kept if every corner has one;
-/// materials and groups are ignored.
+/// ignored. OBJ: v, vt, vn, f with negative indices, also over several lines that end in a
+/// backslash; uvs are kept if every corner has one; materials and groups are ignored.
 ///
 /// # Errors
 ///
@@ -91,6 +131,7 @@ pub fn import(bytes: &[u8], extension: &str, scale: f32) -> Result<TriangleMesh,
             });
         }
     };
+    raw.triangulate();
     for position in &mut raw.positions {
         *position *= scale;
     }

@@ -24,7 +24,8 @@ const FAR: f32 = 100.0;
 /// Face numbers and tree nodes share 32 bits.
 const MOST_FACES: usize = 1 << 29;
 
-/// Greatest share of dropped faces, per cent; a mesh that loses more is refused.
+/// Greatest fraction of faces, per cent, that may be dropped because they are not finite or
+/// duplicate; a mesh that loses more is refused. Faces without area are never missed.
 const MOST_DROPPED_PERCENT: usize = 1;
 
 /// Triangles over shared vertices. All are finite and have an area above 0, and no two have the
@@ -59,7 +60,8 @@ pub struct DroppedFaces {
     pub degenerate: usize,
     /// Faces on the three positions of an earlier face.
     pub duplicate: usize,
-    /// Number of the first face that was left out, in the order given, and why.
+    /// Number of the first face that was left out, in the order given, and why. One without area
+    /// counts only if there are no others.
     pub first: Option<(usize, DropCause)>,
 }
 
@@ -83,13 +85,22 @@ impl DroppedFaces {
         self.not_finite + self.degenerate + self.duplicate
     }
 
+    /// Number of dropped faces that should not be in a file: without those that have no area.
+    fn damaged(&self) -> usize {
+        self.not_finite + self.duplicate
+    }
+
     fn record(&mut self, face: usize, cause: DropCause) {
         match cause {
             DropCause::NotFinite => self.not_finite += 1,
             DropCause::Degenerate => self.degenerate += 1,
             DropCause::Duplicate => self.duplicate += 1,
         }
-        if self.first.is_none_or(|(first, _)| face < first) {
+        let rank = |face: usize, cause: DropCause| (cause == DropCause::Degenerate, face);
+        if self
+            .first
+            .is_none_or(|(first, of)| rank(face, cause) < rank(first, of))
+        {
             self.first = Some((face, cause));
         }
     }
@@ -109,7 +120,7 @@ pub enum MeshError {
         /// The dropped faces.
         dropped: DroppedFaces,
     },
-    /// More than 1 % of the faces cannot be rendered.
+    /// More than 1 % of the faces are not finite or duplicate.
     #[error(
         "{} of {given} faces cannot be rendered, more than 1 % ({} not finite, {} without area, {} duplicate; \
          the first is face {})",
@@ -180,7 +191,7 @@ impl TriangleMesh {
     /// # Errors
     ///
     /// [`MeshError`]: for an index out of range, attributes that do not match, more than 1 % of the
-    /// faces left out, no face left, coordinates beyond 10⁹ m, too many faces.
+    /// faces not finite or duplicate, no face left, coordinates beyond 10⁹ m, too many faces.
     pub fn new(
         positions: Vec<Vec3>,
         normals: Option<Vec<Vec3>>,
@@ -243,8 +254,8 @@ impl TriangleMesh {
         }
         kept.retain(|face| duplicates.binary_search(face).is_err());
 
-        let is_refused = kept.is_empty() || dropped.total() * 100 > given * MOST_DROPPED_PERCENT;
-        if is_refused && dropped.degenerate > 0 {
+        let is_many = |faces: usize| faces * 100 > given * MOST_DROPPED_PERCENT;
+        if dropped.degenerate > 0 && (kept.is_empty() || is_many(dropped.degenerate)) {
             let corners = triangles.iter().flatten();
             let corners = corners.map(|&index| positions[index as usize]);
             let bounds = Bounds::around(corners.filter(|corner| corner.is_finite()));
@@ -257,7 +268,7 @@ impl TriangleMesh {
         if kept.is_empty() {
             return Err(MeshError::Empty { given, dropped });
         }
-        if is_refused {
+        if is_many(dropped.damaged()) {
             return Err(MeshError::TooManyDropped { given, dropped });
         }
         let mut faces = 0_u32..;

@@ -1,6 +1,6 @@
 //! Instances prepared for tracing.
 
-use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3, Vec3A};
+use glam::{DMat3, DVec3, Mat3, Vec3, Vec3A};
 
 use super::bounds::Bounds;
 use super::error::GeometryError;
@@ -77,7 +77,7 @@ pub(super) struct Placement {
 }
 
 impl Placement {
-    /// An instance of a mesh with this centre, which is traced by a tree of its own.
+    /// An instance of a mesh with this centre, which is traced around `origin` by a tree of its own.
     ///
     /// # Errors
     ///
@@ -85,20 +85,14 @@ impl Placement {
     pub(super) fn new(
         number: usize,
         instance: Instance,
+        origin: DVec3,
         center: Vec3,
     ) -> Result<Self, GeometryError> {
         let refuse = |what| GeometryError::Transform {
             instance: number,
             what,
         };
-        let to_world = DAffine3 {
-            matrix3: DMat3::from_cols(
-                Vec3::from(instance.to_world.matrix3.x_axis).as_dvec3(),
-                Vec3::from(instance.to_world.matrix3.y_axis).as_dvec3(),
-                Vec3::from(instance.to_world.matrix3.z_axis).as_dvec3(),
-            ),
-            translation: Vec3::from(instance.to_world.translation).as_dvec3(),
-        };
+        let to_world = instance.around(origin).as_daffine3();
         let linear = to_world.matrix3;
         let offset = to_world.transform_point3(center.as_dvec3());
         if !linear.is_finite() || !offset.is_finite() {
@@ -165,6 +159,16 @@ impl Placement {
         } else {
             self.normals * local
         }
+    }
+
+    /// A world direction in the local frame, whose products with local lengths are those of the
+    /// direction with lengths in the world.
+    #[inline]
+    pub(super) fn direction_to_local(&self, world: Vec3) -> Vec3 {
+        if self.carrier.is_shift {
+            return world;
+        }
+        (self.linear.transpose() * world.as_dvec3()).as_vec3()
     }
 
     /// For each coordinate, the sum of the magnitudes of the terms that carry a world point into

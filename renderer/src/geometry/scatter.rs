@@ -21,6 +21,8 @@ mod points;
 mod tests;
 mod volume;
 
+use std::fmt;
+
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use thiserror::Error;
 
@@ -94,6 +96,49 @@ pub enum Rest {
 pub const MOST_THINGS: usize = 1 << 24;
 /// Greatest number of things that come to rest on one surface.
 pub const MOST_AT_REST: usize = 100_000;
+
+/// How many things there may be, and why not more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Most {
+    /// So many at any time.
+    Ever(usize),
+    /// So many fit into memory.
+    InMemory(usize),
+}
+
+impl Most {
+    /// As many as are possible where memory is no limit.
+    pub const UNBOUND: Self = Self::Ever(MOST_THINGS);
+
+    /// The number.
+    pub fn things(self) -> usize {
+        match self {
+            Self::Ever(things) | Self::InMemory(things) => things,
+        }
+    }
+
+    /// The lesser of both.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        if other.things() < self.things() {
+            other
+        } else {
+            self
+        }
+    }
+}
+
+impl fmt::Display for Most {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Ever(things) => write!(to, "the {things} that there may be"),
+            Self::InMemory(things) => write!(
+                to,
+                "the {things} for which there is memory: make them fewer, or allow more memory with --memory"
+            ),
+        }
+    }
+}
 /// Points that are tried for each thing before a surface counts as full.
 const TRIES: usize = 30;
 
@@ -124,12 +169,12 @@ pub enum ScatterError {
         why: NoPlace,
     },
     /// More than there may be.
-    #[error("`count` or `per_m2`: {wanted} are more than the {most} that there may be")]
+    #[error("`count` or `per_m2`: {wanted} are more than {most}")]
     TooMany {
         /// How many are asked for.
         wanted: f64,
         /// How many there may be.
-        most: usize,
+        most: Most,
     },
     /// The density comes to nothing.
     #[error("`per_m2`: on {area} m² the density comes to none")]
@@ -221,10 +266,10 @@ impl Scatter {
         others: impl IntoIterator<Item = [DVec3; 3]>,
         bodies: &[Body],
     ) -> Result<Vec<Strewn>, ScatterError> {
-        self.places_told(ground, others, bodies, &|| {})
+        self.places_told(ground, others, bodies, Most::UNBOUND, &|| {})
     }
 
-    /// As [`Scatter::places`]; `told` is called for each thing that has come to rest.
+    /// As [`Scatter::places`], for at most so many things; `told` is called for each thing that has come to rest.
     ///
     /// # Errors
     ///
@@ -238,6 +283,7 @@ impl Scatter {
         ground: &Ground,
         others: impl IntoIterator<Item = [DVec3; 3]>,
         bodies: &[Body],
+        most: Most,
         told: &dyn Fn(),
     ) -> Result<Vec<Strewn>, ScatterError> {
         assert!(!bodies.is_empty(), "something is strewn");
@@ -246,7 +292,7 @@ impl Scatter {
         if measure.total() <= 0.0 {
             return Err(ScatterError::NoSurface { rests });
         }
-        let wanted = self.wanted(measure.total(), rests)?;
+        let wanted = self.wanted(measure.total(), rests, most)?;
         let mut pile = None;
         if rests {
             let radii = || bodies.iter().map(Body::radius);
@@ -340,13 +386,17 @@ impl Scatter {
     }
 
     /// How many things are wanted on a surface of this area, m².
-    fn wanted(&self, area: f64, rests: bool) -> Result<usize, ScatterError> {
+    fn wanted(&self, area: f64, rests: bool, most: Most) -> Result<usize, ScatterError> {
         let wanted = match self.amount {
             Amount::Count(count) => f64::from(count),
             Amount::PerSquareMetre(density) => (density * area).round(),
         };
-        let most = if rests { MOST_AT_REST } else { MOST_THINGS };
-        if wanted > most as f64 {
+        let most = if rests {
+            Most::Ever(MOST_AT_REST).and(most)
+        } else {
+            most
+        };
+        if wanted > most.things() as f64 {
             return Err(ScatterError::TooMany { wanted, most });
         }
         if wanted < 1.0 {

@@ -18,6 +18,9 @@ const SHADOW_GAP: f32 = 1e-4;
 /// much.
 const LEAST_SLOPE: f32 = 0.01;
 
+/// Cosine between the two normals below which a point no longer rises in full over its triangle.
+const LEAST_COSINE: f32 = 0.1;
+
 /// A point of a surface, in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
@@ -32,6 +35,10 @@ pub struct SurfacePoint {
     /// Unit. Interpolated from the mesh's normals, turned to the side of the geometric normal; that
     /// normal itself where the mesh has none.
     pub shading_normal: Vec3,
+    /// How far, m, on the side of the geometric normal and on the other, a point must rise from the
+    /// triangle so that nothing of the triangle lies above the plane of the shading normal through
+    /// it; 0 where the mesh has no normals.
+    pub rise: [f32; 2],
     /// Unit, at right angles to the shading normal up to rounding: the direction in which v grows,
     /// or some fixed direction where the mesh has no uvs or they do not span the triangle.
     pub tangent: Vec3,
@@ -77,6 +84,41 @@ impl SurfacePoint {
     /// before it.
     pub fn spawn_to(&self, target: Vec3) -> Ray {
         Self::shadow(self.beside(target - self.position), target)
+    }
+
+    /// Whether the shading normal differs from the geometric one.
+    #[inline]
+    pub fn is_smooth(&self) -> bool {
+        self.rise != [0.0, 0.0]
+    }
+
+    /// Whether a direction goes to one side of the shading normal's plane and to the other of the
+    /// triangle. None does where the mesh has no normals.
+    #[inline]
+    pub fn is_between_planes(&self, direction: Vec3) -> bool {
+        self.is_smooth()
+            && direction.dot(self.geometric_normal) * direction.dot(self.shading_normal) < 0.0
+    }
+
+    /// Where a ray starts that leaves between the planes: over the triangle, on the side of the
+    /// shading normal to which it goes, and so high that it passes over the triangle.
+    pub fn raised(&self, direction: Vec3) -> Vec3 {
+        let way = self.way_up(direction);
+        way.origin() + way.direction() * self.rise[self.side_of(direction)]
+    }
+
+    /// The way that must be free for such a ray: from beside the triangle up to where the ray
+    /// starts, and a little beyond.
+    pub fn way_up(&self, direction: Vec3) -> Ray {
+        let side = self.side_of(direction);
+        let up = self.geometric_normal * [1.0, -1.0][side];
+        Ray::new(self.position + up * self.position_error, up)
+            .up_to(1.01 * self.rise[side] + self.position_error)
+    }
+
+    /// The side of the shading normal to which a direction goes: 0, or 1 against it.
+    fn side_of(&self, direction: Vec3) -> usize {
+        usize::from(direction.dot(self.shading_normal) < 0.0)
     }
 
     /// The ray from any point to `target`, likewise.
@@ -140,6 +182,7 @@ impl SurfacePoint {
         // For directions and texture coordinates single precision is enough.
         let weights = weights.map(|weight| weight as f32);
         let mut normal = geometric;
+        let mut rise = [0.0; 2];
         let vertices = || mesh.triangles()[hit.triangle as usize].map(|index| index as usize);
         if let Some(normals) = mesh.normals() {
             let [na, nb, nc] = vertices().map(|vertex| normals[vertex]);
@@ -151,6 +194,9 @@ impl SurfacePoint {
                 } else {
                     unit
                 };
+                let plane = placement.direction_to_local(normal);
+                let climbs = [e1, e2].map(|edge| edge.dot(plane));
+                rise = rise_over(climbs, weights, normal.dot(geometric));
             }
         }
 
@@ -166,6 +212,7 @@ impl SurfacePoint {
             position_error: error.max(f32::MIN_POSITIVE),
             geometric_normal: geometric,
             shading_normal: normal,
+            rise,
             tangent: tangent.unwrap_or_else(|| any_tangent(normal)),
             uv,
             instance: hit.instance,
@@ -259,6 +306,18 @@ fn along_v(edges: [Vec3; 2], uvs: [Vec2; 3], linear: &Mat3, normal: Vec3) -> Opt
     let length2 = flat.length_squared();
     // If it is nearly parallel to the normal, only rounding is left.
     (length2 > 1e-12 * direction.length_squared()).then(|| flat / length2.sqrt())
+}
+
+/// [`SurfacePoint::rise`] of a point of a triangle with these weights, whose edges from the first
+/// corner climb so far along the shading normal, which has this cosine to the geometric one.
+fn rise_over([first, second]: [f32; 2], weights: [f32; 3], cosine: f32) -> [f32; 2] {
+    let corner = -(weights[1] * first + weights[2] * second);
+    let corners = [corner, corner + first, corner + second];
+    let highest = corners.into_iter().fold(0.0, f32::max);
+    let lowest = corners.into_iter().fold(0.0, f32::min);
+    // A normal nearly in the plane of the triangle would ask for a point far away.
+    let per_height = 1.0 / cosine.max(LEAST_COSINE);
+    [highest * per_height, -lowest * per_height]
 }
 
 /// Some unit vector at right angles to a unit vector, without a branch that flips between

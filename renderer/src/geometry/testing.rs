@@ -1,6 +1,6 @@
 //! Meshes, transforms and rays for the tests of this module.
 
-use glam::{Affine3A, EulerRot, Mat3, Quat, Vec2, Vec3};
+use glam::{Affine3A, DVec3, EulerRot, Mat3, Quat, Vec2, Vec3};
 
 use super::scramble::scramble;
 use super::{Geometry, Instance, Ray, TriangleMesh};
@@ -110,9 +110,10 @@ pub(super) fn placed_with(
 ) -> Geometry {
     let instances = to_world
         .iter()
-        .map(|&(mesh, to_world)| Instance { mesh, to_world })
+        .map(|&(mesh, to_world)| Instance::new(mesh, &to_world.as_daffine3()))
         .collect();
-    Geometry::built(meshes, instances, most_repeated).expect("the transforms can be inverted")
+    Geometry::built(meshes, instances, DVec3::ZERO, most_repeated)
+        .expect("the transforms can be inverted")
 }
 
 pub(super) fn alone(mesh: TriangleMesh) -> Geometry {

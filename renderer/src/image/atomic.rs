@@ -11,6 +11,8 @@ use super::ImageError;
 const PREFIX: &str = ".lamina-";
 /// What temporary names end with.
 const SUFFIX: &str = ".part";
+/// What the names of files end with that keep other programs from an output.
+const LOCK: &str = ".lock";
 
 /// Replaces the file at `path` by the output of `write`.
 ///
@@ -146,30 +148,38 @@ pub fn locked(file: &File) -> io::Result<bool> {
     }
 }
 
-/// Removes temporary files that programs which were killed have left in a folder; errors are not
-/// worth a word.
+/// The file beside an output of this name that is locked as long as a program writes the output.
+pub fn lock_name(output: &str) -> String {
+    format!("{PREFIX}{output}{LOCK}")
+}
+
+/// Removes what programs which were killed have left in a folder, temporary files and locks; errors
+/// are not worth a word.
 pub fn sweep(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else {
         return;
     };
     for entry in entries.flatten() {
         let name = entry.file_name();
-        let Some(name) = name.to_str().filter(|name| name.ends_with(SUFFIX)) else {
+        let Some(rest) = name.to_str().and_then(|name| name.strip_prefix(PREFIX)) else {
             continue;
         };
-        let Some(rest) = name.strip_prefix(PREFIX) else {
+        let writer = if rest.ends_with(SUFFIX) {
+            rest.split('-').next().and_then(|pid| pid.parse().ok())
+        } else if rest.ends_with(LOCK) {
+            let holder = fs::read_to_string(entry.path()).unwrap_or_default();
+            let words = holder.strip_prefix("process ");
+            words.and_then(|words| words.split(' ').next()?.parse().ok())
+        } else {
             continue;
         };
-        let writer = rest.split('-').next().and_then(|pid| pid.parse().ok());
-        if is_abandoned(&entry.path(), writer) {
-            let _ = fs::remove_file(entry.path());
-        }
+        remove_abandoned(&entry.path(), writer);
     }
 }
 
-/// Whether the program that wrote a temporary file is dead: nobody holds the lock, and it cannot
-/// be about to take it, because its process has ended or the file is a minute old.
-fn is_abandoned(path: &Path, writer: Option<i32>) -> bool {
+/// Removes a file if the program that wrote it is dead: nobody holds its lock, and nobody can be
+/// about to take it, because the process has ended or the file is a minute old.
+fn remove_abandoned(path: &Path, writer: Option<i32>) {
     let is_old = || {
         let changed = fs::metadata(path).and_then(|found| found.modified());
         let age = changed.ok().and_then(|changed| changed.elapsed().ok());
@@ -177,8 +187,13 @@ fn is_abandoned(path: &Path, writer: Option<i32>) -> bool {
     };
     let is_file = fs::symlink_metadata(path).is_ok_and(|found| found.is_file());
     let file = is_file.then(|| OpenOptions::new().write(true).open(path));
-    let is_free = file.is_some_and(|file| file.and_then(|file| locked(&file)).unwrap_or(false));
-    is_free && (!writer.is_some_and(is_running) || is_old())
+    // The lock is held until the file is gone, so that nobody takes it meanwhile.
+    if let Some(Ok(file)) = file
+        && locked(&file).unwrap_or(false)
+        && (writer.is_some_and(|writer| !is_running(writer)) || is_old())
+    {
+        let _ = fs::remove_file(path);
+    }
 }
 
 /// Whether a process of this machine has the number.
@@ -335,6 +350,15 @@ mod tests {
         let at = |name: &str| folder.path().join(name);
         // No process has the greatest number.
         let dead = at(&format!(".lamina-{}-x.part", i32::MAX));
+        let [left, taken, of_others] =
+            [&lock_name("a.exr"), &lock_name("b.exr"), ".c.exr.lock"].map(at);
+        for path in [&left, &taken, &of_others] {
+            let holder = format!("process {} on moon\n", i32::MAX);
+            fs::write(path, holder).expect("the folder can be written");
+        }
+        let held = OpenOptions::new().write(true).open(&taken);
+        let held = held.expect("it is there");
+        assert!(locked(&held).expect("this system has locks"));
         let [ours, foreign, picture] = [
             &format!(".lamina-{}-x.part", std::process::id()),
             "x.part",
@@ -349,7 +373,8 @@ mod tests {
             out.write_all(b"in the middle of it")
         })
         .expect("its temporary file is still there");
-        assert!(!dead.exists());
+        assert!(!dead.exists() && !left.exists());
+        assert!(taken.exists() && of_others.exists());
         assert!(ours.exists() && foreign.exists() && picture.exists());
         // Numbers of processes are used again: after a minute an unlocked file is nobody's.
         let old = std::time::SystemTime::now() - Duration::from_secs(61);

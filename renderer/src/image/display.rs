@@ -10,13 +10,14 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::card;
+use super::colours::{mapped, to_rec709};
 use super::light_colour;
 use super::pixels::{Depth, Pixels};
 use super::tone::Tone;
 use super::white::{White, neutralised};
-use super::{Attribute, ImageError, Picture, REC709, atomic, jpeg, luminance, portable_network};
-use crate::spectrum::WavelengthSampler;
+use super::{ImageError, Picture, atomic, jpeg, luminance, portable_network};
 use crate::spectrum::observer::Observer;
+use crate::spectrum::{Share, WavelengthSampler};
 
 /// Settings of `[picture]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -210,19 +211,15 @@ fn lacks(what: &str) -> ImageError {
 ///
 /// # Errors
 ///
-/// [`ImageError::Inconsistent`] if the picture has neither colours nor bands, or colours of other
-/// primaries than those of Rec. 709.
+/// [`ImageError::Inconsistent`] if the picture has neither colours nor bands;
+/// [`ImageError::Malformed`] if no light has the primaries that it names.
 pub fn colours(picture: &Picture) -> Result<Vec<[f32; 3]>, ImageError> {
     let channels = ["R", "G", "B"].map(|name| picture.layer(name));
     if let [Some(red), Some(green), Some(blue)] = channels {
-        if let Some(primaries @ Attribute::Chromaticities(_)) = picture.attribute("chromaticities")
-            && *primaries != REC709
-        {
-            return Err(lacks("colours of the primaries of Rec. 709"));
-        }
+        let map = to_rec709(picture)?;
         let channels = red.data.iter().zip(&green.data).zip(&blue.data);
         return Ok(channels
-            .map(|((&red, &green), &blue)| [red, green, blue])
+            .map(|((&red, &green), &blue)| mapped(map, [red, green, blue]))
             .collect());
     }
     let bands: Vec<(f64, &[f32])> = picture
@@ -231,13 +228,19 @@ pub fn colours(picture: &Picture) -> Result<Vec<[f32; 3]>, ImageError> {
         .filter_map(|layer| Some((wavelength(&layer.name)?, layer.data.as_slice())))
         .collect();
     if bands.is_empty() {
-        return Err(lacks("channels `R`, `G`, `B`, nor bands `S0.…nm`"));
+        let Some(grey) = picture.layer("Y") else {
+            return Err(lacks(
+                "channels `R`, `G`, `B`, or `Y` alone, nor bands `S0.…nm`",
+            ));
+        };
+        return Ok(grey.data.iter().map(|&grey| [grey; 3]).collect());
     }
     Ok(colours_of_bands(&bands))
 }
 
-/// Linear sRGB in which a film's picture of light of this spectrum, a function of nm, is shown.
-pub fn recorded_colour(film: &WavelengthSampler, spectrum: &dyn Fn(f32) -> f64) -> [f64; 3] {
+/// Linear sRGB in which a film's picture of light of this spectrum, a function of the shares of its
+/// range, is shown.
+pub fn recorded_colour(film: &WavelengthSampler, spectrum: &dyn Fn(&Share) -> f64) -> [f64; 3] {
     let recorded = film.recorded(spectrum);
     let Some(bands) = film.as_bands() else {
         return std::array::from_fn(|channel| recorded[channel]);

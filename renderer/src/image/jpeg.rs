@@ -4,10 +4,13 @@ use std::io::Cursor;
 use std::path::Path;
 
 use image::codecs::jpeg::JpegEncoder;
-use image::{ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Limits};
+use image::metadata::Orientation;
+use image::{
+    DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageFormat, ImageReader, Limits,
+};
 
+use super::encoding::Encoding;
 use super::pixels::{Depth, Pixels};
-use super::tone::from_srgb;
 use super::{ImageError, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, check_size};
 
 /// Quality of 1 to 100 at which fine veins show no blocks.
@@ -64,13 +67,37 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
     super::read_file(path, decode)
 }
 
-/// Reads the bytes of a JPEG file: layers R, G and B in linear light, 0 to 1, of values that are
-/// taken as sRGB. Grey becomes three equal layers; profiles and the camera's turn are left out.
+/// Reads the bytes of a JPEG file, upright: layers R, G and B in linear light, 0 to 1, and their
+/// primaries as an attribute. Values are sRGB unless a profile says otherwise. Grey becomes three
+/// equal layers.
+///
+/// # Errors
+///
+/// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`], also for colours that
+/// cannot be converted.
+pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
+    let (mut pixels, orientation, profile) = decode_stored(bytes)?;
+    pixels.apply_orientation(orientation);
+    let encoding = match profile {
+        Some(profile) => Encoding::of_profile(&profile)?,
+        None => Encoding::srgb(),
+    };
+    Ok(encoding.linear(&pixels.into_rgb16()))
+}
+
+/// As [`decode`], of values that are sRGB whatever the file says of them, unturned: what formats
+/// mean that carry pictures and say so.
 ///
 /// # Errors
 ///
 /// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`].
-pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
+pub fn decode_as_srgb(bytes: &[u8]) -> Result<Picture, ImageError> {
+    let (pixels, _, _) = decode_stored(bytes)?;
+    Ok(Encoding::srgb().linear(&pixels.into_rgb16()))
+}
+
+/// Pixels as stored, how they have to be turned to be upright, and the profile of their colours.
+fn decode_stored(bytes: &[u8]) -> Result<(DynamicImage, Orientation, Option<Vec<u8>>), ImageError> {
     let malformed = |error: image::ImageError| ImageError::Malformed {
         what: error.to_string(),
     };
@@ -78,20 +105,53 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     let (width, height) = reader().into_dimensions().map_err(malformed)?;
     let (across, down) = (u64::from(width), u64::from(height));
     check_size(across, down, 3, 12, MOST_TEXTURE_BYTES)?;
+    check_scans(bytes, width, height)?;
+    // Those colours depend on the inks.
+    if components(bytes) == Some(4) {
+        return Err(ImageError::Malformed {
+            what: "its colours are CMYK, which is not read: convert it to sRGB".to_owned(),
+        });
+    }
+    let mut limited = reader();
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MOST_BYTES);
+    limited.limits(limits);
+    let (pixels, orientation) = super::turned(limited).map_err(malformed)?;
+    let profile = reader().into_decoder().and_then(|mut of| of.icc_profile());
+    Ok((pixels, orientation, profile.map_err(malformed)?))
+}
+
+/// Refuses a file that is cut short or claims more pixels than its bytes can hold, before memory is
+/// taken for them.
+pub(super) fn check_scans(bytes: &[u8], width: u32, height: u32) -> Result<(), ImageError> {
     // A block of 8 × 8 pixels takes a bit at least, and scans end before the file does.
     let scan = |marker: &[u8; 2]| bytes.windows(2).rposition(|pair| pair == marker);
-    if across * down / 64 / 8 > bytes.len() as u64 || scan(&[0xff, 0xd9]) < scan(&[0xff, 0xda]) {
+    let blocks = u64::from(width) * u64::from(height) / 64;
+    if blocks / 8 > bytes.len() as u64 || scan(&[0xff, 0xd9]) < scan(&[0xff, 0xda]) {
         let length = bytes.len();
         return Err(ImageError::Malformed {
             what: format!("{width} × {height} pixels in {length} bytes: it is cut short"),
         });
     }
-    let mut reader = reader();
-    let mut limits = Limits::default();
-    limits.max_alloc = Some(MOST_BYTES);
-    reader.limits(limits);
-    let pixels = reader.decode().map_err(malformed)?.into_rgb16();
-    Ok(super::linear(&pixels, from_srgb))
+    Ok(())
+}
+
+/// Number of the components of a pixel, as the header of the frame (SOF) says.
+fn components(bytes: &[u8]) -> Option<u8> {
+    let mut at = AFTER_START;
+    loop {
+        let &[0xff, marker, high, low] = bytes.get(at..at + 4)? else {
+            return None;
+        };
+        match marker {
+            // Filling before a marker.
+            0xff => at += 1,
+            0xc0..=0xc3 | 0xc5..=0xc7 | 0xc9..=0xcb | 0xcd..=0xcf => {
+                return bytes.get(at + 9).copied();
+            }
+            _ => at += 2 + usize::from(u16::from_be_bytes([high, low])),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -10,15 +10,15 @@ use std::path::Path;
 use exr::block::writer::{ChunksWriter, write_chunks_with};
 use exr::image::FlatSamples;
 use exr::meta::attribute::{
-    AttributeValue, ChannelDescription, Chromaticities, LineOrder, SampleType, Text,
+    AttributeValue, ChannelDescription, Chromaticities, IntegerBounds, LineOrder, SampleType, Text,
 };
 use exr::meta::header::{Header, LayerAttributes};
 use exr::meta::{BlockDescription, MetaData, magic_number};
 use exr::prelude::{Compression, ReadChannels, ReadLayers, Vec2};
 
 use super::{
-    Attribute, ImageError, Layer, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, atomic, check_held,
-    check_size,
+    Attribute, ImageError, Layer, MOST_BYTES, MOST_EXPANSION, MOST_TEXTURE_BYTES, Picture, atomic,
+    check_held, check_size,
 };
 
 /// Attributes that describe the structure of the file. They cannot be set and are not reported.
@@ -39,6 +39,10 @@ const STRUCTURAL: [&str; 15] = [
     "type",
     "version",
 ];
+
+/// Most bytes of pixels in a display window that is larger than the data window, however small the
+/// file is: those of a sky of 2048 × 1024 pixels.
+const MOST_EMPTY: u64 = 24 << 20;
 
 /// Name of the channel that holds spectral radiance at a wavelength.
 ///
@@ -244,8 +248,13 @@ pub fn read_texture(path: &Path) -> Result<Picture, ImageError> {
     super::read_file(path, |bytes| decode_within(bytes, MOST_TEXTURE_BYTES))
 }
 
-/// Reads the bytes of an `OpenEXR` file: the first part, its largest level, all channels as `f32`
-/// (16-bit floats exactly, integers rounded), and the attributes of the types in [`Attribute`].
+/// Reads the bytes of an `OpenEXR` file: its display window, all channels as `f32` (16-bit floats
+/// exactly, integers rounded) at their largest level, and the attributes of the types in
+/// [`Attribute`].
+///
+/// Pixels outside of the data window are 0, those outside of the display window are left out. Of a
+/// file of several parts, the channels of the first keep their names; those of others begin with
+/// the name of their part and a dot, if they do not anyway.
 ///
 /// # Errors
 ///
@@ -255,32 +264,129 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     decode_within(bytes, MOST_BYTES)
 }
 
-fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageError> {
+/// As [`decode`], within so many bytes of memory.
+pub(super) fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageError> {
     let malformed = |what: String| ImageError::Malformed { what };
     if !bytes.starts_with(&magic_number::BYTES) {
         return Err(malformed("it is no EXR".to_owned()));
     }
     let meta =
         guard(|| MetaData::read_from_buffered(Cursor::new(bytes), false)).map_err(malformed)?;
+    check_headers(&meta, bytes.len(), most)?;
+    let has_deep = meta.headers.iter().any(|header| header.deep);
+    let read = || {
+        exr::prelude::read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+    };
+    // A panic in a thread of the decoder could not be caught, so that it has none.
+    let (window, parts) = if has_deep {
+        let read = || {
+            let read = read().first_valid_layer().all_attributes();
+            read.non_parallel().from_buffered(Cursor::new(bytes))
+        };
+        let image = guard(read).map_err(malformed)?;
+        (image.attributes.display_window, vec![image.layer_data])
+    } else {
+        let read = || {
+            let read = read().all_layers().all_attributes();
+            read.non_parallel().from_buffered(Cursor::new(bytes))
+        };
+        let image = guard(read).map_err(malformed)?;
+        (image.attributes.display_window, image.layer_data.into_vec())
+    };
+    let mut layers: Vec<Layer> = Vec::new();
+    for (number, part) in parts.into_iter().enumerate() {
+        let data = IntegerBounds::new(part.attributes.layer_position, part.size);
+        let own = part.attributes.layer_name.as_ref();
+        let own = own.map(|name| String::from_utf8_lossy(name.as_slice()).into_owned());
+        let prefix = own.filter(|name| !name.is_empty());
+        let prefix = prefix.unwrap_or_else(|| format!("part{}", number + 1)) + ".";
+        for channel in part.channel_data.list {
+            let mut name = String::from_utf8_lossy(channel.name.as_slice()).into_owned();
+            if channel.sampling != Vec2(1, 1) || channel.sample_data.len() != part.size.area() {
+                return Err(malformed(format!(
+                    "channel {name:?} is subsampled (as in files of luminance and chroma), which is \
+                     not read: save the picture with channels R, G and B"
+                )));
+            }
+            if number > 0 && !name.starts_with(&prefix) {
+                name.insert_str(0, &prefix);
+            }
+            if layers.iter().any(|layer| layer.name == name) {
+                return Err(malformed(format!("two parts have the channel {name:?}")));
+            }
+            let values = match channel.sample_data {
+                FlatSamples::F32(data) => data,
+                FlatSamples::F16(data) => data.into_iter().map(exr::prelude::f16::to_f32).collect(),
+                FlatSamples::U32(data) => data.into_iter().map(|value| value as f32).collect(),
+            };
+            layers.push(Layer {
+                name,
+                data: shown_in(window, data, values),
+            });
+        }
+    }
+    let header = meta.headers.iter().find(|header| !header.deep);
+    Ok(Picture {
+        width: window.size.0 as u32,
+        height: window.size.1 as u32,
+        layers,
+        attributes: header.map(attributes).unwrap_or_default(),
+    })
+}
+
+/// The name of the first part of a file, whose channels keep their names.
+pub(super) fn first_part(bytes: &[u8]) -> Option<String> {
+    let meta = guard(|| MetaData::read_from_buffered(Cursor::new(bytes), false)).ok()?;
+    let name = meta.headers.first()?.own_attributes.layer_name.as_ref()?;
+    Some(String::from_utf8_lossy(name.as_slice()).into_owned())
+}
+
+/// Refuses headers that claim more than there may be, before memory is taken for it.
+fn check_headers(meta: &MetaData, held: usize, most: u64) -> Result<(), ImageError> {
     let (mut total, mut claimed) = (0_u64, 0_u64);
     for header in &meta.headers {
         if matches!(
             header.compression,
             Compression::HTJ2K32 | Compression::HTJ2K256
         ) {
-            return Err(malformed(
-                "its compression is HTJ2K, which is not read: save it with ZIP, PIZ or DWAA, for \
-                 example by `oiiotool IN.exr --compression zip -o OUT.exr`"
+            return Err(ImageError::Malformed {
+                what: "its compression is HTJ2K, which is not read: save it with ZIP, PIZ or DWAA, for \
+                       example by `oiiotool IN.exr --compression zip -o OUT.exr`"
                     .to_owned(),
-            ));
+            });
         }
-        let size = header.layer_size;
         let channels = header.channels.list.len() as u64;
+        let stored = header.channels.bytes_per_pixel as u64;
         // Memory of the file's values plus that of ours.
-        let bytes_a_pixel =
-            (header.channels.bytes_per_pixel as u64).max(channels.saturating_mul(4));
-        check_size(size.0 as u64, size.1 as u64, channels, bytes_a_pixel, most)?;
-        total = total.saturating_add((size.0 as u64 * size.1 as u64).saturating_mul(bytes_a_pixel));
+        let of_a_pixel = stored.max(channels.saturating_mul(4));
+        for size in [
+            header.layer_size,
+            header.shared_attributes.display_window.size,
+        ] {
+            let (width, height) = (size.0 as u64, size.1 as u64);
+            check_size(width, height, channels, of_a_pixel, most)?;
+            total = total.saturating_add((width * height).saturating_mul(of_a_pixel));
+        }
+        let size = header.shared_attributes.display_window.size;
+        let shown = (size.0 as u64 * size.1 as u64).saturating_mul(channels * 4);
+        if size != header.layer_size && shown > MOST_EMPTY.max(held as u64 * MOST_EXPANSION) {
+            let (width, height) = (size.0, size.1);
+            return Err(ImageError::Malformed {
+                what: format!(
+                    "its display window of {width} × {height} pixels is too large for {held} bytes: save it \
+                     with a smaller one, or with pixels in all of it"
+                ),
+            });
+        }
+        // The values of the file become those of the picture where both have one size.
+        let size = header.layer_size;
+        let pixels = size.0 as u64 * size.1 as u64;
+        if size == header.shared_attributes.display_window.size {
+            total -= pixels * of_a_pixel;
+        }
         if total > most {
             return Err(ImageError::TooLarge {
                 width: size.0 as u64,
@@ -291,47 +397,34 @@ fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageError> {
         }
         // Pixels of deep data may hold nothing.
         if !header.deep {
-            let stored = header.channels.bytes_per_pixel as u64;
-            claimed =
-                claimed.saturating_add((size.0 as u64 * size.1 as u64).saturating_mul(stored));
+            claimed = claimed.saturating_add(pixels.saturating_mul(stored));
         }
     }
-    check_held(claimed, bytes.len())?;
+    check_held(claimed, held)
+}
 
-    let image = guard(|| {
-        exr::prelude::read()
-            .no_deep_data()
-            .largest_resolution_level()
-            .all_channels()
-            .first_valid_layer()
-            .all_attributes()
-            // A panic in a thread of the decoder could not be caught.
-            .non_parallel()
-            .from_buffered(Cursor::new(bytes))
-    })
-    .map_err(malformed)?;
-    let layer = image.layer_data;
-    let pixels = layer.size.area();
-    let mut layers = Vec::new();
-    for channel in layer.channel_data.list {
-        let name = String::from_utf8_lossy(channel.name.as_slice()).into_owned();
-        if channel.sampling != Vec2(1, 1) || channel.sample_data.len() != pixels {
-            return Err(malformed(format!("channel {name:?} is subsampled")));
-        }
-        let data = match channel.sample_data {
-            FlatSamples::F32(data) => data,
-            FlatSamples::F16(data) => data.into_iter().map(exr::prelude::f16::to_f32).collect(),
-            FlatSamples::U32(data) => data.into_iter().map(|value| value as f32).collect(),
-        };
-        layers.push(Layer { name, data });
+/// What a window shows of the values of another one: 0 where there are none.
+fn shown_in(window: IntegerBounds, data: IntegerBounds, values: Vec<f32>) -> Vec<f32> {
+    if window == data {
+        return values;
     }
-    let header = meta.headers.iter().find(|header| !header.deep);
-    Ok(Picture {
-        width: layer.size.0 as u32,
-        height: layer.size.1 as u32,
-        layers,
-        attributes: header.map(attributes).unwrap_or_default(),
-    })
+    // Where the data begin within the window, and which of its columns and rows the window shows.
+    let overlap = |start: i32, size: usize, data_start: i32, data_size: usize| {
+        let offset = i64::from(data_start) - i64::from(start);
+        let first = (-offset).clamp(0, data_size as i64);
+        let last = (size as i64 - offset).clamp(first, data_size as i64);
+        (offset, first as usize..last as usize)
+    };
+    let (position, size) = (window.position, window.size);
+    let (left, columns) = overlap(position.0, size.0, data.position.0, data.size.0);
+    let (top, rows) = overlap(position.1, size.1, data.position.1, data.size.1);
+    let mut shown = vec![0.0; size.area()];
+    for row in rows.filter(|_| !columns.is_empty()) {
+        let from = &values[row * data.size.0..][columns.clone()];
+        let to = (row as i64 + top) as usize * size.0 + (columns.start as i64 + left) as usize;
+        shown[to..][..from.len()].copy_from_slice(from);
+    }
+    shown
 }
 
 /// The attributes that are reported, by name.

@@ -4,12 +4,15 @@ use std::io::{Cursor, Write};
 use std::path::Path;
 
 use image::codecs::png::PngEncoder;
+use image::metadata::Orientation;
 use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Limits};
 
+use super::encoding::Encoding;
 use super::pixels::{Depth, Pixels};
 use super::tone::from_srgb;
 use super::{
-    ImageError, Layer, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, atomic, check_held, check_size,
+    ImageError, Layer, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, REC709_POINTS, atomic, check_held,
+    check_size,
 };
 
 /// White D65 and the primaries of Rec. 709, x and y of each times 100 000: what sRGB means.
@@ -129,45 +132,64 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
     super::read_file(path, decode)
 }
 
-/// Reads the bytes of a PNG file: layers R, G and B in linear light, 0 to 1. Grey becomes three
-/// equal layers; alpha is left out.
+/// Reads the bytes of a PNG file: layers R, G and B in linear light, 0 to 1, and their primaries as
+/// an attribute. Grey becomes three equal layers; alpha is left out.
 ///
-/// Values are sRGB, unless the file tells of another gamma (`gAMA`) and of no colour space: then
-/// light is a power of them.
+/// What values mean is looked for in the order of the format: code points (`cICP`), a profile
+/// (`iCCP`), `sRGB`, then gamma and primaries (`gAMA`, `cHRM`). Without any of them they are sRGB.
+///
+/// # Errors
+///
+/// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`], also for colours that
+/// cannot be converted.
+pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
+    let pixels = decode_stored(bytes, 3)?.into_rgb16();
+    Ok(encoding(bytes)?.linear(&pixels))
+}
+
+/// As [`decode`], of values that are sRGB whatever the file says of them, unturned: what formats
+/// mean that carry pictures and say so.
 ///
 /// # Errors
 ///
 /// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`].
-pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
-    let pixels = decode_stored(bytes, 3)?.into_rgb16();
-    let light: Box<dyn Fn(f64) -> f64> = match power_of(bytes) {
-        None => Box::new(from_srgb),
-        Some(power) => Box::new(move |value| libm::pow(value, power)),
-    };
-    Ok(super::linear(&pixels, light))
+pub fn decode_as_srgb(bytes: &[u8]) -> Result<Picture, ImageError> {
+    let (stored, _) = decode_unturned(bytes, 3)?;
+    Ok(Encoding::srgb().linear(&stored.into_rgb16()))
 }
 
-/// The power of a file's values that is light; `None` if they are sRGB.
-fn power_of(bytes: &[u8]) -> Option<f64> {
-    let mut at = AFTER_HEADER;
-    let mut power = None;
-    loop {
-        let length = bytes.get(at..at + 4)?.try_into().map(u32::from_be_bytes);
-        let length = length.expect("four bytes") as usize;
-        match bytes.get(at + 4..at + 8)? {
-            b"sRGB" | b"iCCP" | b"cICP" => return None,
-            b"IDAT" | b"IEND" => return power,
-            b"gAMA" => {
-                let gamma = bytes.get(at + 8..at + 12)?.try_into();
-                let gamma = gamma.map(u32::from_be_bytes).expect("four bytes");
-                // About 1/2.2 stands for the curve of sRGB; 0 has no meaning.
-                let is_srgb = gamma.abs_diff(GAMMA) < 500 || gamma == 0;
-                power = (!is_srgb).then(|| 100_000.0 / f64::from(gamma));
-            }
-            _ => {}
-        }
-        at += length.saturating_add(12);
+/// What a file says of its values.
+fn encoding(bytes: &[u8]) -> Result<Encoding, ImageError> {
+    let reader = png::Decoder::new(Cursor::new(bytes)).read_info();
+    let reader = reader.map_err(|error| ImageError::Malformed {
+        what: error.to_string(),
+    })?;
+    let info = reader.info();
+    if let Some(points) = info.coding_independent_code_points {
+        let codes = [
+            points.color_primaries,
+            points.transfer_function,
+            points.matrix_coefficients,
+        ];
+        return Encoding::of_code_points(codes, points.is_video_full_range_image);
     }
+    if let Some(profile) = &info.icc_profile {
+        return Encoding::of_profile(profile);
+    }
+    if info.srgb.is_some() {
+        return Ok(Encoding::srgb());
+    }
+    let points = info.chrm_chunk.map_or(REC709_POINTS, |given| {
+        let of = [given.red, given.green, given.blue, given.white];
+        of.map(|(x, y)| [x.into_value(), y.into_value()])
+    });
+    let gamma = info.gama_chunk.map_or(0, png::ScaledFloat::into_scaled);
+    // About 1/2.2 is written for the curve of sRGB; 0 has no meaning.
+    if gamma == 0 || gamma.abs_diff(GAMMA) < 500 {
+        return Ok(Encoding::even(from_srgb, points));
+    }
+    let power = 100_000.0 / f64::from(gamma);
+    Ok(Encoding::even(move |value| libm::pow(value, power), points))
 }
 
 /// Reads grey or alpha of a PNG file as written, 0 to 1, as a picture with one layer, `grey` or
@@ -177,24 +199,44 @@ fn power_of(bytes: &[u8]) -> Option<f64> {
 ///
 /// As [`read`].
 pub fn read_weights(path: &Path, alpha: bool) -> Result<Picture, ImageError> {
-    super::read_file(path, |bytes| {
-        let pixels = decode_stored(bytes, 4)?.into_luma_alpha16();
-        let (width, height) = pixels.dimensions();
-        let share = |pixel: &image::LumaA<u16>| f32::from(pixel.0[usize::from(alpha)]) / 65535.0;
-        Ok(Picture {
-            width,
-            height,
-            layers: vec![Layer {
-                name: if alpha { "A" } else { "grey" }.to_owned(),
-                data: pixels.pixels().map(share).collect(),
-            }],
-            attributes: Vec::new(),
-        })
-    })
+    super::read_file(path, |bytes| Ok(weights(decode_stored(bytes, 4)?, alpha)))
 }
 
-/// Pixels as stored, with at most `channels` channels.
+/// Grey or alpha of pixels.
+fn weights(stored: DynamicImage, alpha: bool) -> Picture {
+    let pixels = stored.into_luma_alpha16();
+    let (width, height) = pixels.dimensions();
+    let share = |pixel: &image::LumaA<u16>| f32::from(pixel.0[usize::from(alpha)]) / 65535.0;
+    Picture {
+        width,
+        height,
+        layers: vec![Layer {
+            name: if alpha { "A" } else { "grey" }.to_owned(),
+            data: pixels.pixels().map(share).collect(),
+        }],
+        attributes: Vec::new(),
+    }
+}
+
+/// Alpha of the bytes of a PNG file as written, 0 to 1, unturned: one layer, `A`.
+///
+/// # Errors
+///
+/// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`].
+pub fn decode_alpha(bytes: &[u8]) -> Result<Picture, ImageError> {
+    let (stored, _) = decode_unturned(bytes, 4)?;
+    Ok(weights(stored, true))
+}
+
+/// Pixels as stored, upright, with at most `channels` channels.
 fn decode_stored(bytes: &[u8], channels: u64) -> Result<DynamicImage, ImageError> {
+    let (mut pixels, orientation) = decode_unturned(bytes, channels)?;
+    pixels.apply_orientation(orientation);
+    Ok(pixels)
+}
+
+/// Pixels as stored, and how they have to be turned to be upright.
+fn decode_unturned(bytes: &[u8], channels: u64) -> Result<(DynamicImage, Orientation), ImageError> {
     let malformed = |error: image::ImageError| ImageError::Malformed {
         what: error.to_string(),
     };
@@ -215,11 +257,12 @@ fn decode_stored(bytes: &[u8], channels: u64) -> Result<DynamicImage, ImageError
     let mut limits = Limits::default();
     limits.max_alloc = Some(MOST_BYTES);
     reader.limits(limits);
-    reader.decode().map_err(malformed)
+    super::turned(reader).map_err(malformed)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::Attribute;
     use super::super::display::Display;
     use super::super::tone::Tone;
     use super::*;
@@ -264,35 +307,113 @@ mod tests {
         }
     }
 
+    /// A chunk with its checksum.
+    fn chunk(name: [u8; 4], data: &[u8]) -> Vec<u8> {
+        let mut chunk = (data.len() as u32).to_be_bytes().to_vec();
+        chunk.extend(name);
+        chunk.extend(data);
+        chunk.extend(crc32fast::hash(&chunk[4..]).to_be_bytes());
+        chunk
+    }
+
+    /// A file of six grey or coloured values in which these chunks alone say what they mean.
+    fn tagged(rgb: [u8; 6], chunks: &[Vec<u8>]) -> Vec<u8> {
+        let mut bytes = encode(2, 1, &rgb, 6, ExtendedColorType::Rgb8).expect("two pixels");
+        let leading = leading_chunks().len();
+        bytes.splice(AFTER_HEADER..AFTER_HEADER + leading, chunks.concat());
+        bytes
+    }
+
+    fn values(bytes: &[u8]) -> [f64; 6] {
+        let picture = decode(bytes).expect("a valid file");
+        std::array::from_fn(|i| f64::from(picture.layers[i % 3].data[i / 3]))
+    }
+
+    fn points(bytes: &[u8]) -> [[f32; 2]; 4] {
+        let picture = decode(bytes).expect("a valid file");
+        match picture.attribute("chromaticities") {
+            Some(Attribute::Chromaticities(points)) => *points,
+            other => panic!("{other:?}"),
+        }
+    }
+
     #[test]
     fn a_gamma_without_a_colour_space_is_the_power_of_light() {
-        let values = [0, 50, 100, 150, 200, 255].map(f64::from);
         let rgb = [0, 50, 100, 150, 200, 255];
-        let tagged = encode(2, 1, &rgb, 6, ExtendedColorType::Rgb8).expect("two pixels");
-        let plain = encode(2, 1, &rgb, 6, ExtendedColorType::Rgb8).expect("two pixels");
-        let leading = leading_chunks().len();
         for (gamma, power) in [(100_000_u32, Some(1.0)), (50_000, Some(2.0)), (GAMMA, None)] {
-            let mut chunk = b"\0\0\0\x04gAMA".to_vec();
-            chunk.extend(gamma.to_be_bytes());
-            chunk.extend(crc32fast::hash(&chunk[4..]).to_be_bytes());
-            let mut bytes = plain.clone();
-            bytes.splice(AFTER_HEADER..AFTER_HEADER + leading, chunk.clone());
-            assert_eq!(power_of(&bytes), power);
-            let picture = decode(&bytes).expect("a valid file");
-            for (i, value) in values.iter().enumerate() {
-                let value = value / 255.0;
+            let gamma = chunk(*b"gAMA", &gamma.to_be_bytes());
+            let found = values(&tagged(rgb, std::slice::from_ref(&gamma)));
+            for (value, found) in rgb.iter().zip(found) {
+                let value = f64::from(*value) / 255.0;
                 let expected = power.map_or_else(|| from_srgb(value), |p| value.powf(p));
-                let found = f64::from(picture.layers[i % 3].data[i / 3]);
-                assert!(
-                    (found - expected).abs() < 1e-6,
-                    "{gamma}: {found} {expected}"
-                );
+                assert!((found - expected).abs() < 1e-6, "{found} {expected}");
             }
             // A file that says it is sRGB is, whatever its gamma.
-            let mut both = tagged.clone();
-            both.splice(AFTER_HEADER..AFTER_HEADER, chunk);
-            assert_eq!(power_of(&both), None);
+            let both = tagged(rgb, &[gamma, chunk(*b"sRGB", &[0])]);
+            assert_eq!(values(&both), values(&tagged(rgb, &[])));
         }
+    }
+
+    #[test]
+    fn primaries_are_those_that_the_file_names() {
+        let rgb = [10, 50, 100, 150, 200, 255];
+        let wide = [31270, 32900, 70800, 29200, 17000, 79700, 13100, 4600_u32];
+        let wide = chunk(*b"cHRM", &wide.map(u32::to_be_bytes).concat());
+        let rec2020 = super::super::primaries::REC2020;
+        let close = |points: [[f32; 2]; 4]| {
+            let mut pairs = points.iter().flatten().zip(rec2020.iter().flatten());
+            pairs.all(|(a, b)| (a - b).abs() < 1e-6)
+        };
+        assert!(close(points(&tagged(rgb, std::slice::from_ref(&wide)))));
+        // The space sRGB comes before primaries, code points before it.
+        let both = tagged(rgb, &[chunk(*b"sRGB", &[0]), wide]);
+        assert_eq!(points(&both), REC709_POINTS);
+        let codes = |codes: [u8; 4]| chunk(*b"cICP", &codes);
+        let named = tagged(rgb, &[codes([9, 8, 0, 1]), chunk(*b"sRGB", &[0])]);
+        assert!(close(points(&named)));
+        assert!((values(&named)[5] - 1.0).abs() < 1e-6);
+        assert!((values(&named)[1] - 50.0 / 255.0).abs() < 1e-6, "linear");
+        let bright = values(&tagged(rgb, &[codes([9, 16, 0, 1])]))[5];
+        assert!((bright - 10_000.0 / 203.0).abs() < 0.01, "{bright}");
+        let refused = decode(&tagged(rgb, &[codes([9, 18, 0, 1])])).map(|_| ());
+        let text = refused.expect_err("it is not read").to_string();
+        assert!(text.contains("hybrid log-gamma"), "{text}");
+    }
+
+    #[test]
+    fn a_profile_of_a_file_is_used() {
+        use image::ImageEncoder as _;
+        let profile = moxcms::ColorProfile::new_display_p3().encode();
+        let mut bytes = Vec::new();
+        let mut encoder = PngEncoder::new(&mut bytes);
+        let profile = profile.expect("a good profile");
+        encoder.set_icc_profile(profile).expect("PNG has profiles");
+        let written = encoder.write_image(&[255, 0, 0], 1, 1, ExtendedColorType::Rgb8);
+        written.expect("one pixel");
+        assert!(
+            (points(&bytes)[0][0] - 0.68).abs() < 0.01,
+            "{:?}",
+            points(&bytes)
+        );
+        assert_eq!(
+            decode_as_srgb(&bytes)
+                .expect("a valid file")
+                .attribute("chromaticities"),
+            Some(&super::super::REC709)
+        );
+    }
+
+    #[test]
+    fn a_picture_that_lies_on_its_side_is_stood_up() {
+        // Exif in big-endian order with one entry: orientation 6, a quarter turn clockwise.
+        let exif = b"MM\0\x2a\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0";
+        let bytes = tagged([255, 0, 0, 0, 0, 255], &[chunk(*b"eXIf", exif)]);
+        let picture = decode(&bytes).expect("a valid file");
+        assert_eq!((picture.width, picture.height), (1, 2));
+        // Its left is above.
+        assert_eq!(picture.layer("R").expect("colours").data, [1.0, 0.0]);
+        let unturned = decode_as_srgb(&bytes).expect("a valid file");
+        assert_eq!((unturned.width, unturned.height), (2, 1));
     }
 
     #[test]

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use image::{ImageFormat, ImageReader, Limits};
 
-use super::{ImageError, MOST_BYTES, MOST_PIXELS, check_size, read_file};
+use super::jpeg::check_scans;
+use super::{ImageError, MOST_BYTES, MOST_PIXELS, check_held, check_size, read_file};
 use super::{Layer, Picture};
 
 /// Formats by what files begin with.
@@ -28,41 +29,35 @@ pub fn read_grey(path: &Path) -> Result<Picture, ImageError> {
     read_file(path, decode_grey)
 }
 
+/// The width and the height of the picture in such a file, as its header has them.
+///
+/// # Errors
+///
+/// As [`read_grey`].
+pub fn size(path: &Path) -> Result<(u32, u32), ImageError> {
+    let mut size = (0, 0);
+    read_file(path, |bytes| {
+        size = size_of_picture(bytes)?;
+        Ok(Picture::default())
+    })?;
+    Ok(size)
+}
+
 /// The same of a file's bytes.
 ///
 /// # Errors
 ///
 /// [`ImageError::TooLarge`], [`ImageError::Malformed`].
 pub fn decode_grey(bytes: &[u8]) -> Result<Picture, ImageError> {
-    let malformed = |what: String| ImageError::Malformed { what };
-    let reader = || {
-        ImageReader::new(Cursor::new(bytes))
-            .with_guessed_format()
-            .map_err(|error| malformed(error.to_string()))
-    };
-    match reader()?.format() {
-        Some(ImageFormat::Png | ImageFormat::Tiff | ImageFormat::Jpeg) => {}
-        Some(other) => return Err(malformed(format!("it is of the kind {other:?}; {KNOWN}"))),
-        None => return Err(malformed(format!("its format is not known; {KNOWN}"))),
-    }
-    let (width, height) = reader()?
-        .into_dimensions()
-        .map_err(|error| malformed(error.to_string()))?;
-    check_size(
-        u64::from(width),
-        u64::from(height),
-        1,
-        BYTES_A_PIXEL,
-        MOST_BYTES,
-    )?;
-    let mut reader = reader()?;
+    size_of_picture(bytes)?;
+    let mut reader = reader(bytes)?;
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MOST_PIXELS * BYTES_A_PIXEL);
     reader.limits(limits);
-    let decoded = reader
-        .decode()
-        .map_err(|error| malformed(error.to_string()))?;
+    let (mut decoded, orientation) = super::turned(reader).map_err(|error| malformed(&error))?;
+    decoded.apply_orientation(orientation);
     let pixels = decoded.into_luma_alpha16();
+    let (width, height) = pixels.dimensions();
     let grey = pixels.pixels().map(|pixel| {
         let [grey, alpha] = pixel.0.map(|value| f32::from(value) / 65535.0);
         1.0 - alpha * (1.0 - grey)
@@ -76,6 +71,40 @@ pub fn decode_grey(bytes: &[u8]) -> Result<Picture, ImageError> {
         }],
         attributes: Vec::new(),
     })
+}
+
+fn malformed(error: &dyn std::fmt::Display) -> ImageError {
+    ImageError::Malformed {
+        what: error.to_string(),
+    }
+}
+
+/// A reader of a file whose first bytes say that it is known.
+fn reader(bytes: &[u8]) -> Result<ImageReader<Cursor<&[u8]>>, ImageError> {
+    let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
+    let reader = reader.map_err(|error| malformed(&error))?;
+    let what = match reader.format() {
+        Some(ImageFormat::Png | ImageFormat::Tiff | ImageFormat::Jpeg) => return Ok(reader),
+        Some(other) => format!("it is of the kind {other:?}; {KNOWN}"),
+        None => format!("its format is not known; {KNOWN}"),
+    };
+    Err(ImageError::Malformed { what })
+}
+
+/// Width and height, if the bytes can hold so many pixels.
+fn size_of_picture(bytes: &[u8]) -> Result<(u32, u32), ImageError> {
+    let is_jpeg = reader(bytes)?.format() == Some(ImageFormat::Jpeg);
+    let size = reader(bytes)?.into_dimensions();
+    let (width, height) = size.map_err(|error| malformed(&error))?;
+    let (across, down) = (u64::from(width), u64::from(height));
+    check_size(across, down, 1, BYTES_A_PIXEL, MOST_BYTES)?;
+    if is_jpeg {
+        check_scans(bytes, width, height)?;
+    } else {
+        // A pixel takes a bit at least before it is compressed.
+        check_held(across * down / 8, bytes.len())?;
+    }
+    Ok((width, height))
 }
 
 #[cfg(test)]
@@ -121,5 +150,43 @@ mod tests {
             }
         }
         assert!(decode_grey(b"format = 1").is_err());
+    }
+
+    #[test]
+    fn a_small_file_that_claims_many_pixels_is_refused_before_it_is_decoded() {
+        let grey = DynamicImage::from(GrayImage::from_pixel(64, 64, image::Luma([90])));
+        let mut jpeg = encoded(&grey, ImageFormat::Jpeg);
+        let frame = jpeg.windows(2).position(|pair| pair == [0xff, 0xc0]);
+        let frame = frame.expect("each file has a frame");
+        jpeg[frame + 5..frame + 9].copy_from_slice(&[0x0f, 0xa0, 0xff, 0xff]);
+        let refused = decode_grey(&jpeg).map(|_| ()).expect_err("it holds less");
+        assert!(refused.to_string().contains("65535 × 4000"), "{refused}");
+        let mut png = encoded(&grey, ImageFormat::Png);
+        png[16..24].copy_from_slice(&[0, 0, 0xff, 0xff, 0, 0, 0x0f, 0xa0]);
+        let sum = crc32fast::hash(&png[12..29]);
+        png[29..33].copy_from_slice(&sum.to_be_bytes());
+        let refused = decode_grey(&png).map(|_| ()).expect_err("it holds less");
+        assert!(refused.to_string().contains("claims"), "{refused}");
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("small.jpg");
+        std::fs::write(&path, encoded(&grey, ImageFormat::Jpeg)).expect("it can be written");
+        assert_eq!(size(&path).expect("a picture"), (64, 64));
+    }
+
+    #[test]
+    fn a_photograph_is_upright() {
+        let grey = DynamicImage::from(GrayImage::from_fn(16, 8, |x, _| {
+            image::Luma([if x < 8 { 20 } else { 230 }])
+        }));
+        let mut jpeg = encoded(&grey, ImageFormat::Jpeg);
+        // Exif in big-endian order with one entry: orientation 6, a quarter turn clockwise.
+        let exif = b"Exif\0\0MM\0\x2a\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0";
+        let mut segment = vec![0xff, 0xe1, 0, exif.len() as u8 + 2];
+        segment.extend(exif);
+        jpeg.splice(2..2, segment);
+        let picture = decode_grey(&jpeg).expect("a picture");
+        assert_eq!((picture.width, picture.height), (8, 16));
+        let values = &picture.layers[0].data;
+        assert!(values[0] < 0.2 && values[8 * 15] > 0.8, "its left is above");
     }
 }

@@ -64,12 +64,18 @@ const TO_CONES: [[f64; 3]; 3] = [
 
 /// The linear map of linear sRGB that makes light of this XYZ white; see [`White::adaptation`].
 fn adaptation_to(white: DVec3) -> DMat3 {
+    srgb_seen_under(white) * from_rows(XYZ_TO_SRGB).inverse()
+}
+
+/// The linear map of XYZ, seen by an eye that is adapted to this white, to linear sRGB, seen under
+/// D65: it makes the white neutral.
+pub(super) fn srgb_seen_under(white: DVec3) -> DMat3 {
     let to_cones = from_rows(TO_CONES);
     let to_xyz = from_rows(XYZ_TO_SRGB).inverse();
     let seen = to_cones * white;
     let shown = to_cones * to_xyz * DVec3::ONE;
     let adapted = to_cones.inverse() * DMat3::from_diagonal(shown / seen) * to_cones;
-    to_xyz.inverse() * adapted * to_xyz
+    to_xyz.inverse() * adapted
 }
 
 fn from_rows(rows: [[f64; 3]; 3]) -> DMat3 {

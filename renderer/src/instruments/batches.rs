@@ -4,6 +4,9 @@
 //! other while the points within one are evenly spread. The error of a figure is estimated from the
 //! differences between batches. To get a smaller error, all batches go on to twice their points.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
 use rayon::prelude::*;
 
 use crate::sampling::stream::Stream;
@@ -32,9 +35,74 @@ pub struct Budget {
     /// Rays for each set of wavelengths and each light; with a target error the most.
     pub rays: u64,
     /// Standard error at which a figure is good enough; `None` follows all rays.
-    pub error: Option<f64>,
+    pub error: Option<Target>,
     /// Seed of every random number.
     pub seed: u64,
+}
+
+/// Who looks after an instrument while it measures.
+pub struct Watch<'a> {
+    /// When it is to end, whether or not it is done.
+    pub until: Option<Instant>,
+    /// Whether it is to end at once.
+    pub stop: &'a AtomicBool,
+    /// Hears how many rays have been followed of each light and set of wavelengths.
+    pub tell: &'a (dyn Fn(u64) + Sync),
+}
+
+impl Watch<'_> {
+    fn is_over(&self) -> bool {
+        let is_late = self.until.is_some_and(|until| Instant::now() >= until);
+        is_late || self.stop.load(Ordering::Relaxed)
+    }
+}
+
+/// A budget, and who may end an instrument before it is used up.
+pub struct Effort<'a> {
+    /// How much light is followed.
+    pub budget: Budget,
+    /// Nobody ends it early if there is none.
+    pub watch: Option<&'a Watch<'a>>,
+}
+
+/// Time after which a watch is asked again.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(250);
+
+/// Points of each batch before a watch is asked for the first time: [`FEWEST_RAYS`] are followed in
+/// any case.
+const FIRST_POINTS: u32 = 16;
+
+/// A standard error at which a figure is good enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// The same for all figures.
+    Absolute(f64),
+    /// A fraction of the figure.
+    Relative(f64),
+}
+
+impl std::fmt::Display for Target {
+    /// As it is written after `--error`.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Absolute(error) => write!(f, "{error}"),
+            Self::Relative(part) => write!(f, "{}%", 100.0 * part),
+        }
+    }
+}
+
+impl Target {
+    /// Figures below this count as this much where an error is a fraction of them: no number of rays
+    /// is enough for a figure that is 0.
+    pub const LEAST_VALUE: f64 = 1e-4;
+
+    /// The greatest error that is good enough for a figure of this value.
+    pub fn allowed(self, value: f64) -> f64 {
+        match self {
+            Self::Absolute(error) => error,
+            Self::Relative(part) => part * value.abs().max(Self::LEAST_VALUE),
+        }
+    }
 }
 
 /// What a ray adds to.
@@ -48,6 +116,9 @@ pub(super) trait Experiment: Sync {
 
     /// Follows one ray.
     fn shoot(&self, stream: &mut Stream, sums: &mut [f64]);
+
+    /// So many rays were followed in all.
+    fn end(&self, _rays: u64) {}
 }
 
 /// A figure with its standard error.
@@ -80,6 +151,22 @@ impl Estimate {
     pub(super) fn weighted<'e>(parts: impl Iterator<Item = (&'e Self, f64)> + Clone) -> Self {
         let value = parts.clone().map(|(part, weight)| weight * part.value);
         Self::derived(value.sum(), parts)
+    }
+
+    /// The same fraction of light, 0 if it is within the rounding of single precision, to which
+    /// weights of light add up.
+    pub(super) fn beyond_rounding(&self) -> Self {
+        const ROUNDING: f64 = 1e-6;
+        if self.value.abs() >= ROUNDING {
+            *self
+        } else if self.error >= ROUNDING {
+            Self {
+                value: 0.0,
+                ..*self
+            }
+        } else {
+            Self::exact(0.0)
+        }
     }
 
     /// A figure that is not estimated.
@@ -116,9 +203,13 @@ struct Batches {
     sums: Vec<Vec<f64>>,
 }
 
-/// Carries out experiments within a budget: the ratios of all further sums to the first, of each
+/// Carries out experiments within a budget, or until their watch ends them: the ratios of all further sums to the first, of each
 /// experiment. A denominator of 0 gives NaN.
-pub(super) fn estimates<E: Experiment>(experiments: &[E], budget: &Budget) -> Vec<Vec<Estimate>> {
+pub(super) fn estimates<E: Experiment>(
+    experiments: &[E],
+    effort: &Effort<'_>,
+) -> Vec<Vec<Estimate>> {
+    let (budget, watch) = (&effort.budget, effort.watch);
     let most = budget.rays.div_ceil(u64::from(BATCHES));
     let most = u32::try_from(most).unwrap_or(u32::MAX).max(1);
     let mut all: Vec<Batches> = experiments
@@ -128,7 +219,9 @@ pub(super) fn estimates<E: Experiment>(experiments: &[E], budget: &Budget) -> Ve
             sums: vec![vec![0.0; experiment.sums()]; BATCHES as usize],
         })
         .collect();
-    loop {
+    // Sums are the same however many points are followed between two looks.
+    let mut step = watch.map_or(u32::MAX, |_| FIRST_POINTS);
+    'goals: loop {
         let is_open = |batches: &Batches| {
             batches.points < most && !batches.is_in_vain() && !batches.is_good(budget.error)
         };
@@ -142,37 +235,58 @@ pub(super) fn estimates<E: Experiment>(experiments: &[E], budget: &Budget) -> Ve
             None if points == 0 => most.min((RAYS_FOR_NOTHING / u64::from(BATCHES)) as u32),
             None => most,
         };
-        let work: Vec<(usize, u32)> = open
-            .iter()
-            .flat_map(|&i| (0..BATCHES).map(move |batch| (i, batch)))
-            .collect();
-        let found: Vec<Vec<f64>> = work
-            .par_iter()
-            .map(|&(i, batch)| {
-                let experiment = &experiments[i];
-                let before = &all[i];
-                let mut sums = before.sums[batch as usize].clone();
-                for point in before.points..goal(before.points) {
-                    let mut stream = Stream::new(budget.seed, experiment.stream(), batch, point);
-                    experiment.shoot(&mut stream, &mut sums);
+        // Those that are open have followed as many points.
+        let goal = goal(all[open[0]].points);
+        while all[open[0]].points < goal {
+            let started = Instant::now();
+            let end = all[open[0]].points.saturating_add(step).min(goal);
+            let work: Vec<(usize, u32)> = open
+                .iter()
+                .flat_map(|&i| (0..BATCHES).map(move |batch| (i, batch)))
+                .collect();
+            let found: Vec<Vec<f64>> = work
+                .par_iter()
+                .map(|&(i, batch)| {
+                    let experiment = &experiments[i];
+                    let before = &all[i];
+                    let mut sums = before.sums[batch as usize].clone();
+                    for point in before.points..end {
+                        let mut stream =
+                            Stream::new(budget.seed, experiment.stream(), batch, point);
+                        experiment.shoot(&mut stream, &mut sums);
+                    }
+                    sums
+                })
+                .collect();
+            for ((i, batch), sums) in work.into_iter().zip(found) {
+                all[i].sums[batch as usize] = sums;
+            }
+            for &i in &open {
+                all[i].points = end;
+            }
+            if let Some(watch) = watch {
+                (watch.tell)(u64::from(end) * u64::from(BATCHES));
+                if watch.is_over() {
+                    break 'goals;
                 }
-                sums
-            })
-            .collect();
-        for ((i, batch), sums) in work.into_iter().zip(found) {
-            all[i].sums[batch as usize] = sums;
+                if started.elapsed() < BETWEEN_LOOKS {
+                    step = step.saturating_mul(2);
+                } else if started.elapsed() > 4 * BETWEEN_LOOKS {
+                    step = (step / 2).max(FIRST_POINTS);
+                }
+            }
         }
-        for i in open {
-            all[i].points = goal(all[i].points);
-        }
+    }
+    for (experiment, batches) in experiments.iter().zip(&all) {
+        experiment.end(u64::from(batches.points) * u64::from(BATCHES));
     }
     all.iter().map(Batches::estimates).collect()
 }
 
 impl Batches {
-    /// Whether every figure has an error of at most `error`.
-    fn is_good(&self, error: Option<f64>) -> bool {
-        let Some(error) = error else {
+    /// Whether every figure's error is small enough.
+    fn is_good(&self, target: Option<Target>) -> bool {
+        let Some(target) = target else {
             return false;
         };
         self.points >= POINTS_TO_TRUST
@@ -180,7 +294,7 @@ impl Batches {
             && self
                 .estimates()
                 .iter()
-                .all(|estimate| estimate.error <= error)
+                .all(|estimate| estimate.error <= target.allowed(estimate.value))
     }
 
     /// Whether many rays were followed and none counted.
@@ -226,6 +340,50 @@ mod tests {
 
     use super::*;
 
+    fn measured<E: Experiment>(experiments: &[E], budget: Budget) -> Vec<Vec<Estimate>> {
+        let watch = None;
+        estimates(experiments, &Effort { budget, watch })
+    }
+
+    #[test]
+    fn a_watch_ends_a_measurement_early_and_changes_no_bit_of_one_that_is_done() {
+        let budget = Budget {
+            rays: 1 << 16,
+            error: None,
+            seed: 5,
+        };
+        let stop = AtomicBool::new(false);
+        let told = AtomicU64::new(0);
+        let tell = |rays: u64| told.store(rays, Ordering::Relaxed);
+        let watched = |until: Option<Instant>, budget: Budget| {
+            let watch = Watch {
+                until,
+                stop: &stop,
+                tell: &tell,
+            };
+            let watch = Some(&watch);
+            estimates(&[Disc], &Effort { budget, watch })
+        };
+        for error in [None, Some(Target::Absolute(1e-3))] {
+            let budget = Budget { error, ..budget };
+            assert_eq!(watched(None, budget), measured(&[Disc], budget));
+        }
+        let endless = Budget {
+            rays: 1 << 40,
+            ..budget
+        };
+        let found = &watched(Some(Instant::now()), endless)[0];
+        assert_eq!(told.load(Ordering::Relaxed), FEWEST_RAYS);
+        let truth = std::f64::consts::FRAC_PI_4;
+        assert!(
+            (found[0].value - truth).abs() < 5.0 * found[0].error,
+            "{found:?}"
+        );
+        stop.store(true, Ordering::Relaxed);
+        watched(None, endless);
+        assert_eq!(told.load(Ordering::Relaxed), FEWEST_RAYS);
+    }
+
     /// A disc in a square: the share of points in it, and half of that.
     struct Disc;
 
@@ -236,7 +394,7 @@ mod tests {
             error: None,
             seed: 3,
         };
-        let found = &estimates(&[Disc], &budget)[0];
+        let found = &measured(&[Disc], budget)[0];
         let [whole, half] = [found[0], found[1]];
         // The second figure is half of the first in every batch.
         let nothing = Estimate::weighted([(&whole, 0.5), (&half, -1.0)].into_iter());
@@ -287,7 +445,7 @@ mod tests {
                 error: None,
                 seed,
             };
-            let found = estimates(&[Disc], &budget)[0][0];
+            let found = measured(&[Disc], budget)[0][0];
             squares += ((found.value - truth) / found.error).powi(2);
         }
         let variance = squares / seeds as f64;
@@ -334,18 +492,18 @@ mod tests {
         for seed in 0..4 {
             let mut budget = Budget {
                 rays: FEWEST_RAYS,
-                error: Some(target),
+                error: Some(Target::Absolute(target)),
                 seed,
             };
             for doublings in 0..6 {
                 budget.rays = 2048 << doublings;
-                for figure in &estimates(&[Needle::new(1.0 / 3000.0)], &budget)[0] {
+                for figure in &measured(&[Needle::new(1.0 / 3000.0)], budget)[0] {
                     // Some 20 hits of 65536 rays; of no hits both are NaN.
                     assert!(figure.value.is_nan() || figure.error > 0.05, "{figure:?}");
                 }
             }
             budget.rays = 1 << 30;
-            let found = &estimates(&[Needle::new(1.0 / 3000.0)], &budget)[0];
+            let found = &measured(&[Needle::new(1.0 / 3000.0)], budget)[0];
             assert!(found[0].error <= target, "{found:?}");
             assert!((found[0].value - 0.5).abs() < 5.0 * target, "{found:?}");
             assert!(found[1].value == 0.0 && found[1].error > 1e-4, "{found:?}");
@@ -354,16 +512,60 @@ mod tests {
 
     #[test]
     fn rays_of_which_none_counts_end_early() {
-        for error in [None, Some(1e-3)] {
+        for error in [
+            None,
+            Some(Target::Absolute(1e-3)),
+            Some(Target::Relative(0.01)),
+        ] {
             let nothing = [Needle::new(0.0)];
             let budget = Budget {
                 rays: 1 << 40,
                 error,
                 seed: 1,
             };
-            let found = &estimates(&nothing, &budget)[0];
+            let found = &measured(&nothing, budget)[0];
             assert!(found[0].value.is_nan(), "{found:?}");
             assert_eq!(nothing[0].rays.load(Ordering::Relaxed), RAYS_FOR_NOTHING);
+        }
+    }
+
+    #[test]
+    fn a_relative_target_holds_for_great_and_small_figures_and_ends_where_there_is_nothing() {
+        let budget = Budget {
+            rays: 1 << 24,
+            error: Some(Target::Relative(0.01)),
+            seed: 1,
+        };
+        let relative = [Needle::new(0.5)];
+        let found = &measured(&relative, budget)[0];
+        assert!(found[0].error <= 0.01 * found[0].value, "{found:?}");
+        // Of a figure of 0 a hundredth of the least value that counts.
+        assert!(found[1].value == 0.0 && found[1].error <= 1e-6, "{found:?}");
+        let budget = Budget {
+            error: Some(Target::Absolute(0.01)),
+            ..budget
+        };
+        let absolute = [Needle::new(0.5)];
+        assert!(measured(&absolute, budget)[0][1].error <= 0.01);
+        let [more, fewer] = [&relative, &absolute].map(|one| one[0].rays.load(Ordering::Relaxed));
+        assert!(more > 100 * fewer, "{more} {fewer}");
+    }
+
+    #[test]
+    fn what_is_within_rounding_is_nothing() {
+        let figure = |value, error| Estimate {
+            value,
+            error,
+            ..Estimate::exact(0.0)
+        };
+        for (value, error, expected) in [
+            (4e-8, 1e-9, (0.0, 0.0)),
+            (-3e-7, 2e-8, (0.0, 0.0)),
+            (5e-7, 2e-5, (0.0, 2e-5)),
+            (2e-6, 1e-9, (2e-6, 1e-9)),
+        ] {
+            let found = figure(value, error).beyond_rounding();
+            assert_eq!((found.value, found.error), expected);
         }
     }
 
@@ -371,10 +573,10 @@ mod tests {
     fn a_target_error_is_reached_with_few_rays_and_figures_keep_their_ratios() {
         let budget = Budget {
             rays: 1 << 24,
-            error: Some(2e-4),
+            error: Some(Target::Absolute(2e-4)),
             seed: 1,
         };
-        let found = &estimates(&[Disc], &budget)[0];
+        let found = &measured(&[Disc], budget)[0];
         assert!(found.iter().all(|figure| figure.error <= 2e-4));
         let truth = std::f64::consts::FRAC_PI_4;
         assert!((found[0].value - truth).abs() < 5.0 * found[0].error);

@@ -6,17 +6,17 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::batches::{Budget, Experiment, estimates};
+use super::batches::{Effort, Experiment, estimates};
 use super::detector::{self, Detectors, angles};
 use super::fluorescence::{self, Illumination, Manner};
 use super::lamp::{directions, towards};
 use super::ledger::{Ledger, REFLECTED, TRANSMITTED, UNCOLLIDED, add};
 use super::period::Period;
-use super::row::{Direction, Row};
+use super::row::Direction;
 use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
 use super::walk::{Escaped, Event, Scattering, Walk, Witness};
-use super::{InstrumentError, LANES};
+use super::{InstrumentError, LANES, Reading};
 use crate::geometry::Ray;
 use crate::geometry::frame::Frame;
 use crate::sampling::stream::Stream;
@@ -48,6 +48,10 @@ impl Experiment for Lit<'_> {
     fn sums(&self) -> usize {
         let seen = self.detectors.as_ref().map_or(0, Detectors::len);
         1 + (self.ledger.quantities.len() + seen) * LANES
+    }
+
+    fn end(&self, rays: u64) {
+        self.stage.cuts.measured(rays);
     }
 
     fn stream(&self) -> u32 {
@@ -142,15 +146,14 @@ impl Witness<'_> for Tally<'_> {
     }
 }
 
-/// The box in the frame of a world.
-fn within(world: &World, canopy: &Canopy) -> [Vec2; 2] {
-    let origin = DVec3::new(world.origin.x, world.origin.y, 0.0).truncate();
-    canopy.within.map(|corner| (corner - origin).as_vec2())
-}
+/// What errors of canopies leave out.
+const ONE_DRAW: &str = "standard errors hold for these leaves where they are; other draws of a \
+    canopy, by other seeds of `scatter`, `volume` or plants, differ by more";
 
-/// What of a scene stands outside the box and is left out, a sentence for each object.
+/// What users should know of the figures: for how much the errors hold, and what of a scene lies
+/// outside the box and is left out, a sentence for each object.
 pub(super) fn notes(world: &World, scene: &Description, canopy: &Canopy) -> Vec<String> {
-    let left_out = Period::left_out(within(world, canopy), world);
+    let left_out = Period::left_out(canopy.within, world);
     let note = |(object, count): (usize, usize)| {
         let numbers = 0..world.objects.len();
         let own = numbers.filter(|&number| world.objects[number].object == object);
@@ -160,7 +163,9 @@ pub(super) fn notes(world: &World, scene: &Description, canopy: &Canopy) -> Vec<
             scene.objects[object].name
         )
     };
-    left_out.into_iter().map(note).collect()
+    let mut notes = vec![ONE_DRAW.to_owned()];
+    notes.extend(left_out.into_iter().map(note));
+    notes
 }
 
 /// Measures.
@@ -169,10 +174,10 @@ pub(super) fn read_out(
     scene: &Description,
     (instrument, canopy): (&Named<Instrument>, &Canopy),
     first_set: usize,
-    budget: &Budget,
-) -> Result<Vec<Row>, InstrumentError> {
+    effort: &Effort<'_>,
+) -> Result<Reading, InstrumentError> {
     let at = &instrument.value.at;
-    let (stage, period) = Period::stage(within(world, canopy), world, at)?;
+    let (stage, period) = Period::stage(canopy.within, world, at)?;
     let ground = (canopy.within[1] - canopy.within[0]).element_product();
     let ledger = Ledger::new(scene, &stage, canopy, ground);
     check(scene, (&stage, &period), canopy, &ledger, at)?;
@@ -202,7 +207,7 @@ pub(super) fn read_out(
             });
         }
     }
-    let found = estimates(&lit, budget);
+    let found = estimates(&lit, effort);
     let seen = canopy.detector.as_ref().map(angles).unwrap_or_default();
     let mut all = Vec::new();
     for (figures, &direction) in found.chunks(sets).zip(&directions) {
@@ -237,10 +242,13 @@ pub(super) fn read_out(
         let read = (instrument.name.as_str(), reading);
         let (sample, manner) = ((&stage, &period), fluorescence_of(canopy));
         all.extend(fluorescence::read_out(
-            sample, &lights, read, &manner, budget,
+            sample, &lights, read, &manner, effort,
         ));
     }
-    Ok(all)
+    Ok(Reading {
+        rows: all,
+        cut: stage.cuts.paths(),
+    })
 }
 
 /// How fluorescence is shown.
@@ -333,8 +341,8 @@ fn factor_of(light: Direction) -> &'static str {
 fn is_covered(stage: &Stage<'_>, period: &Period, object: usize) -> bool {
     let numbers = 0..stage.objects.len() as u32;
     let own = numbers.filter(|&number| stage.objects[number as usize].object == object);
-    let own: Vec<(u32, Vec3)> = own.map(|number| (number, Vec3::ZERO)).collect();
-    let Ok(soil) = stage.geometry.with_places(&own) else {
+    let own: Vec<(u32, DVec3)> = own.map(|number| (number, DVec3::ZERO)).collect();
+    let Ok(soil) = stage.geometry.with_places(&own, stage.geometry.origin()) else {
         return false;
     };
     (0..SOIL_PROBES * SOIL_PROBES).all(|probe| {

@@ -8,11 +8,12 @@ use leafmodel::optics::Contents;
 use leafmodel::optics::layers::{Face, Incidence, LayeredLeaf};
 use rayon::prelude::*;
 
-use super::InstrumentError;
 use super::batches::Estimate;
 use super::lamp::{FACES, directions};
-use super::row::{Direction, Row};
+use super::row::Direction;
 use super::spectral::{Series, plain, rows};
+use super::stage::CutPaths;
+use super::{InstrumentError, Reading};
 use crate::material::Tissue;
 use crate::scene::description::{DepthProfile, Description, Instrument, Named};
 use crate::scene::world::World;
@@ -42,7 +43,7 @@ pub(super) fn read_out(
     world: &World,
     scene: &Description,
     (instrument, depth): (&Named<Instrument>, &DepthProfile),
-) -> Result<Vec<Row>, InstrumentError> {
+) -> Result<Reading, InstrumentError> {
     let refuse = |problem: String| InstrumentError::NoContents {
         at: instrument.value.at.clone(),
         object: scene.objects[depth.object].name.clone(),
@@ -82,7 +83,10 @@ pub(super) fn read_out(
             all.extend(rows(&instrument.value, &series));
         }
     }
-    Ok(all)
+    Ok(Reading {
+        rows: all,
+        cut: CutPaths::NONE,
+    })
 }
 
 fn profile(

@@ -15,16 +15,13 @@ use glam::{DVec3, Vec2};
 
 use super::row::ViewAngles;
 use super::stage::Stage;
-use super::walk::{Course, Escaped, Scattering};
+use super::walk::{Course, Escaped, Scattering, Staged};
 use super::{InstrumentError, LANES};
+use crate::bsdf::Scattered;
 use crate::geometry::frame::Frame;
 use crate::sampling::warp;
 use crate::scene::description::{Description, Detector, Estimator, Instrument};
 use crate::spectrum::Lanes;
-
-/// Wavelengths of light that is followed together, nm, within which a leaf of layers may have one
-/// refractive index.
-const LAYERS_NM: f64 = 120.0;
 
 /// Fails if a leaf of layers is measured in a way that it has no figures for.
 pub(super) fn check_layers(
@@ -33,36 +30,15 @@ pub(super) fn check_layers(
     instrument: &Instrument,
     constituents: bool,
 ) -> Result<(), InstrumentError> {
-    let Some(object) = stage.layered() else {
-        return Ok(());
-    };
-    let refuse = |problem| {
-        Err(InstrumentError::Inside {
+    match stage.layered() {
+        Some(object) if constituents => Err(InstrumentError::Inside {
             at: instrument.at.clone(),
             object: scene.objects[object].name.clone(),
-            problem,
-        })
-    };
-    if constituents {
-        return refuse(
-            "is a leaf of layers, whose absorption is not told by constituents: leave out \
-             `constituents`",
-        );
+            problem: "is a leaf of layers, whose absorption is not split by constituents: leave out \
+                      `constituents`",
+        }),
+        Some(_) | None => Ok(()),
     }
-    let all = instrument.measured_nm();
-    let is_wide = |own: &[f64]| {
-        let (least, most) = own.iter().fold((f64::MAX, 0.0_f64), |(least, most), &nm| {
-            (least.min(nm), most.max(nm))
-        });
-        most - least > LAYERS_NM
-    };
-    if all.chunks(LANES).any(is_wide) {
-        return refuse(
-            "is a leaf of layers, with one refractive index for each eight wavelengths in a row: \
-             let these lie within 120 nm, or measure others by an instrument of their own",
-        );
-    }
-    Ok(())
 }
 
 /// Fails if next events are asked for where they would miss light: that which a medium scatters, and
@@ -178,6 +154,8 @@ impl Detectors {
             Estimator::Count => return,
         }
         let encounter = at.encounter;
+        let around = Staged(stage, course);
+        let facet = encounter.facet(&around);
         let [u, v, ..] = at.numbers;
         // The same place in all cones.
         let local = warp::cone(Vec2::new(u, v), self.opening);
@@ -187,13 +165,12 @@ impl Detectors {
             } else {
                 towards.frame.normal
             };
-            let wi = encounter.frame.to_local(direction);
-            let f = at.view.scatter(wi).f;
+            let (wi, Scattered { f, .. }) = facet.scatter((&encounter.frame, at.view), direction);
             let of_intensity = wi.z.abs()
                 * encounter.bsdf.flux_over_radiance(encounter.wo, wi)
                 * towards.of_intensity;
             let seen = at.weight * f * of_intensity;
-            if !seen.is_zero() && course.is_clear(stage, encounter.surface.spawn(direction)) {
+            if !seen.is_zero() && course.is_clear(stage, facet.spawn(direction)) {
                 add(number, seen);
             }
         }

@@ -8,19 +8,20 @@
 use glam::{Vec2, Vec3};
 
 use super::LANES;
-use super::batches::{Budget, Experiment, estimates};
+use super::batches::{Effort, Experiment, estimates};
 use super::row::{Direction, Row};
 use super::stage::Stage;
-use super::walk::{Course, Escaped, Event, Passage, Struck, Walk, Witness};
+use super::walk::{Course, Escaped, Event, Passage, Staged, Struck, Walk, Witness};
 use crate::bsdf::fluorescence::{sent_out, taken_in};
 use crate::geometry::Ray;
 use crate::geometry::frame::Frame;
 use crate::geometry::surface::SurfacePoint;
+use crate::integrator::facet::{Facet, Surroundings};
 use crate::material::leaf::LeafMaterial;
 use crate::sampling::stream::Stream;
 use crate::sampling::warp;
 use crate::scene::description::{ExcitationLight, FluorescenceReading};
-use crate::spectrum::{Curve, Lanes, Wavelengths};
+use crate::spectrum::{Curve, Lanes, Share, Wavelengths};
 
 /// Step by which a spectrum is resolved, nm.
 const STEP_NM: f64 = 5.0;
@@ -97,7 +98,8 @@ fn excitations(light: &ExcitationLight) -> Vec<(String, Vec<Packet>)> {
                     let nm = std::array::from_fn(|i| own[i.min(own.len() - 1)]);
                     let photons = std::array::from_fn(|i| {
                         // Energy times wavelength is a number of photons but for hc.
-                        let energy = f64::from(curve.at(nm[i] as f32)) * STEP_NM;
+                        let mean = curve.over(&Share::around(nm[i], STEP_NM));
+                        let energy = f64::from(mean) * STEP_NM;
                         if i < own.len() { energy * nm[i] } else { 0.0 }
                     });
                     Packet {
@@ -138,6 +140,10 @@ impl<L: Illumination, C: Course + Sync> Experiment for Reading<'_, L, C> {
         1 + QUANTITIES * LANES
     }
 
+    fn end(&self, rays: u64) {
+        self.stage.cuts.measured(rays);
+    }
+
     fn stream(&self) -> u32 {
         self.stream
     }
@@ -161,11 +167,12 @@ impl<L: Illumination, C: Course + Sync> Experiment for Reading<'_, L, C> {
         }
         sums[0] += 1.0;
         let walk = self.walk(&self.emission, 1);
+        let around = Staged(self.stage, self.course);
         for (number, start) in exciting.starts.iter().enumerate() {
             let number = (number as u32).min(MOST_STARTS - 1);
             let first = SETS_OF_A_START * (1 + number);
             stream.seek(first);
-            let Some((ray, weights)) = start.ray(stream.next4()) else {
+            let Some((ray, weights)) = start.ray(&around, stream.next4()) else {
                 continue;
             };
             // Roulette knows weights of about 1.
@@ -239,7 +246,11 @@ impl<'m> Witness<'m> for Exciting<'_, 'm> {
 
 impl Start<'_> {
     /// A ray of what is emitted, with its weights; `None` if that is nothing.
-    fn ray(&self, [side, x, y, _]: [f32; 4]) -> Option<(Ray, [f64; LANES])> {
+    fn ray(
+        &self,
+        around: &impl Surroundings,
+        [side, x, y, _]: [f32; 4],
+    ) -> Option<(Ray, [f64; LANES])> {
         let [lit, other] = self.leaving.map(|lanes| lanes.iter().sum::<f64>());
         let through = other / (lit + other);
         if !through.is_finite() {
@@ -253,7 +264,14 @@ impl Start<'_> {
         let chance = if is_through { through } else { 1.0 - through };
         let weights = self.leaving[usize::from(is_through)].map(|own| own * sent / chance);
         let is_some = up.z > 0.0 && weights.iter().any(|weight| *weight > 0.0);
-        is_some.then(|| (self.surface.spawn(self.frame.to_world(local)), weights))
+        is_some.then(|| {
+            let facet = Facet {
+                around,
+                surface: &self.surface,
+            };
+            let towards = facet.leaving(self.frame.to_world(local));
+            (facet.spawn(towards), weights)
+        })
     }
 }
 
@@ -300,7 +318,7 @@ pub(super) fn read_out<L: Illumination, C: Course + Sync>(
     lights: &[Lit<'_, L>],
     (name, reading): (&str, &FluorescenceReading),
     manner: &Manner,
-    budget: &Budget,
+    effort: &Effort<'_>,
 ) -> Vec<Row> {
     let excitations = excitations(&reading.light);
     let unit = match reading.light {
@@ -331,7 +349,7 @@ pub(super) fn read_out<L: Illumination, C: Course + Sync>(
             }
         }
     }
-    let found = estimates(&readings, budget);
+    let found = estimates(&readings, effort);
     let mut found = found.chunks(emissions.len());
     let mut rows = Vec::new();
     for (_, incidence, face) in lights {

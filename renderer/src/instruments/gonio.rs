@@ -6,14 +6,14 @@
 
 use std::f64::consts::FRAC_1_PI;
 
-use super::batches::{Budget, Estimate, Experiment, estimates};
+use super::batches::{Effort, Estimate, Experiment, estimates};
 use super::detector::{self, Detectors, angles};
 use super::lamp::{Bench, FACES, Lamp};
-use super::row::{Direction, Row};
+use super::row::Direction;
 use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
 use super::walk::{Escaped, Event, Scattering, Straight, Walk, Witness};
-use super::{InstrumentError, LANES};
+use super::{InstrumentError, LANES, Reading};
 use crate::sampling::stream::Stream;
 use crate::scene::description::{Description, Gonio, Instrument, Named};
 use crate::scene::world::World;
@@ -31,6 +31,10 @@ struct Lit<'a> {
 impl Experiment for Lit<'_> {
     fn sums(&self) -> usize {
         1 + 2 * self.detectors[0].len() * LANES
+    }
+
+    fn end(&self, rays: u64) {
+        self.stage.cuts.measured(rays);
     }
 
     fn stream(&self) -> u32 {
@@ -117,8 +121,8 @@ pub(super) fn read_out(
     scene: &Description,
     (instrument, gonio): (&Named<Instrument>, &Gonio),
     first_set: usize,
-    budget: &Budget,
-) -> Result<Vec<Row>, InstrumentError> {
+    effort: &Effort<'_>,
+) -> Result<Reading, InstrumentError> {
     let at = &instrument.value.at;
     let bench = Bench::new(world, scene, &gonio.sample, at)?;
     detector::check(scene, &bench.stage, &gonio.detector, at)?;
@@ -146,7 +150,7 @@ pub(super) fn read_out(
             wavelengths,
         })
         .collect();
-    let found = estimates(&lit, budget);
+    let found = estimates(&lit, effort);
     if found.iter().any(|figures| figures[0].value.is_nan()) {
         return Err(InstrumentError::NothingLit {
             at: at.clone(),
@@ -179,5 +183,8 @@ pub(super) fn read_out(
         }
         all.extend(rows(&instrument.value, &series));
     }
-    Ok(all)
+    Ok(Reading {
+        rows: all,
+        cut: bench.stage.cuts.paths(),
+    })
 }

@@ -9,6 +9,10 @@ use super::walk::Event;
 use crate::scene::description::{Canopy, Description};
 use crate::spectrum::Wavelengths;
 
+/// Fraction of the light at an event within which it may be rounded: some units of the last place of
+/// single precision.
+const ROUNDING: f64 = 5e-7;
+
 /// What is told of each wavelength.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Quantity {
@@ -102,7 +106,7 @@ impl Ledger {
             quantities.extend(named);
             (first, numbers)
         });
-        let origin = stage.world.origin.z;
+        let origin = stage.geometry.origin().z;
         Self {
             quantities,
             objects,
@@ -124,8 +128,17 @@ impl Ledger {
         wavelengths: &Wavelengths<LANES>,
         sums: &mut [f64],
     ) {
-        let absorbed =
-            |lane: usize| f64::from(event.before.0[lane]) - f64::from(event.after.0[lane]);
+        let absorbed = |lane: usize| {
+            let [before, after] =
+                [event.before, event.after].map(|weight| f64::from(weight.0[lane]));
+            // What is within rounding is nothing: of many events it would be something.
+            let absorbed = before - after;
+            if absorbed.abs() <= ROUNDING * before {
+                0.0
+            } else {
+                absorbed
+            }
+        };
         if Some(event.object) == self.soil {
             if event.is_scattered {
                 add(sums, ARRIVING, |lane| f64::from(event.before.0[lane]));

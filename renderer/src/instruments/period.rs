@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-use glam::{Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use super::InstrumentError;
 use super::stage::Stage;
-use super::walk::Course;
-use crate::geometry::{GeometryError, Hit, Ray};
+use super::walk::{Course, Straight};
+use crate::geometry::{GeometryError, Hit, Ray, origin_near};
 use crate::scene::world::World;
 
 /// Most times that a ray enters the box anew without a hit; then it counts as having left. A ray
@@ -17,10 +17,18 @@ const MOST_TURNS: u32 = 100_000;
 
 /// Share of the box's size, or of its distance from the origin, within which a place counts as being
 /// on a side.
-const TOUCH: f32 = 1e-6;
+const TOUCH: f64 = 1e-6;
+
+/// The sides of a box in the scene.
+struct Sides {
+    least: DVec2,
+    most: DVec2,
+    /// Distances from the sides within which a place counts as being on them, m.
+    touch: DVec2,
+}
 
 /// A box, open at the top and below, whose sides are joined: what leaves at one comes in at the
-/// opposite one.
+/// opposite one. Its coordinates are around the origin of its stage.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Period {
     pub(super) least: Vec2,
@@ -54,6 +62,13 @@ impl Course for Period {
         (None, gone)
     }
 
+    fn is_free(&self, stage: &Stage<'_>, way: &Ray) -> bool {
+        // What lies beyond the sides may be missing there.
+        let end = (way.origin() + way.direction() * way.t_max()).truncate();
+        let is_within = end.cmpge(self.least).all() && end.cmple(self.most).all();
+        is_within && Straight.is_free(stage, way)
+    }
+
     fn is_clear(&self, stage: &Stage<'_>, mut ray: Ray) -> bool {
         for _ in 0..MOST_TURNS {
             let (t_side, t_beyond, axis) = self.side(&ray);
@@ -66,6 +81,57 @@ impl Course for Period {
             }
         }
         true
+    }
+}
+
+impl Sides {
+    fn of([least, most]: [DVec2; 2]) -> Self {
+        let origin = origin_near((0.5 * (least + most)).extend(0.0)).truncate();
+        let reach = (least - origin).abs().max((most - origin).abs());
+        Self {
+            least,
+            most,
+            touch: TOUCH * reach.max(most - least),
+        }
+    }
+
+    /// Where an instance stands along an axis: in how many boxes' lengths from its own place its
+    /// copies reach into the box; `None` if it is left out.
+    fn copies(&self, axis: usize, [from, to]: [f64; 2]) -> Option<RangeInclusive<i32>> {
+        let (least, most, touch) = (self.least[axis], self.most[axis], self.touch[axis]);
+        if from <= least + touch && to >= most - touch {
+            return Some(0..=0);
+        }
+        let middle = 0.5 * (from + to);
+        if middle < least - touch || middle >= most - touch {
+            return None;
+        }
+        let size = most - least;
+        let first = ((least - touch - to) / size).ceil();
+        let last = ((most + touch - from) / size).floor();
+        Some(first as i32..=last as i32)
+    }
+
+    /// Where each instance of a world but lamps stands, nowhere if it is left out; with the least and
+    /// the greatest height of its box.
+    fn places(&self, world: &World) -> Vec<(u32, [f64; 2], Vec<DVec3>)> {
+        let numbers = 0..world.objects.len() as u32;
+        let own = numbers.filter(|&number| world.objects[number as usize].light.is_none());
+        own.map(|number| {
+            let (from, to) = world.geometry.bounds_of(number);
+            let along = |axis: usize| self.copies(axis, [from[axis], to[axis]]);
+            let mut places = Vec::new();
+            if let (Some(x), Some(y)) = (along(0), along(1)) {
+                for i in x {
+                    for j in y.clone() {
+                        let by = DVec2::new(f64::from(i), f64::from(j)) * (self.most - self.least);
+                        places.push(by.extend(0.0));
+                    }
+                }
+            }
+            (number, [from.z, to.z], places)
+        })
+        .collect()
     }
 }
 
@@ -114,59 +180,10 @@ impl Period {
         }
     }
 
-    /// Where an instance stands along an axis: in how many boxes' lengths from its own place its
-    /// copies reach into the box; `None` if it is left out.
-    fn copies(&self, axis: usize, [from, to]: [f32; 2]) -> Option<RangeInclusive<i32>> {
-        let (least, most, touch) = (self.least[axis], self.most[axis], self.touch[axis]);
-        if from <= least + touch && to >= most - touch {
-            return Some(0..=0);
-        }
-        let middle = 0.5 * (from + to);
-        if middle < least - touch || middle >= most - touch {
-            return None;
-        }
-        let size = most - least;
-        let first = ((least - touch - to) / size).ceil();
-        let last = ((most + touch - from) / size).floor();
-        Some(first as i32..=last as i32)
-    }
-
-    /// A box without heights.
-    fn new([least, most]: [Vec2; 2]) -> Self {
-        let far = least.abs().max(most.abs()).max(most - least);
-        Self {
-            least,
-            most,
-            touch: TOUCH * far,
-            heights: [0.0; 2],
-        }
-    }
-
-    /// Where each instance of a world but lamps stands; nowhere if it is left out.
-    fn places(&self, world: &World) -> Vec<(u32, Vec<Vec3>)> {
-        let numbers = 0..world.objects.len() as u32;
-        let own = numbers.filter(|&number| world.objects[number as usize].light.is_none());
-        own.map(|number| {
-            let (from, to) = world.geometry.bounds_of(number);
-            let along = |axis: usize| self.copies(axis, [from[axis], to[axis]]);
-            let mut places = Vec::new();
-            if let (Some(x), Some(y)) = (along(0), along(1)) {
-                for i in x {
-                    for j in y.clone() {
-                        let by = Vec2::new(i as f32, j as f32) * (self.most - self.least);
-                        places.push(by.extend(0.0));
-                    }
-                }
-            }
-            (number, places)
-        })
-        .collect()
-    }
-
     /// The objects of which parts are left out of a box, by number, each with how many.
-    pub(super) fn left_out(within: [Vec2; 2], world: &World) -> BTreeMap<usize, usize> {
+    pub(super) fn left_out(within: [DVec2; 2], world: &World) -> BTreeMap<usize, usize> {
         let mut left_out = BTreeMap::new();
-        for (number, places) in Self::new(within).places(world) {
+        for (number, _, places) in Sides::of(within).places(world) {
             if places.is_empty() {
                 *left_out
                     .entry(world.objects[number as usize].object)
@@ -183,30 +200,42 @@ impl Period {
     /// box, the same is not counted twice. What reaches beyond two opposite sides, as ground does,
     /// stands in it and is not repeated across them.
     pub(super) fn stage<'w>(
-        within: [Vec2; 2],
+        within: [DVec2; 2],
         world: &'w World,
         at: &str,
     ) -> Result<(Stage<'w>, Self), InstrumentError> {
-        let period = Self::new(within);
-        let places: Vec<(u32, Vec3)> = period
-            .places(world)
-            .into_iter()
-            .flat_map(|(number, places)| places.into_iter().map(move |by| (number, by)))
-            .collect();
+        let mut heights = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut places: Vec<(u32, DVec3)> = Vec::new();
+        for (number, [low, high], own) in Sides::of(within).places(world) {
+            if !own.is_empty() {
+                heights = [heights[0].min(low), heights[1].max(high)];
+            }
+            places.extend(own.into_iter().map(|by| (number, by)));
+        }
         if places.is_empty() {
             return Err(InstrumentError::NoLeaves { at: at.to_owned() });
         }
+        let middle = 0.5 * (within[0] + within[1]);
+        let middle = middle.extend(0.5 * (heights[0] + heights[1]));
         let refuse = |source: GeometryError| InstrumentError::Geometry {
             at: at.to_owned(),
             source,
         };
-        let stage = Stage::new(world, &places).map_err(refuse)?;
+        let stage = Stage::new(world, &places, middle).map_err(refuse)?;
         let (low, high) = stage.geometry.bounds();
-        let size = period.most - period.least;
+        let origin = stage.geometry.origin().truncate();
+        let [least, most] = within.map(|corner| (corner - origin).as_vec2());
+        let size = most - least;
+        let far = least.abs().max(most.abs()).max(size);
         let margin =
             1e-4 * (high.z - low.z).max(size.min_element()) + 1e-6 * high.abs().max_element();
-        let heights = [low.z - margin, high.z + margin];
-        Ok((stage, Self { heights, ..period }))
+        let period = Self {
+            least,
+            most,
+            touch: TOUCH as f32 * far,
+            heights: [low.z - margin, high.z + margin],
+        };
+        Ok((stage, period))
     }
 
     /// A point of the plane above everything, from a point of the unit square.

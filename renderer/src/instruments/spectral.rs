@@ -7,7 +7,7 @@ use super::LANES;
 use super::batches::Estimate;
 use super::row::{Direction, Row};
 use crate::scene::description::{Amount, Incident, Instrument};
-use crate::spectrum::Curve;
+use crate::spectrum::{Curve, Share};
 
 /// A figure at all wavelengths at which an instrument measures.
 pub(super) struct Series {
@@ -93,12 +93,19 @@ pub(super) fn rows(instrument: &Instrument, series: &[Series]) -> Vec<Row> {
 
 /// Weights of a band's wavelengths by its response and the light, of sum 1.
 fn band_weights(nodes: &[(f64, f64)], light: Option<&Curve>) -> Vec<f64> {
-    let lit = |&(nm, weight): &(f64, f64)| {
-        weight * light.map_or(1.0, |curve| f64::from(curve.at(nm as f32)))
+    let lit = |(i, &(nm, weight)): (usize, &(f64, f64))| {
+        // A node represents what is nearest to it.
+        let to = |other: usize| f64::midpoint(nm, nodes.get(other).map_or(nm, |node| node.0));
+        let share = Share {
+            nm: nm as f32,
+            edges_nm: [to(i.wrapping_sub(1)), to(i + 1)],
+        };
+        weight * light.map_or(1.0, |curve| f64::from(curve.over(&share)))
     };
-    let sum: f64 = nodes.iter().map(lit).sum();
+    let lit: Vec<f64> = nodes.iter().enumerate().map(lit).collect();
+    let sum: f64 = lit.iter().sum();
     if sum > 0.0 {
-        nodes.iter().map(|node| lit(node) / sum).collect()
+        lit.into_iter().map(|lit| lit / sum).collect()
     } else {
         // No light in this band: by the response alone.
         nodes.iter().map(|(_, weight)| *weight).collect()
@@ -127,7 +134,7 @@ fn photon_weights(incident: &Incident, curve: &Curve) -> Vec<f64> {
     let parts = ((Incident::PAR_NM[1] - Incident::PAR_NM[0]) * 10.0).round() as u32;
     for part in 0..parts {
         let nm = Incident::PAR_NM[0] + (f64::from(part) + 0.5) * 0.1;
-        let power = 0.1 * f64::from(curve.at(nm as f32));
+        let power = 0.1 * f64::from(curve.over(&Share::around(nm, 0.1)));
         irradiance += power;
         let micromoles = power * nm * 1e-9 / MOLE_OF_PHOTONS * 1e6;
         let place = (nm - nodes[0]) / step;

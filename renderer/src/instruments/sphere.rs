@@ -7,16 +7,15 @@
 
 use glam::Vec3;
 
-use super::batches::{Budget, Experiment, estimates};
+use super::batches::{Effort, Estimate, Experiment, estimates};
 use super::constituents::{self, PARTS};
 use super::detector::check_layers;
 use super::fluorescence::{self, Illumination, Manner};
 use super::lamp::{Bench, FACES, Lamp};
-use super::row::Row;
 use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
 use super::walk::{Escaped, Event, Straight, Walk, Witness};
-use super::{InstrumentError, LANES};
+use super::{InstrumentError, LANES, Reading};
 use crate::geometry::Ray;
 use crate::sampling::stream::Stream;
 use crate::scene::description::{Description, Instrument, Named, Sample};
@@ -30,8 +29,9 @@ const WAYS: u32 = 8;
 const QUANTITIES: [(&str, &str); 3] = [
     ("reflectance", "reflected_photon_flux"),
     ("transmittance", "transmitted_photon_flux"),
-    ("absorptance", "absorbed_photon_flux"),
+    (ABSORPTANCE, "absorbed_photon_flux"),
 ];
+const ABSORPTANCE: &str = "absorptance";
 /// What is told of each constituent.
 const BY_CONSTITUENT: (&str, &str) = (
     "absorbed_by_constituent",
@@ -65,6 +65,10 @@ impl Experiment for Lit<'_> {
     fn sums(&self) -> usize {
         let parts = if self.constituents { PARTS } else { 0 };
         1 + (QUANTITIES.len() + parts) * LANES
+    }
+
+    fn end(&self, rays: u64) {
+        self.stage.cuts.measured(rays);
     }
 
     fn stream(&self) -> u32 {
@@ -140,8 +144,8 @@ pub(super) fn read_out(
     scene: &Description,
     (instrument, sample): (&Named<Instrument>, &Sample),
     first_set: usize,
-    budget: &Budget,
-) -> Result<Vec<Row>, InstrumentError> {
+    effort: &Effort<'_>,
+) -> Result<Reading, InstrumentError> {
     let at = &instrument.value.at;
     let bench = Bench::new(world, scene, sample, at)?;
     check_layers(scene, &bench.stage, &instrument.value, sample.constituents)?;
@@ -159,7 +163,7 @@ pub(super) fn read_out(
             wavelengths,
         })
         .collect();
-    let found = estimates(&lit, budget);
+    let found = estimates(&lit, effort);
     if found.iter().any(|figures| figures[0].value.is_nan()) {
         return Err(InstrumentError::NothingLit {
             at: at.clone(),
@@ -181,10 +185,14 @@ pub(super) fn read_out(
                 let mut row = plain(&instrument.name, quantity, lamp.direction).row;
                 row.face = Some(FACES[lamp.face]);
                 row.part = part.map(str::to_owned);
+                let mut figures = by_wavelength(figures, number, count);
+                if quantity == ABSORPTANCE {
+                    figures = figures.iter().map(Estimate::beyond_rounding).collect();
+                }
                 Series {
                     row,
                     photons: Some((photons, 1.0)),
-                    figures: by_wavelength(figures, number, count),
+                    figures,
                 }
             })
             .collect();
@@ -197,10 +205,13 @@ pub(super) fn read_out(
             .collect();
         let read = (instrument.name.as_str(), reading);
         let sample = (&bench.stage, &Straight);
-        let own = fluorescence::read_out(sample, &lights, read, &FLUORESCENCE, budget);
+        let own = fluorescence::read_out(sample, &lights, read, &FLUORESCENCE, effort);
         all.extend(own);
     }
-    Ok(all)
+    Ok(Reading {
+        rows: all,
+        cut: bench.stage.cuts.paths(),
+    })
 }
 
 impl Illumination for Lamp<'_> {

@@ -150,7 +150,7 @@ fn at_point(stage: &Stage<'_>, object: &Object, at: DVec2) -> Option<(Vec3, Vec3
     let reach = (most - least).length().max(1e-6);
     let to_world = |z: f64| {
         let point = object.to_world.transform_point3(DVec3::new(at.x, at.y, z));
-        (point - stage.world.origin).as_vec3()
+        (point - geometry.origin()).as_vec3()
     };
     let along = (to_world(1.0) - to_world(0.0)).try_normalize()?;
     let down = -along;
@@ -166,8 +166,8 @@ fn at_point(stage: &Stage<'_>, object: &Object, at: DVec2) -> Option<(Vec3, Vec3
 /// The point of the surface with these texture coordinates, and its normal.
 fn at_uv(geometry: &Geometry, uv: Vec2) -> Option<(Vec3, Vec3)> {
     (0..geometry.instances()).find_map(|number| {
-        let instance = geometry.instance(number);
-        let mesh = geometry.mesh(instance.mesh);
+        let mesh = geometry.mesh(geometry.instance(number).mesh);
+        let to_world = geometry.to_world(number);
         let uvs = mesh.uvs()?;
         mesh.triangles().iter().find_map(|triangle| {
             let [a, b, c] = triangle.map(|vertex| uvs[vertex as usize]);
@@ -179,9 +179,9 @@ fn at_uv(geometry: &Geometry, uv: Vec2) -> Option<(Vec3, Vec3)> {
             }
             let [a, b, c] = triangle.map(|vertex| {
                 let point = mesh.positions()[vertex as usize];
-                instance.to_world.transform_point3(point)
+                to_world.transform_point3(point)
             });
-            let mirrors = instance.to_world.matrix3.determinant().signum();
+            let mirrors = to_world.matrix3.determinant().signum();
             let normal = (b - a).cross(c - a).try_normalize()? * mirrors;
             Some((a + (b - a) * b1 + (c - a) * b2, normal))
         })

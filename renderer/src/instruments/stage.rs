@@ -1,10 +1,77 @@
 //! The part of a scene that an instrument sees.
 
-use glam::Vec3;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::geometry::{Geometry, GeometryError};
+use glam::DVec3;
+
+use crate::geometry::{Geometry, GeometryError, origin_near};
 use crate::material::Material;
 use crate::scene::world::{World, WorldObjects};
+use crate::spectrum::Lanes;
+
+/// Counts paths that a limit cuts; sums of integers are the same on any number of threads.
+#[derive(Debug)]
+pub(super) struct Cuts {
+    paths: AtomicU64,
+    /// What they carried, in units of 2⁻³² of a ray's light.
+    carried: AtomicU64,
+    /// Fewest rays of a figure.
+    rays: AtomicU64,
+}
+
+/// Paths that a limit cut in a measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CutPaths {
+    /// Their number.
+    pub paths: u64,
+    /// The most that they could change a figure by, as a fraction of the light.
+    pub at_most: f64,
+}
+
+impl CutPaths {
+    /// No path was cut.
+    pub(super) const NONE: Self = Self {
+        paths: 0,
+        at_most: 0.0,
+    };
+}
+
+impl Cuts {
+    const ONE: f64 = 4_294_967_296.0;
+
+    fn new() -> Self {
+        Self {
+            paths: AtomicU64::new(0),
+            carried: AtomicU64::new(0),
+            rays: AtomicU64::new(u64::MAX),
+        }
+    }
+
+    /// A path is cut that carries this much.
+    pub(super) fn add<const N: usize>(&self, weight: Lanes<N>) {
+        let weight = weight.max_lane();
+        if weight > 0.0 {
+            let units = (f64::from(weight) * Self::ONE).ceil() as u64;
+            self.paths.fetch_add(1, Ordering::Relaxed);
+            self.carried.fetch_add(units, Ordering::Relaxed);
+        }
+    }
+
+    /// A figure was measured with so many rays.
+    pub(super) fn measured(&self, rays: u64) {
+        self.rays.fetch_min(rays, Ordering::Relaxed);
+    }
+
+    /// What was cut.
+    pub(super) fn paths(&self) -> CutPaths {
+        let [paths, carried, rays] =
+            [&self.paths, &self.carried, &self.rays].map(|count| count.load(Ordering::Relaxed));
+        CutPaths {
+            paths,
+            at_most: carried as f64 / Self::ONE / rays as f64,
+        }
+    }
+}
 
 /// Some instances of a world, each perhaps in several places.
 pub(super) struct Stage<'w> {
@@ -13,14 +80,22 @@ pub(super) struct Stage<'w> {
     pub(super) objects: WorldObjects,
     /// Number of each of its instances in the world.
     pub(super) numbers: Vec<u32>,
+    /// Paths in it that were cut.
+    pub(super) cuts: Cuts,
 }
 
 impl<'w> Stage<'w> {
-    /// These instances of a world, each moved by an offset, m.
-    pub(super) fn new(world: &'w World, places: &[(u32, Vec3)]) -> Result<Self, GeometryError> {
+    /// These instances of a world, each moved by an offset, m. Rays are traced around a point near
+    /// the given one, which is in their midst.
+    pub(super) fn new(
+        world: &'w World,
+        places: &[(u32, DVec3)],
+        middle: DVec3,
+    ) -> Result<Self, GeometryError> {
         Ok(Self {
             world,
-            geometry: world.geometry.with_places(places)?,
+            cuts: Cuts::new(),
+            geometry: world.geometry.with_places(places, origin_near(middle))?,
             numbers: places.iter().map(|(number, _)| *number).collect(),
             objects: world.objects.pick(places.iter().map(|(number, _)| *number)),
         })
@@ -30,10 +105,15 @@ impl<'w> Stage<'w> {
     pub(super) fn of_object(world: &'w World, object: usize) -> Result<Self, GeometryError> {
         let numbers = 0..world.objects.len() as u32;
         let own = numbers.filter(|&number| world.objects[number as usize].object == object);
-        Self::new(
-            world,
-            &own.map(|number| (number, Vec3::ZERO)).collect::<Vec<_>>(),
-        )
+        let own: Vec<(u32, DVec3)> = own.map(|number| (number, DVec3::ZERO)).collect();
+        let boxes = own
+            .iter()
+            .map(|(number, _)| world.geometry.bounds_of(*number));
+        let nowhere = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (least, most) = boxes.fold(nowhere, |(least, most), (low, high)| {
+            (least.min(low), most.max(high))
+        });
+        Self::new(world, &own, 0.5 * (least + most))
     }
 
     /// The first object that a medium fills.

@@ -12,6 +12,7 @@ use crate::bsdf::View;
 use crate::geometry::{Hit, Ray};
 use crate::integrator::cone::Cone;
 use crate::integrator::encounter::Encounter;
+use crate::integrator::facet::{Facet, Surroundings};
 use crate::integrator::leaf_walk::{LeafWalk, Leaving};
 use crate::material::Material;
 use crate::material::leaf::Inside;
@@ -20,11 +21,6 @@ use crate::spectrum::{Lanes, Wavelengths};
 
 /// Weight, in the lane where it is greatest, below which Russian roulette is applied.
 const ROULETTE_BELOW: f32 = 0.02;
-
-/// Most scattering events of a path. Roulette ends paths long before, unless light is caught
-/// between surfaces that absorb nothing; what such a path still carries counts as absorbed where
-/// it is.
-const MOST_EVENTS: u32 = 100_000;
 
 /// First set of random numbers that the way of the light does not use.
 const ASIDE: u32 = 1 << 24;
@@ -91,6 +87,20 @@ pub(super) trait Course {
 
     /// Whether a ray leaves without a hit.
     fn is_clear(&self, stage: &Stage<'_>, ray: Ray) -> bool;
+
+    /// Whether nothing is in the way of a short ray that ends.
+    fn is_free(&self, stage: &Stage<'_>, way: &Ray) -> bool {
+        !stage.geometry.occluded(way)
+    }
+}
+
+/// A stage, and how rays go on in it.
+pub(super) struct Staged<'a, C>(pub(super) &'a Stage<'a>, pub(super) &'a C);
+
+impl<C: Course> Surroundings for Staged<'_, C> {
+    fn is_free(&self, way: &Ray) -> bool {
+        self.1.is_free(self.0, way)
+    }
 }
 
 /// Rays that go straight on.
@@ -257,11 +267,24 @@ impl<'m, C: Course> Walk<'m, C> {
         stream.seek(1 + event);
         let numbers = stream.next4();
         let [.., roulette] = numbers;
+        let around = Staged(self.stage, self.course);
+        let most_events = self.stage.world.integrator.max_events;
         let (leaving, is_specular) = if let Some((inside, hit)) = inside {
             let at = (hit, &encounter.surface, &encounter.frame, encounter.wo);
             let geometry = &self.stage.geometry;
-            let walk = LeafWalk::new(geometry, *inside, at, self.wavelengths, numbers);
-            (walk.through(), false)
+            let chance = (numbers, most_events);
+            let mut walk = LeafWalk::new(geometry, *inside, at, self.wavelengths, chance);
+            let mut leaving = walk.through();
+            if let Some(leaving) = &mut leaving {
+                let facet = Facet {
+                    around: &around,
+                    surface: &leaving.surface,
+                };
+                leaving.towards = facet.leaving(leaving.towards);
+            } else {
+                self.stage.cuts.add(weight * walk.cut());
+            }
+            (leaving, false)
         } else {
             let view = encounter.bsdf.seen_from(encounter.wo);
             if let Some(view) = &view {
@@ -274,12 +297,16 @@ impl<'m, C: Course> Walk<'m, C> {
                     numbers: aside.next4(),
                 });
             }
-            at_surface(encounter, view, numbers)
+            at_surface(encounter, &around, view, numbers)
         };
         let mut after = leaving.map_or(Lanes::ZERO, |leaving| weight * leaving.weight);
         let greatest = after.max_lane();
         let below = ROULETTE_BELOW / self.ways as f32;
-        if !greatest.is_finite() || event + 1 == MOST_EVENTS {
+        if !greatest.is_finite() {
+            after = Lanes::ZERO;
+        } else if event + 1 >= most_events {
+            // What such a path still carries counts as absorbed where it is.
+            self.stage.cuts.add(after);
             after = Lanes::ZERO;
         } else if greatest < below {
             let survival = greatest / below;
@@ -300,8 +327,12 @@ impl<'m, C: Course> Walk<'m, C> {
             is_scattered: true,
         });
         let leaving = leaving.filter(|_| !after.is_zero())?;
+        let facet = Facet {
+            around: &around,
+            surface: &leaving.surface,
+        };
         let mut leg = Leg {
-            ray: leaving.surface.spawn(leaving.towards),
+            ray: facet.spawn(leaving.towards),
             cone: Cone::scattered(encounter.width),
             weight: after,
             is_specular,
@@ -309,7 +340,7 @@ impl<'m, C: Course> Walk<'m, C> {
         };
         if self.stage.world.media.are_present {
             let mut passage = leg.passage;
-            passage.leave(self.stage, met, &mut leg.ray);
+            passage.leave(self.stage, facet, &mut leg.ray);
             leg.passage = passage;
         }
         Some(leg)
@@ -320,15 +351,19 @@ impl<'m, C: Course> Walk<'m, C> {
 /// finitely many.
 fn at_surface(
     encounter: &Encounter<'_, LANES>,
+    around: &impl Surroundings,
     view: Option<View<'_, LANES>>,
     [lobe, x, y, _]: [f32; 4],
 ) -> (Option<Leaving<LANES>>, bool) {
-    let Some(sample) = view.and_then(|view| view.sample(lobe, Vec2::new(x, y))) else {
+    let facet = encounter.facet(around);
+    let Some((towards, sample)) =
+        view.and_then(|view| facet.sample((&encounter.frame, &view), lobe, Vec2::new(x, y)))
+    else {
         return (None, false);
     };
     let flux = encounter.bsdf.flux_over_radiance(encounter.wo, sample.wi);
     let leaving = Leaving {
-        towards: encounter.frame.to_world(sample.wi),
+        towards,
         pdf: None,
         weight: sample.weight * flux,
         surface: encounter.surface,

@@ -67,7 +67,7 @@ mod tests {
     use super::*;
     use crate::camera::Camera;
     use crate::camera::thin_lens::{Focus, Lens};
-    use crate::camera::view::{Projection, View};
+    use crate::camera::view::{Near, Projection, View};
 
     #[test]
     fn a_pixel_is_as_wide_on_a_surface_as_the_picture_shows() {
@@ -77,6 +77,7 @@ mod tests {
                 look_at: DVec3::Y,
                 up: DVec3::Z,
                 projection,
+                near: Near::default(),
             };
             let camera = Camera::new(&view, 100, 50);
             [0.5, 2.0].map(|distance| Cone::of_pixel(camera.pixel_span()).width_at(distance))

@@ -1,6 +1,6 @@
 //! From the film's sums to the layers of a picture.
 
-use glam::DVec3;
+use glam::{DMat4, DVec3, DVec4};
 
 use crate::camera::view::{Projection, View};
 use crate::film::Film;
@@ -73,9 +73,7 @@ fn developed(
         first.expect("a film has what its layers are made of")
     };
     match layer.source {
-        Source::Radiance(of) => {
-            film.map(|pixel| of(pixel.moments(channel), pixel.samples()) as f32)
-        }
+        Source::Radiance(of) => film.map(|pixel| of(pixel, channel) as f32),
         Source::Pixel(of) => film.map(|pixel| of(pixel) as f32),
         Source::Feature {
             quantity,
@@ -85,7 +83,7 @@ fn developed(
             let number = first_feature(layer.name) + channel;
             // Paths know places from the origin around which the world is traced.
             let from = match quantity {
-                Quantity::Position => camera.origin()[channel],
+                Quantity::Position => camera.near.origin[channel],
                 Quantity::Normal | Quantity::Albedo | Quantity::MeanAlbedo | Quantity::Object => {
                     0.0
                 }
@@ -97,7 +95,7 @@ fn developed(
         }
         Source::OfPoint { layer, by } => {
             let first = first_feature(layer);
-            let origin = camera.origin();
+            let origin = camera.near.origin;
             film.map(|pixel| {
                 let [x, y, z] = [0, 1, 2].map(|axis| pixel.feature(first + axis));
                 let point = x.zip(y).zip(z);
@@ -151,6 +149,13 @@ fn attributes(caption: &Caption, job: &Job, rendered: &Rendered) -> Vec<(String,
             "lamina:rejectedSamples",
             rendered.film.rejected().to_string(),
         ),
+        text("lamina:clampedValues", rendered.film.clamped().to_string()),
+        text(
+            "lamina:unknownVariances",
+            rendered.film.overflowed().to_string(),
+        ),
+        text("lamina:cutPaths", rendered.film.cut().to_string()),
+        text("lamina:missingAtMost", rendered.film.missing().to_string()),
         names_of_objects(caption),
         light_colour::attribute(&caption.lights),
         ("worldToCamera".to_owned(), Attribute::Matrix4(to_camera)),
@@ -182,71 +187,48 @@ fn attributes(caption: &Caption, job: &Job, rendered: &Rendered) -> Vec<(String,
     attributes
 }
 
-/// World to camera (`x` right, y up, looking along −z) and world to normalised device coordinates
-/// (−1 to 1 over the picture), both for row vectors as in `OpenEXR`, row by row.
+/// The standard attributes `worldToCamera` and `worldToNDC` of `OpenEXR`, for row vectors, row by row.
+///
+/// In camera space x points to the right of the picture, y up and z into the scene, so that it is
+/// left-handed. Normalised device coordinates are (0, 0) in the upper left and (1, 1) in the lower
+/// right corner of the picture; of their z `OpenEXR` says nothing, and it is the depth over w.
 fn matrices(camera: &View, job: &Job) -> ([f32; 16], [f32; 16]) {
-    let axes = camera.axes();
-    let (right, up, back) = (axes.x_axis, axes.y_axis, -axes.z_axis);
-    let offset = |axis: DVec3| -axis.dot(camera.position);
-    let to_camera = glam::DMat4::from_cols_array(&[
-        right.x,
-        up.x,
-        back.x,
-        0.0, //
-        right.y,
-        up.y,
-        back.y,
-        0.0, //
-        right.z,
-        up.z,
-        back.z,
-        0.0, //
-        offset(right),
-        offset(up),
-        offset(back),
-        1.0,
-    ]);
-    let aspect = f64::from(job.width) / f64::from(job.height);
-    // Depth is left out: z = −w, where w is the distance along the axis, or 1 for parallel rays.
-    let (focal, [z_z, w_z], [z_1, w_1]) = match &camera.projection {
-        Projection::Perspective(lens) => {
-            let focal = 1.0 / libm::tan(0.5 * lens.vertical_fov);
-            (focal, [1.0, -1.0], [0.0, 0.0])
-        }
-        Projection::Orthographic { height } => (2.0 / height, [0.0, 0.0], [-1.0, 1.0]),
+    // A row vector times the rows of a matrix is the matrix of these columns times a column vector.
+    let axes = camera.axes().transpose();
+    let to_camera = DMat4::from_mat3_translation(axes, -(axes * camera.position));
+    let half = camera.half_height();
+    let (x, y) = (
+        0.5 / (half * f64::from(job.width) / f64::from(job.height)),
+        -0.5 / half,
+    );
+    let to_ndc = match &camera.projection {
+        // x / z and y / z from −1 to 1 over the picture come to 0 to 1.
+        Projection::Perspective(_) => DMat4::from_cols(
+            DVec4::new(x, 0.0, 0.0, 0.0),
+            DVec4::new(0.0, y, 0.0, 0.0),
+            DVec4::new(0.5, 0.5, 1.0, 1.0),
+            DVec4::ZERO,
+        ),
+        Projection::Orthographic { .. } => DMat4::from_cols(
+            DVec4::new(x, 0.0, 0.0, 0.0),
+            DVec4::new(0.0, y, 0.0, 0.0),
+            DVec4::Z,
+            DVec4::new(0.5, 0.5, 0.0, 1.0),
+        ),
     };
-    let projection = glam::DMat4::from_cols_array(&[
-        focal / aspect,
-        0.0,
-        0.0,
-        0.0, //
-        0.0,
-        focal,
-        0.0,
-        0.0, //
-        0.0,
-        0.0,
-        z_z,
-        w_z, //
-        0.0,
-        0.0,
-        z_1,
-        w_1,
-    ]);
-    let flat = |matrix: glam::DMat4| matrix.to_cols_array().map(|value| value as f32);
-    (flat(to_camera), flat(projection * to_camera))
+    let flat = |matrix: DMat4| matrix.to_cols_array().map(|value| value as f32);
+    (flat(to_camera), flat(to_ndc * to_camera))
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::{DMat4, DVec4};
-
     use super::*;
     use crate::camera::Camera;
     use crate::camera::thin_lens::{Focus, Lens};
+    use crate::camera::view::Near;
 
     #[test]
-    fn what_a_ray_meets_has_the_coordinates_of_its_pixel() {
+    fn the_matrices_of_openexr_bring_what_a_ray_meets_to_its_pixel() {
         let lens = Lens::pinhole(0.7).focused(Focus::Distance(1.0));
         let lens = lens.expect("an angle can be focused");
         for projection in [
@@ -258,6 +240,7 @@ mod tests {
                 look_at: DVec3::new(0.2, 0.3, -0.1),
                 up: DVec3::Z,
                 projection,
+                near: Near::default(),
             };
             let job = Job {
                 width: 60,
@@ -266,17 +249,28 @@ mod tests {
                 seed: 0,
             };
             let camera = Camera::new(&view, job.width, job.height);
-            let (_, to_ndc) = matrices(&view, &job);
-            // For row vectors, row by row: for columns, column by column.
-            let to_ndc = DMat4::from_cols_array(&to_ndc.map(f64::from));
+            let (to_camera, to_ndc) = matrices(&view, &job);
+            // As OpenEXR has them, a row vector times a matrix whose rows follow each other.
+            let times = |point: DVec3, matrix: [f32; 16]| -> [f64; 4] {
+                let point = [point.x, point.y, point.z, 1.0];
+                std::array::from_fn(|column| {
+                    let rows = (0..4).map(|row| point[row] * f64::from(matrix[4 * row + column]));
+                    rows.sum()
+                })
+            };
             for film in [(0.0, 0.0), (60.0, 0.0), (45.0, 30.0)] {
                 let film = glam::Vec2::new(film.0, film.1);
                 let ray = camera.ray(film, glam::Vec2::splat(0.5)).ray;
                 let point = (ray.origin() + ray.direction() * 1.7).as_dvec3();
-                let DVec4 { x, y, w, .. } = to_ndc * point.extend(1.0);
-                let [right, up] = [film.x / 30.0 - 1.0, 1.0 - film.y / 20.0];
-                assert!((x / w - f64::from(right)).abs() < 1e-5, "{x} {w} {film}");
-                assert!((y / w - f64::from(up)).abs() < 1e-5, "{y} {w} {film}");
+                let [x, y, _, w] = times(point, to_ndc);
+                let expected = [film.x / 60.0, film.y / 40.0].map(f64::from);
+                assert!((x / w - expected[0]).abs() < 1e-5, "{x} {w} {film}");
+                assert!((y / w - expected[1]).abs() < 1e-5, "{y} {w} {film}");
+                // To the right, up, and ahead of the camera.
+                let expected = view.in_picture(point).extend(1.0).to_array();
+                for (found, expected) in times(point, to_camera).into_iter().zip(expected) {
+                    assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+                }
             }
         }
     }

@@ -8,6 +8,7 @@ use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
 use crate::geometry::{Geometry, Hit};
 use crate::integrator::cone::{self, Cone};
+use crate::integrator::facet::{self, Facet, Surroundings};
 use crate::material::Material;
 use crate::spectrum::Wavelengths;
 
@@ -20,7 +21,8 @@ pub struct Encounter<'m, const N: usize> {
     pub frame: Frame,
     /// Scattering there, the relief of the faces included.
     pub bsdf: Bsdf<'m, N>,
-    /// Direction from which the ray came, away from the surface, local.
+    /// Direction from which the ray came, away from the surface, local; +z is the side of the
+    /// triangle that is that of the shading normal ([`facet::arriving`]).
     pub wo: Vec3,
     /// Width of the ray there, m.
     pub width: f32,
@@ -54,7 +56,7 @@ impl<'m, const N: usize> Encounter<'m, N> {
         // Made where it stays: a BSDF is large.
         let mut encounter = Self {
             bsdf: material.bsdf_at(&site, wavelengths),
-            wo: frame.to_local(-ray.direction()),
+            wo: facet::arriving(&surface, &frame, ray.direction()),
             width,
             has_relief: relieved.is_some(),
             frame,
@@ -64,5 +66,14 @@ impl<'m, const N: usize> Encounter<'m, N> {
             encounter.bsdf = encounter.bsdf.with_relief(faces, grains);
         }
         encounter
+    }
+
+    /// The place, from where light leaves.
+    #[inline]
+    pub fn facet<'e, S: Surroundings>(&'e self, around: &'e S) -> Facet<'e, S> {
+        Facet {
+            around,
+            surface: &self.surface,
+        }
     }
 }

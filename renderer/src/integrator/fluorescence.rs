@@ -40,8 +40,8 @@ impl<const N: usize> Paths<'_, N> {
         may.then(|| material.fluorescing()).flatten()
     }
 
-    /// Radiance that a leaf emits towards where a path comes from, at the path's wavelengths, and the
-    /// number of rays traced for it. The path was scattered `depth` times before.
+    /// What a leaf emits towards where a path comes from, at the path's wavelengths. The path was
+    /// scattered `depth` times before.
     pub(super) fn emitted(
         &self,
         leaf: &LeafMaterial,
@@ -49,7 +49,7 @@ impl<const N: usize> Paths<'_, N> {
         way: (&Leg<N>, &Passage),
         depth: u32,
         stream: &Stream,
-    ) -> (Lanes<N>, u32) {
+    ) -> PathResult<N> {
         let surface: &SurfacePoint = &encounter.surface;
         let emitting = leaf.emitting(surface.uv, self.wavelengths);
         // Below the sets of flights; deeper vertices share the last ones.
@@ -59,7 +59,7 @@ impl<const N: usize> Paths<'_, N> {
         let [coin, wavelength, side, _] = stream.next4();
         let chance = if depth == 0 { 1.0 } else { BEYOND_THE_FIRST };
         if coin >= chance || emitting.is_nothing() || encounter.wo.z == 0.0 {
-            return (Lanes::ZERO, 0);
+            return PathResult::NOTHING;
         }
         // Each lane has a place in its own share of the wavelengths.
         let [first, last] = EXCITED_NM.map(|nm| nm as f32);
@@ -77,7 +77,7 @@ impl<const N: usize> Paths<'_, N> {
         });
         let through_chance = sums[1] / (sums[0] + sums[1]);
         if !through_chance.is_finite() {
-            return (Lanes::ZERO, 0);
+            return PathResult::NOTHING;
         }
         let is_through = f64::from(side) < through_chance;
         let side_chance = if is_through {
@@ -86,7 +86,7 @@ impl<const N: usize> Paths<'_, N> {
             1.0 - through_chance
         };
 
-        let (found, rays) = self.exciting(
+        let found = self.exciting(
             leaf,
             (encounter, way),
             (&wavelengths, first_set, depth),
@@ -96,19 +96,28 @@ impl<const N: usize> Paths<'_, N> {
 
         // Photons for each lane, but for hc, and energy of what is emitted.
         let share = f64::from(step) / (side_chance * f64::from(chance));
-        let photons =
-            std::array::from_fn(|lane| f64::from(found.0[lane]) * f64::from(nm[lane]) * share);
-        let source = excited.source(faces[usize::from(is_through)], &photons);
-        let leaving = emitting.leaving(&source, is_through);
         let own = self.wavelengths.nm;
-        (
-            Lanes::from_fn(|lane| (leaving[lane] / f64::from(own[lane])) as f32),
-            rays,
-        )
+        let emitted = |found: Lanes<N>| {
+            let photons =
+                std::array::from_fn(|lane| f64::from(found.0[lane]) * f64::from(nm[lane]) * share);
+            let source = excited.source(faces[usize::from(is_through)], &photons);
+            let leaving = emitting.leaving(&source, is_through);
+            Lanes::from_fn(|lane| (leaving[lane] / f64::from(own[lane])) as f32)
+        };
+        let cut = if found.cuts > 0 {
+            emitted(found.cut)
+        } else {
+            Lanes::ZERO
+        };
+        PathResult {
+            radiance: emitted(found.radiance),
+            cut,
+            ..found
+        }
     }
 
     /// Light of wavelengths that excite, as a leaf that sent all of it towards where the path comes
-    /// from would show it, and the number of rays traced for it.
+    /// from would show it.
     fn exciting(
         &self,
         leaf: &LeafMaterial,
@@ -116,7 +125,7 @@ impl<const N: usize> Paths<'_, N> {
         (wavelengths, first_set, depth): (&Wavelengths<N>, u32, u32),
         is_through: bool,
         stream: &mut Stream,
-    ) -> (Lanes<N>, u32) {
+    ) -> PathResult<N> {
         let surface = &encounter.surface;
         let paths = Paths {
             world: self.world,
@@ -132,7 +141,7 @@ impl<const N: usize> Paths<'_, N> {
         let vertex = Vertex {
             paths: &paths,
             scatterer: Scatterer::Surface {
-                surface,
+                facet: encounter.facet(&self.world.geometry),
                 frame: &encounter.frame,
                 view: &view,
             },
@@ -150,11 +159,7 @@ impl<const N: usize> Paths<'_, N> {
             boundary: None,
             cap: None,
         };
-        let mut result = PathResult {
-            radiance: Lanes::ZERO,
-            first: None,
-            rays: 0,
-        };
+        let mut result = PathResult::NOTHING;
         let numbers = stream.next4();
         let [_, x, y, _] = numbers;
         let (light, rays) = sampled_light(self.world, &vertex, wavelengths, [x, y], stream);
@@ -163,7 +168,11 @@ impl<const N: usize> Paths<'_, N> {
         let mut leg = *leg;
         if vertex.bounce(numbers, 1.0, self.effort.roulette_below, &mut leg) {
             let drops = passage.drops;
-            let place = (surface, &encounter.frame, encounter.wo);
+            let place = (
+                encounter.facet(&self.world.geometry),
+                &encounter.frame,
+                encounter.wo,
+            );
             let passage = Passage {
                 flights: passage.flights + FLIGHTS_OF_A_PATH,
                 drops: (drops.film()).map_or(drops, |film| film.leave(drops, place, &mut leg)),
@@ -171,6 +180,6 @@ impl<const N: usize> Paths<'_, N> {
             };
             paths.follow(&mut leg, passage, depth + 1, stream, &mut result);
         }
-        (result.radiance, result.rays)
+        result
     }
 }

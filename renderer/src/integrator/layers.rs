@@ -11,7 +11,7 @@
 use glam::DVec3;
 
 use crate::camera::view::View;
-use crate::film::{Film, Moments, Pixel, Sum};
+use crate::film::{Film, Pixel, Sum};
 use crate::image::LUMINANCE;
 use crate::image::openexr::spectral_channel_name;
 use crate::integrator::features::{Quantity, Sight};
@@ -67,8 +67,8 @@ impl Films {
 /// The source of a layer: what pixels store for it, and how it is developed.
 #[derive(Clone, Copy, Debug)]
 pub enum Source {
-    /// The film's own channels, computed from their two moments and the number of samples.
-    Radiance(fn(&Moments, u32) -> f64),
+    /// The film's own channels.
+    Radiance(fn(&Pixel<'_>, usize) -> f64),
     /// What every pixel stores besides: counts, and the error of luminance.
     Pixel(fn(&Pixel<'_>) -> f64),
     /// Its own features, one per channel; 0 where nothing is covered.
@@ -99,15 +99,15 @@ pub const LAYERS: &[FilmLayer] = &[
         name: "",
         channels: Channels::OfFilm,
         films: Films::All,
-        source: Source::Radiance(Moments::mean),
+        source: Source::Radiance(mean),
         about: "mean radiance",
     },
     FilmLayer {
         name: "variance",
         channels: Channels::OfFilm,
         films: Films::All,
-        source: Source::Radiance(Moments::variance_of_mean),
-        about: "variance of the mean radiance as if samples were independent, an upper estimate",
+        source: Source::Radiance(variance),
+        about: "variance of the mean radiance, by batches of 16 samples; of fewer than 32 samples an upper estimate, as if they were independent",
     },
     FilmLayer {
         name: "variance",
@@ -177,7 +177,7 @@ pub const LAYERS: &[FilmLayer] = &[
             // the lens, so this is nearly the mean distance.
             by: |point, camera| camera.distance_of(point),
         },
-        about: "distance of the mean position from the middle of the lens, m; along parallel rays, from where they start",
+        about: "distance of the mean position from the middle of the lens, m; along parallel rays, from the plane through the camera",
     },
     FilmLayer {
         name: "samples",
@@ -198,6 +198,14 @@ pub const LAYERS: &[FilmLayer] = &[
         about: "number of the object that the pixel's first sample met, 0 for none; the attribute `lamina:objects` names them",
     },
 ];
+
+fn mean(pixel: &Pixel<'_>, channel: usize) -> f64 {
+    pixel.mean(channel)
+}
+
+fn variance(pixel: &Pixel<'_>, channel: usize) -> f64 {
+    pixel.variance(channel)
+}
 
 fn variance_of_luminance(pixel: &Pixel<'_>) -> f64 {
     pixel.variance_of_luminance()

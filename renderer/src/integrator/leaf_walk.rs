@@ -13,15 +13,15 @@ use crate::spectrum::{Lanes, Wavelengths};
 
 /// Light at one face of a leaf, outside or inside.
 #[derive(Clone, Copy, Debug)]
-pub struct AtFace {
+pub struct AtFace<const N: usize> {
     /// The face: 0 adaxial, 1 abaxial.
     pub face: usize,
     /// Where.
     pub surface: SurfacePoint,
     /// The frame there, whose +z points away from the leaf.
     pub outward: Frame,
-    /// Direction from which the light comes, in that frame.
-    pub wo: Vec3,
+    /// Direction from which light of each wavelength comes, in that frame.
+    pub wo: [Vec3; N],
 }
 
 /// What becomes of light at a face.
@@ -45,7 +45,7 @@ pub struct LeafWalk<'a, const N: usize> {
     /// The entry and the frame of the whole walk, +z adaxial.
     entry: SurfacePoint,
     frame: Frame,
-    at: AtFace,
+    at: AtFace<N>,
 }
 
 /// The frame with +z away from a face.
@@ -56,14 +56,24 @@ fn outward(frame: &Frame, face: usize) -> Frame {
     Frame::new(-frame.normal, frame.along)
 }
 
+/// A direction in the frame of the leaf in that of a face, and back: the abaxial face's is turned about
+/// its y axis.
+fn turned(w: Vec3, face: usize) -> Vec3 {
+    if face == 0 {
+        return w;
+    }
+    Vec3::new(-w.x, w.y, -w.z)
+}
+
 impl<'a, const N: usize> LeafWalk<'a, N> {
-    /// Light that meets a leaf; `wo` is the direction from which it comes, in `frame`.
+    /// Light that meets a leaf; `wo` is the direction from which it comes, in `frame`. The walk is
+    /// cut after so many events.
     pub fn new(
         geometry: &'a Geometry,
         inside: Inside<'a>,
         (hit, surface, frame, wo): (&Hit, &SurfacePoint, &Frame, Vec3),
         wavelengths: &Wavelengths<N>,
-        numbers: [f32; 4],
+        (numbers, most_events): ([f32; 4], u32),
     ) -> Self {
         let face = usize::from(wo.z < 0.0);
         let place = Place {
@@ -72,23 +82,25 @@ impl<'a, const N: usize> LeafWalk<'a, N> {
         };
         let held = (inside.held, inside.palette);
         let outward = outward(frame, face);
+        let mut chance = Chance::new(numbers);
+        let lit = (face, most_events, &mut chance);
         Self {
             geometry,
-            walk: Walk::new(inside.layers, held, place, wavelengths, face),
-            chance: Chance::new(numbers),
+            walk: Walk::new(inside.layers, held, place, wavelengths, lit),
+            chance,
             entry: *surface,
             frame: *frame,
             at: AtFace {
                 face,
                 surface: *surface,
                 outward,
-                wo: outward.to_local(frame.to_world(wo)),
+                wo: [outward.to_local(frame.to_world(wo)); N],
             },
         }
     }
 
     /// Where the light is.
-    pub fn at(&self) -> &AtFace {
+    pub fn at(&self) -> &AtFace<N> {
         &self.at
     }
 
@@ -97,72 +109,68 @@ impl<'a, const N: usize> LeafWalk<'a, N> {
         self.walk.weight()
     }
 
+    /// What a limit took of the light, if that has ended.
+    pub fn cut(&self) -> Lanes<N> {
+        if self.walk.is_cut() {
+            self.walk.weight()
+        } else {
+            Lanes::ZERO
+        }
+    }
+
     /// A random number in [0, 1).
     pub fn number(&mut self) -> f32 {
         self.chance.number()
     }
 
     /// What a sampled light sees of the face at which the light is.
-    pub fn view(&self) -> Option<FaceView> {
-        let face = self.walk.face(self.at.face);
-        (!face.is_smooth()).then(|| face.seen_from(self.at.wo))
+    pub fn view(&self) -> Option<FaceView<N>> {
+        self.walk.view(self.at.face, &self.at.wo)
     }
 
     /// What the face does: the light that leaves.
     ///
     /// # Errors
     ///
-    /// The direction in which it goes inside, for [`LeafWalk::go_on`], if it does not leave.
-    pub fn cross(&mut self) -> Result<Leaving<N>, Vec3> {
-        let face = self.walk.face(self.at.face);
-        let crossed = face.cross(self.at.wo, || self.chance.number());
-        let towards = self.at.outward.to_world(crossed.towards);
-        if crossed.towards.z > 0.0 {
+    /// The directions in which it goes inside, for [`LeafWalk::go_on`], if it does not leave.
+    pub fn cross(&mut self) -> Result<Leaving<N>, [Vec3; N]> {
+        let face = self.at.face;
+        let crossed = self.walk.cross(face, &self.at.wo, &mut self.chance);
+        let [first, ..] = crossed.towards[..] else {
+            unreachable!("a path carries a wavelength")
+        };
+        if first.z > 0.0 {
             return Ok(Leaving {
-                towards,
+                towards: self.at.outward.to_world(first),
                 pdf: crossed.pdf,
                 weight: self.walk.weight(),
                 surface: self.at.surface,
             });
         }
         // Inside, the frame is that of the entry however the blade is bent.
-        let here = self.at.outward.to_local(towards);
-        let side = if self.at.face == 0 { 1.0 } else { -1.0 };
-        let (x, y) = if self.at.face == 0 {
-            (here.x, here.y)
-        } else {
-            (-here.x, here.y)
-        };
-        Err(Vec3::new(x, y, side * here.z))
+        Err(crossed.towards.map(|towards| turned(towards, face)))
     }
 
     /// Follows light inside to the next face; `None` if it ends.
-    pub fn go_on(&mut self, heading: Vec3) -> Option<()> {
-        let arrival = self.walk.to_face(heading, &mut self.chance)?;
+    pub fn go_on(&mut self, headings: [Vec3; N]) -> Option<()> {
+        let arrival = self.walk.to_face(headings, &mut self.chance)?;
         let (surface, frame) = self.exit();
-        let outward = outward(&frame, arrival.face);
-        let from = -arrival.heading;
-        // As above: the abaxial face's frame is turned about its y axis.
-        let wo = if arrival.face == 0 {
-            from
-        } else {
-            Vec3::new(-from.x, from.y, -from.z)
-        };
+        let face = arrival.face;
         self.at = AtFace {
-            face: arrival.face,
+            face,
             surface,
-            outward,
-            wo,
+            outward: outward(&frame, face),
+            wo: arrival.headings.map(|heading| turned(-heading, face)),
         };
         Some(())
     }
 
     /// Follows light until it leaves, by the face that it met first or by another; `None` if it ends.
-    pub fn through(mut self) -> Option<Leaving<N>> {
+    pub fn through(&mut self) -> Option<Leaving<N>> {
         loop {
             match self.cross() {
                 Ok(leaving) => return Some(leaving),
-                Err(heading) => self.go_on(heading)?,
+                Err(headings) => self.go_on(headings)?,
             }
         }
     }

@@ -38,10 +38,6 @@ const FIRST_SUNS: u32 = 2;
 /// for the chosen light.
 const VERTEX_SETS: u32 = 2;
 
-/// Most scattering events of a path. Roulette ends paths long before, unless light is caught in what
-/// absorbs nothing, as in a medium so dense that its free paths are below the precision of places.
-const MOST_EVENTS: u32 = 100_000;
-
 /// Adds to `result` what a path through a random place in a pixel finds; `stream` gives the random
 /// numbers. Returns its wavelengths.
 pub fn of_pixel<const N: usize>(
@@ -140,7 +136,7 @@ impl<const N: usize> Paths<'_, N> {
     ) {
         let (world, wavelengths) = (self.world, self.wavelengths);
         let lights = (&world.lights[..], self.selection());
-        for depth in from..MOST_EVENTS {
+        for depth in from..world.integrator.max_events {
             let is_last = world.integrator.max_depth.is_some_and(|most| depth >= most);
             let found = if world.media.are_present {
                 match self.advance(leg, &mut passage, depth == 0, stream, result) {
@@ -148,6 +144,7 @@ impl<const N: usize> Paths<'_, N> {
                     Met::Nothing => None,
                     Met::Medium(collision) => {
                         if leg.throughput.is_zero() || is_last {
+                            result.end_early(leg.throughput);
                             return;
                         }
                         if !self.collide(leg, &passage, &collision, depth, stream, result) {
@@ -192,6 +189,7 @@ impl<const N: usize> Paths<'_, N> {
                 result.first = Some(FirstHit::new(world, &encounter));
             }
             if throughput.is_zero() || is_last {
+                result.end_early(*throughput);
                 return;
             }
             if let Some(inside) = material.inside() {
@@ -206,7 +204,8 @@ impl<const N: usize> Paths<'_, N> {
                     return;
                 };
                 if let Some(film) = film {
-                    passage.drops = film.leave(passage.drops, (surface, frame, wo), &mut next);
+                    let place = (encounter.facet(&world.geometry), frame, wo);
+                    passage.drops = film.leave(passage.drops, place, &mut next);
                 }
                 *leg = next;
                 continue;
@@ -220,9 +219,8 @@ impl<const N: usize> Paths<'_, N> {
             let vertex = self.on_surface((&encounter, view), leg, &passage, depth, gathered);
             if let Some(leaf) = self.fluorescing(material) {
                 let way = (&*leg, &passage);
-                let (light, rays) = self.emitted(leaf, &encounter, way, depth, stream);
-                result.radiance += *throughput * light;
-                result.rays += rays;
+                let found = self.emitted(leaf, &encounter, way, depth, stream);
+                result.take(*throughput, &found);
             }
             if !self.scatter(&vertex, &passage, depth, stream, (leg, result)) {
                 return;
@@ -231,9 +229,11 @@ impl<const N: usize> Paths<'_, N> {
                 passage = beyond;
             }
             if let Some(film) = film {
-                passage.drops = film.leave(passage.drops, (surface, frame, wo), leg);
+                let place = (encounter.facet(&world.geometry), frame, wo);
+                passage.drops = film.leave(passage.drops, place, leg);
             }
         }
+        result.end_early(leg.throughput);
     }
 
     /// What a ray hits in a scene without media.

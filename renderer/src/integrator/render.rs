@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use self::pass::PassOfPaths;
-use crate::film::{Film, FilmError};
+use crate::film::{Film, FilmError, MOST_RADIANCE};
 use crate::integrator::effort::Effort;
 use crate::integrator::features;
 pub use crate::integrator::job::Job;
@@ -343,6 +343,54 @@ pub fn go_on(
 }
 
 impl Rendered {
+    /// What limits and faults did to the picture, in sentences for users.
+    pub fn notes(&self) -> Vec<String> {
+        let film = &self.film;
+        let mut notes = Vec::new();
+        if film.cut() > 0 {
+            // The greatest channel's mean.
+            let count = f64::from(film.width()) * f64::from(film.height());
+            let of_channel = |channel| film.mean(channel).into_iter().map(f64::from).sum::<f64>();
+            let sums = (0..film.channels()).map(of_channel);
+            let mean = sums.fold(0.0, f64::max) / count;
+            let missing = film.missing();
+            let lost = if missing.is_infinite() {
+                "the light that they would have found has no bound, because a light has no extent"
+                    .to_owned()
+            } else if mean > 0.0 {
+                let percent = 100.0 * missing / mean;
+                format!("at most {missing:.2e} is missing of a mean of {mean:.2e} ({percent:.2} %)")
+            } else {
+                format!("at most {missing:.2e} is missing on average")
+            };
+            notes.push(format!(
+                "{} paths were cut by `integrator.max_depth` or `max_events`: {lost}",
+                film.cut()
+            ));
+        }
+        if film.clamped() > 0 {
+            notes.push(format!(
+                "{} values were beyond {MOST_RADIANCE:.1e} and are recorded as that: the picture is too \
+                 dark there; scale all lights down",
+                film.clamped()
+            ));
+        }
+        if film.overflowed() > 0 {
+            notes.push(format!(
+                "the variance of {} values is not known, because they are too bright; it is written \
+                 as infinite",
+                film.overflowed()
+            ));
+        }
+        if film.rejected() > 0 {
+            notes.push(format!(
+                "{} samples were not finite and are left out",
+                film.rejected()
+            ));
+        }
+        notes
+    }
+
     /// The result of a render that ended.
     pub fn new(begun: Begun, layout: Layout, ended: Ended) -> Self {
         Self {

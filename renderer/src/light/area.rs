@@ -7,7 +7,7 @@ use crate::light::pattern::{Pattern, PlaneUv};
 use crate::light::tree::Emitter;
 use crate::light::{LightSample, Receiver};
 use crate::spectrum::rgb::Primaries;
-use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthGrid, Wavelengths};
+use crate::spectrum::{Curve, Lanes, Share, Spectrum, WavelengthGrid, Wavelengths};
 
 /// Patches in world space with a common radiance, or one that follows a pattern. A patch is a
 /// triangle, or a rectangle of two triangles.
@@ -118,6 +118,16 @@ impl AreaLight {
             area += f64::from(patch.area());
         }
         Some(sum.map(|sum| sum / area))
+    }
+
+    /// A radiance that it exceeds nowhere.
+    pub fn at_most(&self, share: &Share) -> f32 {
+        let Some(patterned) = &self.patterned else {
+            return self.radiance.curve().over(share);
+        };
+        let parts = patterned.primaries.over(share).into_iter();
+        let parts = parts.zip(patterned.pattern.at_most());
+        parts.map(|(spectrum, most)| spectrum * most).sum()
     }
 
     /// Evaluates its radiance at every wavelength of a grid.

@@ -43,6 +43,11 @@ impl DistantLight {
         self.radiance.curve()
     }
 
+    /// Irradiance on a surface that faces it, over its radiance, sr.
+    pub fn solid_angle(&self) -> f32 {
+        1.0 / self.pdf
+    }
+
     /// Evaluates its radiance at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         self.radiance.tabulate(grid);

@@ -9,7 +9,7 @@ use super::texels::{Beyond, Texels};
 use crate::light::{LightSample, unevenness};
 use crate::sampling::distribution::Piecewise2d;
 use crate::spectrum::rgb::Primaries;
-use crate::spectrum::{Curve, Lanes, WavelengthGrid, Wavelengths};
+use crate::spectrum::{Curve, Lanes, Share, WavelengthGrid, Wavelengths};
 
 /// Radiance by direction: `u` runs with the azimuth from +x towards +y, `v` from the zenith (+z)
 /// down.
@@ -23,10 +23,11 @@ pub struct EnvironmentLight {
 }
 
 impl EnvironmentLight {
-    /// A light from linear sRGB texels, each ≥ 0 and finite, `width` per row.
+    /// A light from linear sRGB texels, finite, `width` per row. Colours outside of Rec. 709 have
+    /// channels below 0.
     pub fn new(texels: Vec<[f32; 3]>, width: usize, white: Curve, rotation: f32) -> Self {
         let height = texels.len() / width;
-        let brightness = |x: usize, y: usize| texels[y * width + x].iter().sum::<f32>();
+        let brightness = |x: usize, y: usize| amount(texels[y * width + x]);
         // Look-up is bilinear, so a texel's light reaches half a texel into its neighbours.
         let mut weights = Vec::with_capacity(texels.len());
         for y in 0..height {
@@ -60,7 +61,8 @@ impl EnvironmentLight {
         let mut weight = 0.0;
         for (row, texels) in self.picture.texels().chunks(width).enumerate() {
             let sin = libm::sinf(PI * (row as f32 + 0.5) / height as f32);
-            sum += sin * texels.iter().flatten().sum::<f32>() / (3 * width) as f32;
+            let amounts = texels.iter().flatten().map(|value| value.abs());
+            sum += sin * amounts.sum::<f32>() / (3 * width) as f32;
             weight += sin;
         }
         sum / weight
@@ -93,6 +95,13 @@ impl EnvironmentLight {
     /// Spectrum of RGB 1 1 1.
     pub fn white(&self) -> &Curve {
         self.primaries.white()
+    }
+
+    /// A radiance that it exceeds in no direction.
+    pub fn at_most(&self, share: &Share) -> f32 {
+        let parts = self.primaries.over(share).into_iter();
+        let parts = parts.zip(self.picture.greatest());
+        parts.map(|(spectrum, most)| spectrum * most).sum()
     }
 
     /// Evaluates its primaries at every wavelength of a grid.
@@ -175,6 +184,11 @@ impl EnvironmentLight {
         };
         (self.radiance(uv, wavelengths), pdf)
     }
+}
+
+/// Sum of a colour's channels without their signs, so that all light is found by chance.
+fn amount(colour: [f32; 3]) -> f32 {
+    colour.iter().map(|value| value.abs()).sum()
 }
 
 /// `atan2` within 0.005 rad, for a prefetch: of a picture of 512 columns half a texel.

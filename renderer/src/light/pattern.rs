@@ -37,9 +37,17 @@ impl Pattern {
         colour.map(|value| value * bell)
     }
 
-    /// Mean of red, green and blue of the factor at texture coordinates.
+    /// Numbers that red, green and blue of the factor exceed nowhere.
+    pub fn at_most(&self) -> [f32; 3] {
+        let picture = self.picture.as_ref();
+        picture.map_or([1.0; 3], Texels::greatest)
+    }
+
+    /// Mean of red, green and blue of the factor at texture coordinates, without their signs:
+    /// colours outside of Rec. 709 have channels below 0.
     pub fn brightness(&self, uv: Vec2) -> f32 {
-        self.at(uv).iter().sum::<f32>() / 3.0
+        let factors = self.at(uv).map(f32::abs);
+        factors.iter().sum::<f32>() / 3.0
     }
 }
 

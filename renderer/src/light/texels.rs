@@ -23,7 +23,7 @@ pub enum Beyond {
 }
 
 impl Texels {
-    /// A picture from texels, each ≥ 0 and finite, `width` per row.
+    /// A picture from finite texels, `width` per row.
     pub fn new(texels: Vec<[f32; 3]>, width: usize) -> Self {
         Self {
             width,
@@ -40,6 +40,14 @@ impl Texels {
     /// The texels, row by row from the top.
     pub fn texels(&self) -> &[[f32; 3]] {
         &self.colours
+    }
+
+    /// The greatest red, green and blue of all.
+    pub fn greatest(&self) -> [f32; 3] {
+        let texels = self.colours.iter();
+        texels.fold([0.0; 3], |most, texel| {
+            std::array::from_fn(|i| most[i].max(texel[i]))
+        })
     }
 
     /// Prefetches the texels around a place that is roughly this.

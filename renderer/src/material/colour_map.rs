@@ -71,7 +71,8 @@ pub struct ColourTexture {
 }
 
 impl ColourTexture {
-    /// A picture of `texels`, row by row from the top, `width` in a row, each in [0, 1].
+    /// A picture of `texels`, row by row from the top, `width` in a row, each in [0, 1] where it is
+    /// seen.
     ///
     /// # Panics
     ///
@@ -104,8 +105,16 @@ impl ColourTexture {
         self.wrap
     }
 
+    /// The texel of a column and a row, which may lie beside the picture.
+    pub fn texel(&self, column: i64, row: i64) -> [f32; 3] {
+        let column = self.wrap[0].texel(column, self.width);
+        let row = self.wrap[1].texel(row, self.height);
+        self.texels[row * self.width + column]
+    }
+
+    /// The colour at texture coordinates of its own.
     #[inline]
-    fn at(&self, uv: Vec2) -> [f32; 3] {
+    pub fn at(&self, uv: Vec2) -> [f32; 3] {
         // Far out there is no detail left, and beyond the range of floats no number.
         let x = (uv.x * self.width as f32 - 0.5).clamp(-FARTHEST, FARTHEST);
         let y = ((1.0 - uv.y) * self.height as f32 - 0.5).clamp(-FARTHEST, FARTHEST);

@@ -23,8 +23,8 @@ pub struct LeafMaterial {
     pub tissue: LeafTissue,
     /// The palette of its pigments; not used for measured spectra.
     pub palette: Palette,
-    /// Abaxial over adaxial reflectance; none if it follows what the leaf absorbs.
-    abaxial_ratio: Option<Spectrum>,
+    /// The reflectance of the abaxial face; none if it follows what the leaf absorbs.
+    abaxial: Option<Abaxial>,
     /// Adaxial and abaxial coat.
     coats: [Coat; 2],
     /// The tissue's optics, tabulated, if the leaf is uniform.
@@ -74,21 +74,48 @@ pub enum LeafTissue {
     },
 }
 
+/// What is known of the abaxial face.
+#[derive(Clone, Debug)]
+pub enum Abaxial {
+    /// Its reflectance over that of the adaxial one.
+    Ratio(Spectrum),
+    /// Its reflectance.
+    Reflectance(Spectrum),
+}
+
+/// Reflectance of the abaxial face of a leaf of reflectance and transmittance `[r, t]`; `at` evaluates
+/// a spectrum.
+#[inline(always)]
+fn abaxial<const N: usize>(
+    known: Option<&Abaxial>,
+    [r, t]: [Lanes<N>; 2],
+    at: impl Fn(&Spectrum) -> Lanes<N>,
+) -> Lanes<N> {
+    match known {
+        Some(Abaxial::Reflectance(reflectance)) => at(reflectance),
+        Some(Abaxial::Ratio(ratio)) => at(ratio) * r,
+        None => usual_abaxial_ratio(r, t) * r,
+    }
+}
+
 impl LeafMaterial {
     /// A leaf of this tissue, whose pigments are those of `palette`, under an adaxial and an
-    /// abaxial coat. Without an abaxial over adaxial reflectance it has
-    /// [`usual_abaxial_ratio`].
+    /// abaxial coat. If nothing is known of the abaxial face it has [`usual_abaxial_ratio`].
     pub fn new(
         tissue: LeafTissue,
         palette: Palette,
-        abaxial_ratio: Option<Curve>,
+        abaxial: Option<Abaxial>,
         coats: [Coat; 2],
     ) -> Self {
         Self {
-            tissue,
             palette,
-            abaxial_ratio: abaxial_ratio.map(Spectrum::from),
-            coats,
+            abaxial,
+            coats: match &tissue {
+                // Of other leaves nothing says how much light from below they let through.
+                LeafTissue::Held(_) => coats,
+                LeafTissue::Measured { .. } => Coat::pair(coats),
+            },
+            tissue,
             uniform: None,
             spread: None,
             half: None,
@@ -173,8 +200,8 @@ impl LeafMaterial {
 
     /// Evaluates everything that depends on wavelength alone, at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
-        if let Some(ratio) = &mut self.abaxial_ratio {
-            ratio.tabulate(grid);
+        if let Some(Abaxial::Ratio(known) | Abaxial::Reflectance(known)) = &mut self.abaxial {
+            known.tabulate(grid);
         }
         if let Some(spread) = &mut self.spread {
             spread.tabulate(grid);
@@ -187,24 +214,37 @@ impl LeafMaterial {
         self.uniform = is_uniform.then(table);
     }
 
-    /// A wavelength of the range, on a coarse grid, at which the adaxial coat at normal incidence
-    /// reflects more than R, so that the leaf cannot reproduce R. With a map its mean contents are
-    /// used.
-    pub fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<f64> {
-        let coat = f64::from(self.coats[0].albedo().normal());
-        let exceeds = |reflectance: f64| reflectance < coat - 1e-4;
-        match &self.tissue {
-            LeafTissue::Held(held) => {
-                let mean = held.mean();
-                coarse(range_nm).find(|&nm| {
+    /// A wavelength of the range, on a coarse grid, at which the coat of a face (0 adaxial, 1 abaxial)
+    /// at normal incidence reflects more than that face should, so that the leaf cannot reproduce
+    /// its reflectance. With a map its mean contents are used.
+    pub fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<(f64, usize)> {
+        let mean = match &self.tissue {
+            LeafTissue::Held(held) => Some(held.mean()),
+            LeafTissue::Measured { .. } => None,
+        };
+        let coats = self.coats.each_ref().map(|coat| coat.albedo().normal());
+        coarse(range_nm).find_map(|nm| {
+            let at = nm as f32;
+            let [r, t] = match &self.tissue {
+                LeafTissue::Held(_) => {
                     let at = ProspectD::coefficients_of(self.palette.pigments(), nm);
-                    exceeds(at.reflectance_transmittance(&mean).reflectance)
-                })
-            }
-            LeafTissue::Measured { reflectance, .. } => {
-                coarse(range_nm).find(|&nm| exceeds(f64::from(reflectance.at(nm as f32))))
-            }
-        }
+                    let found = at.reflectance_transmittance(mean.as_ref()?);
+                    [found.reflectance as f32, found.transmittance as f32]
+                }
+                LeafTissue::Measured {
+                    reflectance,
+                    transmittance,
+                } => [reflectance.at(at), transmittance.at(at)],
+            };
+            let below = abaxial(
+                self.abaxial.as_ref(),
+                [r, t].map(|value| Lanes([value])),
+                |known| Lanes([known.curve().at(at)]),
+            );
+            let of_faces = [r, below.0[0]];
+            let exceeds = |face: &usize| of_faces[*face] < coats[*face] - 1e-4;
+            [0, 1].into_iter().find(exceeds).map(|face| (nm, face))
+        })
     }
 
     /// Where the leaf is looked up at texture coordinates `uv`; what it holds there is on its way
@@ -344,11 +384,11 @@ impl<const N: usize> Task for TissueAt<'_, N> {
                 (measured, None)
             }
         };
-        let ratio = match &leaf.abaxial_ratio {
-            Some(ratio) => ratio.lanes(wavelengths),
-            None => usual_abaxial_ratio(reflectance, transmittance),
-        };
-        let mut tissue = Tissue::new(&leaf.coats, reflectance, transmittance, ratio);
+        let known = leaf.abaxial.as_ref();
+        let below = abaxial(known, [reflectance, transmittance], |known| {
+            known.lanes(wavelengths)
+        });
+        let mut tissue = Tissue::of_faces(&leaf.coats, [reflectance, below], transmittance);
         if let Some(through) = through {
             tissue = tissue.passing(&leaf.coats, through);
         }

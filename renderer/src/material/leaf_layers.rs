@@ -3,8 +3,8 @@
 //! - **In**: contents, uniform or from a map, and the roughness of both faces.
 //! - **Out**: a [`walk::Walk`] at a path's wavelengths, which says where light meets a face.
 //! - **Always true**: without absorption nothing is lost; a uniform leaf with smooth faces is
-//!   [`leafmodel::optics::layers`] if all wavelengths of a path are one.
-//! - **Left out**: one refractive index serves all wavelengths of a path; where cells of a map are
+//!   [`leafmodel::optics::layers`] at each of them.
+//! - **Left out**: into air all wavelengths of a path go in one direction; where cells of a map are
 //!   empty they scatter as the others do.
 //!
 //! `docs/src/theory/leaf-layers.md` describes it under "In pictures".
@@ -13,7 +13,6 @@ use leafmodel::optics::layers::{Anatomy, LayeredLeaf, Tissue};
 use leafmodel::optics::{Constituent, Contents, ProspectD};
 use rayon::prelude::*;
 
-use crate::bsdf::leaf_face::LeafFace;
 use crate::material::held::Held;
 
 pub mod walk;
@@ -121,11 +120,6 @@ impl LeafLayers {
         } else {
             between(&self.by_structure, STRUCTURES, structure)
         }
-    }
-
-    /// A face (0 adaxial, 1 abaxial) of a leaf whose outer layers have this index.
-    fn face(&self, face: usize, index: f32) -> LeafFace {
-        LeafFace::new(index, self.alpha[face])
     }
 }
 

@@ -4,7 +4,7 @@
 //! order. Angles are degrees, θ from the normal of the face (0 to 90 on its side, 90 to 180 behind
 //! it, so that a BTDF has one angle on each side), φ around it; both directions point away from the
 //! surface. Wavelengths are nm, values sr⁻¹ without the cosine. Radians and micrometres are
-//! recognised and told.
+//! recognised, and notes say so.
 //!
 //! Reciprocity says `f(i → o) = f(o → i)`. A row's partner is the row whose directions are its own,
 //! exchanged; where light comes from one azimuth only the surface is taken to be isotropic and
@@ -14,24 +14,33 @@
 
 use std::collections::BTreeMap;
 
-use super::units::{MICROMETRES, are_micrometres};
-use super::{Fault, Lines, of_csv, quoted};
+use leafmodel::document::rows::{Guess, Row, Rows};
+
+use super::columns::listed;
+use super::known::{AngleUnit, Known, WavelengthUnit};
+use super::units::{are_micrometres, micrometres};
+use super::{Fault, of_ragged};
 
 mod energy;
 
 pub use self::energy::Energy;
 
-/// What is told where angles are taken for radians.
-const RADIANS: &str = "angles are taken for radians";
 /// Directions that differ by less are the same, degrees.
 const SAME_DEG: f64 = 0.01;
 /// Columns, by what they hold.
 const COLUMNS: [&[&str]; 6] = [
-    &["theta_i", "theta_i_deg"],
-    &["phi_i", "phi_i_deg"],
-    &["theta_o", "theta_o_deg"],
-    &["phi_o", "phi_o_deg"],
-    &["wavelength", "wavelength_nm", "nm"],
+    &["theta_i", "theta_i_deg", "theta_in"],
+    &["phi_i", "phi_i_deg", "phi_in"],
+    &["theta_o", "theta_o_deg", "theta_out", "theta_r"],
+    &["phi_o", "phi_o_deg", "phi_out", "phi_r"],
+    &[
+        "wavelength",
+        "wavelength_nm",
+        "wavelength_um",
+        "nm",
+        "um",
+        "wl",
+    ],
     &["value", "f", "brdf", "bsdf", "btdf"],
 ];
 
@@ -64,8 +73,8 @@ pub struct Sample {
 pub struct Table {
     /// In the order of the file.
     pub samples: Vec<Sample>,
-    /// What was taken for granted, in sentences.
-    pub notes: Vec<String>,
+    /// What was guessed or passed over.
+    pub notes: Vec<Guess>,
 }
 
 /// A row with what reciprocity makes of it.
@@ -115,43 +124,62 @@ pub struct Check {
 ///
 /// The first [`Fault`]: a column that is missing, a value that is negative or no number, an angle
 /// out of range, a row that is there twice.
-pub fn read(text: &str) -> Result<Table, Fault> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
-    let names = reader
-        .headers()
-        .map_err(|error| of_csv(text, &error))?
-        .clone();
+pub fn read(text: &str, known: &Known) -> Result<Table, Fault> {
+    let table = Rows::written(text, known.form);
+    let mut rows = table.records();
+    let names = rows
+        .next()
+        .transpose()
+        .map_err(|ragged| of_ragged(&ragged))?;
+    let names = names.map_or_else(Vec::new, |row| row.fields);
     let mut places = [0; 6];
-    for (place, known) in places.iter_mut().zip(COLUMNS) {
-        let found = names
-            .iter()
-            .position(|name| known.contains(&name.to_ascii_lowercase().as_str()));
+    // Whether names of angles say radians, or degrees.
+    let mut said = [None; 6];
+    for ((place, said), words) in places.iter_mut().zip(&mut said).zip(COLUMNS) {
+        let found = names.iter().position(|name| {
+            let lower = name.text.to_ascii_lowercase();
+            let plain = lower.strip_suffix("_rad").unwrap_or(&lower);
+            words.contains(&plain)
+        });
         *place = found.ok_or_else(|| {
-            let problem = format!("has no column `{}`", known[0]);
+            let problem = format!(
+                "has no column `{}`; it has {}",
+                words[0],
+                listed(names.iter())
+            );
             let help = "columns are theta_i, phi_i, theta_o, phi_o, wavelength, value";
             Fault::of_file(problem, help)
         })?;
+        let lower = names[*place].text.to_ascii_lowercase();
+        let units = [("_rad", AngleUnit::Radians), ("_deg", AngleUnit::Degrees)];
+        *said = units
+            .into_iter()
+            .find_map(|(end, unit)| lower.ends_with(end).then_some(unit));
     }
+    let any = said.into_iter().flatten().next();
+    let is_radian = said.map(|own| own.or(any) == Some(AngleUnit::Radians));
     let mut samples = Vec::new();
-    let mut lines = Lines::of(text);
-    for record in reader.records() {
-        let record = record.map_err(|error| of_csv(text, &error))?;
-        let line = record.position().map_or(1, |began| lines.at(began));
+    for row in rows {
+        let Row { line, fields, .. } = row.map_err(|ragged| of_ragged(&ragged))?;
         let mut numbers = [0.0; 6];
         for (number, place) in numbers.iter_mut().zip(places) {
-            let written = &record[place];
-            let value = written
-                .parse::<f64>()
-                .ok()
-                .filter(|value| value.is_finite());
+            let field = &fields[place];
+            let value = table.number(field).filter(|value| value.is_finite());
             *number = value.ok_or_else(|| {
-                let problem = format!("{} is \"{}\", not a number", &names[place], quoted(written));
-                Fault::in_line(text, line, problem, "")
+                let (name, value) = (names[place].shown(), field.shown());
+                let problem = format!("{name} is \"{value}\", not a number");
+                Fault::at(field.span.clone(), problem, "")
             })?;
+        }
+        if known.angles.is_none() {
+            for (angle, _) in numbers
+                .iter_mut()
+                .take(4)
+                .zip(is_radian)
+                .filter(|own| own.1)
+            {
+                *angle = angle.to_degrees();
+            }
         }
         let [theta_i, phi_i, theta_o, phi_o, nm, value] = numbers;
         if value < 0.0 {
@@ -170,7 +198,20 @@ pub fn read(text: &str) -> Result<Table, Fault> {
     if samples.is_empty() {
         return Err(Fault::of_file("there are no lines of numbers", ""));
     }
-    let notes = to_degrees_and_nm(&mut samples);
+    let mut notes = table.guesses();
+    let others = names
+        .iter()
+        .enumerate()
+        .filter(|(at, name)| !places.contains(at) && !name.text.is_empty());
+    let others = others.map(|(_, name)| name);
+    if others.clone().next().is_some() {
+        notes.push(Guess {
+            what: format!("columns that are not read: {}", listed(others)),
+            otherwise: None,
+        });
+    }
+    let said = any.map(|_| AngleUnit::Degrees);
+    notes.extend(to_degrees_and_nm(&mut samples, known, said));
     let thetas = |sample: &Sample| [sample.incident.theta, sample.scattered.theta];
     let is_out = |theta: f64| !(0.0..=180.0).contains(&theta);
     if let Some(bad) = samples.iter().find(|s| thetas(s).into_iter().any(is_out)) {
@@ -186,19 +227,15 @@ pub fn read(text: &str) -> Result<Table, Fault> {
     Ok(Table { samples, notes })
 }
 
-/// Brings angles into degrees and wavelengths into nm; what was taken for granted.
-fn to_degrees_and_nm(samples: &mut [Sample]) -> Vec<String> {
-    use std::f64::consts::{PI, TAU};
+/// Brings angles into degrees and wavelengths into nm; what was guessed.
+fn to_degrees_and_nm(samples: &mut [Sample], known: &Known, said: Option<AngleUnit>) -> Vec<Guess> {
     let mut notes = Vec::new();
-    let most = |of: fn(&Sample) -> [f64; 2]| {
-        let all = samples.iter().flat_map(of);
-        all.fold(0.0_f64, |most, angle| most.max(angle.abs()))
-    };
-    let theta = most(|sample| [sample.incident.theta, sample.scattered.theta]);
-    let phi = most(|sample| [sample.incident.phi, sample.scattered.phi]);
-    // A table whose steepest angle is 3° would not be worth a check.
-    if theta > 0.0 && theta <= PI + 1e-3 && phi <= TAU + 1e-3 {
-        notes.push(RADIANS.to_owned());
+    let unit = known.angles.or(said).unwrap_or_else(|| {
+        let (unit, note) = angles(samples);
+        notes.extend(note);
+        unit
+    });
+    if unit == AngleUnit::Radians {
         for sample in &mut *samples {
             for direction in [&mut sample.incident, &mut sample.scattered] {
                 direction.theta = direction.theta.to_degrees().min(180.0);
@@ -206,13 +243,51 @@ fn to_degrees_and_nm(samples: &mut [Sample]) -> Vec<String> {
             }
         }
     }
-    if are_micrometres(samples.iter().map(|sample| sample.nm)) {
-        notes.push(MICROMETRES.to_owned());
+    let is_um = known.wavelengths.map_or_else(
+        || {
+            let is_guess = are_micrometres(samples.iter().map(|sample| sample.nm));
+            notes.extend(is_guess.then(micrometres));
+            is_guess
+        },
+        |unit| unit == WavelengthUnit::Micrometres,
+    );
+    if is_um {
         for sample in samples {
             sample.nm *= 1000.0;
         }
     }
     notes
+}
+
+/// The unit of angles by their sizes. Where none is more than half a turn can be in radians, whole
+/// numbers are degrees and others radians, and a note says so.
+fn angles(samples: &[Sample]) -> (AngleUnit, Option<Guess>) {
+    use std::f64::consts::{PI, TAU};
+    let all = |of: fn(&Direction) -> f64| {
+        let both = samples
+            .iter()
+            .flat_map(|sample| [sample.incident, sample.scattered]);
+        both.map(move |direction| of(&direction).abs())
+    };
+    let theta = all(|direction| direction.theta).fold(0.0, f64::max);
+    let phi = all(|direction| direction.phi).fold(0.0, f64::max);
+    if theta == 0.0 || theta > PI + 1e-3 || phi > TAU + 1e-3 {
+        return (AngleUnit::Degrees, None);
+    }
+    let is_whole = |angle: f64| angle.fract() == 0.0;
+    let (unit, word, other) = if all(|direction| direction.theta)
+        .chain(all(|direction| direction.phi))
+        .all(is_whole)
+    {
+        (AngleUnit::Degrees, "degrees", "radians")
+    } else {
+        (AngleUnit::Radians, "radians", "degrees")
+    };
+    let note = Guess {
+        what: format!("angles, θ up to {theta}, are taken for {word}"),
+        otherwise: Some(("angles", other)),
+    };
+    (unit, Some(note))
 }
 
 /// A direction and a wavelength in whole steps, to be compared.

@@ -3,9 +3,11 @@
 //! Four columns, separated by commas, semicolons, tabs or spaces; a line of names may stand first,
 //! `#` begins a comment.
 
-use super::series::{fields, number};
-use super::units::{are_micrometres, gap};
-use super::{Fault, quoted};
+use leafmodel::document::rows::{Field, Rows};
+
+use super::Fault;
+use super::series::number;
+use super::units::{WIDE_GAP, are_micrometres, gaps};
 
 /// Reads a table: rows of wavelength, nm, and the sensitivities of red, green and blue.
 ///
@@ -17,43 +19,38 @@ pub fn read(text: &str) -> Result<Vec<(f64, [f64; 3])>, Fault> {
     let mut rows: Vec<(f64, [f64; 3])> = Vec::new();
     let mut spans = Vec::new();
     let mut names_allowed = true;
-    let mut at = 0;
-    for line in text.split_inclusive('\n') {
-        let found = fields(line, at);
-        at += line.len();
-        let (Some(first), Some(last)) = (found.first(), found.last()) else {
-            continue;
-        };
-        if std::mem::take(&mut names_allowed) && first.0.parse::<f64>().is_err() {
-            require_order(&found)?;
+    let table = Rows::of(text).of_numbers();
+    for mut row in table.of_any_length() {
+        row.cut(4);
+        let found = &row.fields;
+        let is_name = |first: &Field| table.number(first).is_none();
+        if std::mem::take(&mut names_allowed) && found.first().is_some_and(is_name) {
+            require_order(found)?;
             continue;
         }
-        let [nm, values @ ..] = found.as_slice() else {
-            continue;
-        };
-        let [red, green, blue] = values else {
+        let [nm, red, green, blue] = found.as_slice() else {
             let count = found.len();
             let problem = format!("has {count} columns in this line, wanted are 4");
-            return Err(Fault::at(first.1.start..last.1.end, problem, COLUMNS));
+            return Err(Fault::at(row.span(), problem, COLUMNS));
         };
-        let wavelength = number(nm)?;
+        let wavelength = number(&table, nm)?;
         let mut row = [0.0; 3];
         for (value, field) in row.iter_mut().zip([red, green, blue]) {
-            *value = number(field)?;
+            *value = number(&table, field)?;
             if *value < 0.0 {
                 let problem = format!("has the sensitivity {value} at {wavelength} nm");
                 let help = "a sensitivity is 0 or more: where noise made it negative write 0";
-                return Err(Fault::at(field.1.clone(), problem, help));
+                return Err(Fault::at(field.span.clone(), problem, help));
             }
         }
         if let Some((before, _)) = rows.last()
             && *before >= wavelength
         {
             let problem = format!("has wavelength {wavelength} behind {before}");
-            return Err(Fault::at(nm.1.clone(), problem, "sort the lines"));
+            return Err(Fault::at(nm.span.clone(), problem, "sort the lines"));
         }
         rows.push((wavelength, row));
-        spans.push(nm.1.clone());
+        spans.push(nm.span.clone());
     }
     if rows.len() < 2 {
         let problem = format!("has {} lines of numbers, wanted are 2 at least", rows.len());
@@ -68,7 +65,7 @@ pub fn read(text: &str) -> Result<Vec<(f64, [f64; 3])>, Fault> {
             help,
         ));
     }
-    if let Some(behind) = gap(&wavelengths) {
+    if let Some(behind) = gaps(&wavelengths, WIDE_GAP).next() {
         let [from, to] = [wavelengths[behind - 1], wavelengths[behind]];
         let problem = format!("has a gap: nothing between {from} and {to} nm");
         let help = "measure or interpolate the values there and add their lines";
@@ -78,21 +75,22 @@ pub fn read(text: &str) -> Result<Vec<(f64, [f64; 3])>, Fault> {
 }
 
 /// Refuses names that say another order of columns than wavelength, red, green, blue.
-fn require_order(names: &[(&str, std::ops::Range<usize>)]) -> Result<(), Fault> {
+fn require_order(names: &[Field]) -> Result<(), Fault> {
     for (place, wanted) in ["r", "g", "b"].into_iter().enumerate() {
-        let Some((name, span)) = names.get(place + 1) else {
+        let Some(name) = names.get(place + 1) else {
             continue;
         };
         let initial = name
+            .text
             .chars()
             .next()
             .map(|letter| letter.to_ascii_lowercase());
         let is_other = initial.is_some_and(|letter| "rgb".contains(letter))
             && initial != wanted.chars().next();
         if is_other {
-            let problem = format!("has `{}` where `{wanted}` is wanted", quoted(name));
+            let problem = format!("has `{}` where `{wanted}` is wanted", name.shown());
             let help = "put the columns in the order wavelength, red, green, blue";
-            return Err(Fault::at(span.clone(), problem, help));
+            return Err(Fault::at(name.span.clone(), problem, help));
         }
     }
     Ok(())

@@ -1,15 +1,19 @@
 //! One spectrum a file: a plain table of two columns, ASCII export of an ASD, or an SVC's `.sig`.
 //!
-//! | form | told by | columns |
+//! | form | mark | columns |
 //! | --- | --- | --- |
-//! | table | anything else | wavelength and value; comma, semicolon, tab or spaces; `#` before comments; an optional line of names |
+//! | table | anything else | wavelength and value; comma, semicolon, tab or blanks; `#` before comments; an optional line of names |
 //! | ASD | a line that begins with `Wavelength`, below any lines about the instrument | wavelength and value |
 //! | SVC | `/*** Spectra Vista SIG Data ***/` in the first line | behind `data=`: wavelength, radiance of the reference, of the target, and their ratio in percent, which is taken |
 
 use std::ops::Range;
 
-use super::units::{MICROMETRES, PERCENT, are_micrometres, are_percent};
-use super::{Fault, Slack, What, quoted};
+use leafmodel::document::rows::{self, Field, Guess, Rows, Separator, without_mark};
+
+use super::known::{Known, Overlap, ValueUnit, WavelengthUnit};
+use super::masks::{is_masked, masked_ranges};
+use super::units::{are_micrometres, are_percent, micrometres, percent};
+use super::{Fault, Slack, What};
 
 /// How a file of one spectrum is laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,12 +35,16 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
     /// Bytes of the text where wavelength and value of each stand.
     pub spans: Vec<[Range<usize>; 2]>,
+    /// What was guessed or left out.
+    pub notes: Vec<Guess>,
     /// Whether the values are percent because the form says so.
     is_percent: bool,
 }
 
 /// First words of a `.sig` file.
 const SVC: &str = "/*** Spectra Vista SIG Data";
+/// Most detectors of a spectrometer.
+const MOST_DETECTORS: usize = 4;
 /// First bytes of binary files of ASD, by version.
 const ASD_BINARY: [&[u8]; 4] = [b"ASD", b"as6", b"as7", b"as8"];
 
@@ -76,37 +84,91 @@ impl Series {
         })
     }
 
-    /// Brings the spectrum into nm and shares of 0 to 1; what was taken for granted in words.
-    pub fn to_nm_and_shares(&mut self) -> Vec<String> {
-        let mut notes = Vec::new();
-        if are_micrometres(self.points.iter().map(|point| point.0)) {
-            notes.push(MICROMETRES.to_owned());
-            for point in &mut self.points {
+    /// Brings the spectrum into nm and fractions of 0 to 1; what was guessed, with the notes.
+    pub fn to_nm_and_fractions(&mut self, known: &Known) -> Vec<Guess> {
+        let mut notes = self.notes.clone();
+        let is_um = known.wavelengths.map_or_else(
+            || {
+                let is_guess = are_micrometres(self.points.iter().map(|point| point.0));
+                notes.extend(is_guess.then(micrometres));
+                is_guess
+            },
+            |unit| unit == WavelengthUnit::Micrometres,
+        );
+        let is_percent = known.values.map_or_else(
+            || {
+                let is_guess = are_percent(self.points.iter().map(|point| point.1));
+                if self.is_percent {
+                    notes.push(Guess {
+                        what: "values are percent, as in every .sig file".to_owned(),
+                        otherwise: Some(("values", "fraction")),
+                    });
+                } else {
+                    notes.extend(is_guess.then(percent));
+                }
+                is_guess || self.is_percent
+            },
+            |unit| unit == ValueUnit::Percent,
+        );
+        for point in &mut self.points {
+            if is_um {
                 point.0 *= 1000.0;
             }
-        }
-        if self.is_percent {
-            notes.push("values are percent, as in every .sig file".to_owned());
-        } else if are_percent(self.points.iter().map(|point| point.1)) {
-            notes.push(PERCENT.to_owned());
-        } else {
-            return notes;
-        }
-        for point in &mut self.points {
-            point.1 /= 100.0;
+            if is_percent {
+                point.1 /= 100.0;
+            }
         }
         notes
     }
-}
 
-/// Reads a file; its text, into which spans point, and its spectrum.
-///
-/// # Errors
-///
-/// The first [`Fault`].
-pub fn read(bytes: &[u8]) -> Result<(&str, Series), Fault> {
-    let text = text(bytes)?;
-    series(text).map(|series| (text, series))
+    /// Joins the detectors of a spectrometer, the wavelengths of each of which rise: where two have
+    /// measured, one counts.
+    fn join_detectors(&mut self, overlap: Option<Overlap>) -> Result<(), Fault> {
+        let nm = |i: usize| self.points[i].0;
+        let falls = (1..self.points.len()).filter(|&i| nm(i) <= nm(i - 1));
+        let ends: Vec<usize> = falls.chain([self.points.len()]).collect();
+        if ends.len() > MOST_DETECTORS {
+            let at = ends[0];
+            let problem = format!("has wavelength {} behind {}", nm(at), nm(at - 1));
+            let help = "wavelengths rise, and fall only where the next of a few detectors begins";
+            return Err(Fault::at(self.spans[at][0].clone(), problem, help));
+        }
+        let mut keep = vec![true; self.points.len()];
+        let mut start = 0;
+        for pair in ends.windows(2) {
+            let (middle, end) = (pair[0], pair[1]);
+            let [from, to] = [nm(middle), nm(middle - 1)];
+            let (last_of_first, cut) = match overlap.unwrap_or(Overlap::Middle) {
+                Overlap::Middle => (0.5 * (from + to), 0.5 * (from + to)),
+                Overlap::First => (to, to),
+                Overlap::Second => (from.next_down(), from.next_down()),
+            };
+            let of_first = self.points[start..end].iter().zip(&mut keep[start..end]);
+            for (number, (point, keep)) in of_first.enumerate() {
+                let is_first = start + number < middle;
+                *keep &= if is_first {
+                    point.0 <= last_of_first
+                } else {
+                    point.0 > cut
+                };
+            }
+            if overlap.is_none() {
+                self.notes.push(Guess {
+                    what: format!(
+                        "two detectors have measured from {from} to {to} nm: values up to {cut} nm are \
+                         those of the first, above those of the second"
+                    ),
+                    otherwise: Some(("overlap", "first")),
+                });
+            }
+            start = middle;
+        }
+        let mut kept = keep.iter();
+        self.points.retain(|_| *kept.next().unwrap_or(&true));
+        let mut kept = keep.iter();
+        self.spans.retain(|_| *kept.next().unwrap_or(&true));
+        Ok(())
+    }
 }
 
 /// The text of a file without the mark that programs put in front.
@@ -124,7 +186,7 @@ pub fn text(bytes: &[u8]) -> Result<&str, Fault> {
         }
         Fault::at(byte..byte, "is not UTF-8", "save it as UTF-8 text")
     })?;
-    Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
+    Ok(without_mark(text))
 }
 
 /// The spectrum of a text.
@@ -132,49 +194,64 @@ pub fn text(bytes: &[u8]) -> Result<&str, Fault> {
 /// # Errors
 ///
 /// The first [`Fault`].
-pub fn series(text: &str) -> Result<Series, Fault> {
+pub fn series(text: &str, known: &Known) -> Result<Series, Fault> {
     let (form, start, columns) = form(text)?;
+    let separator = match form {
+        Form::Svc => Some(known.form.separator.unwrap_or(Separator::Blanks)),
+        Form::Table | Form::Asd => known.form.separator,
+    };
+    let decimal = known.form.decimal;
+    let table = Rows::below(text, start, rows::Form { separator, decimal }).of_numbers();
     let mut found = Series {
         form,
         points: Vec::new(),
         spans: Vec::new(),
         is_percent: form == Form::Svc,
+        notes: Vec::new(),
     };
     let mut names_allowed = form == Form::Table;
-    let mut at = start;
-    for line in text[start..].split_inclusive('\n') {
-        let fields = fields(line, at);
-        at += line.len();
-        let [first, .., last] = fields.as_slice() else {
-            if let [(field, span)] = fields.as_slice() {
-                if names_allowed && field.parse::<f64>().is_err() {
-                    names_allowed = false;
-                    continue;
-                }
-                return Err(wrong_columns(span.clone(), 1, columns));
-            }
+    let mut masked = Vec::new();
+    for mut row in table.of_any_length() {
+        row.cut(columns);
+        let fields = &row.fields;
+        let is_names = std::mem::take(&mut names_allowed)
+            && fields
+                .first()
+                .is_some_and(|first| table.number(first).is_none());
+        if is_names {
             continue;
+        }
+        let ([first, .., last], true) = (fields.as_slice(), fields.len() == columns) else {
+            return Err(wrong_columns(row.span(), fields.len(), columns));
         };
-        if names_allowed && first.0.parse::<f64>().is_err() {
-            names_allowed = false;
-            continue;
+        let wavelength = number(&table, first)?;
+        let is_masked = is_masked(&table, last, known.masked);
+        masked.push((wavelength, is_masked));
+        if !is_masked {
+            found.points.push((wavelength, number(&table, last)?));
+            found.spans.push([first.span.clone(), last.span.clone()]);
         }
-        names_allowed = false;
-        if fields.len() != columns {
-            let span = first.1.start..last.1.end;
-            return Err(wrong_columns(span, fields.len(), columns));
-        }
-        let numbers = [first, last].map(number);
-        let [wavelength, value] = numbers;
-        let (wavelength, value) = (wavelength?, value?);
-        if form == Form::Svc && found.points.last().is_some_and(|(nm, _)| *nm >= wavelength) {
-            let before = found.points[found.points.len() - 1].0;
-            let problem = format!("has wavelength {wavelength} behind {before}");
-            let help = "detectors overlap there: let the instrument's program remove the overlap";
-            return Err(Fault::at(first.1.clone(), problem, help));
-        }
-        found.points.push((wavelength, value));
-        found.spans.push([first.1.clone(), last.1.clone()]);
+    }
+    found.notes.extend(table.guesses());
+    let (all, is_masked): (Vec<f64>, Vec<bool>) = masked.into_iter().unzip();
+    let bands = masked_ranges(&all, &is_masked);
+    if !bands.is_empty() {
+        let count = is_masked.iter().filter(|masked| **masked).count();
+        found.notes.push(Guess {
+            what: format!(
+                "{count} of {} wavelengths have no value (empty, NA, NaN, -9999 or such) and are left \
+                 out: {bands}",
+                all.len()
+            ),
+            otherwise: None,
+        });
+    }
+    if found.points.windows(2).all(|pair| pair[1].0 < pair[0].0) {
+        found.points.reverse();
+        found.spans.reverse();
+    }
+    if form == Form::Svc || known.overlap.is_some() {
+        found.join_detectors(known.overlap)?;
     }
     Ok(found)
 }
@@ -221,124 +298,29 @@ fn form(text: &str) -> Result<(Form, usize, usize), Fault> {
 fn wrong_columns(span: Range<usize>, found: usize, wanted: usize) -> Fault {
     let problem = format!("has {found} columns in this line, wanted are {wanted}");
     let help = if wanted == 2 {
-        "keep the wavelength in nm and the value, with a decimal point"
+        "keep the wavelength in nm and the value"
     } else {
         "a .sig file has wavelength, reference, target and percent"
     };
     Fault::at(span, problem, help)
 }
 
-pub(super) fn number((field, span): &(&str, Range<usize>)) -> Result<f64, Fault> {
-    match field.parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok(number),
-        Ok(_) => Err(Fault {
-            span: Some(span.clone()),
+pub(super) fn number(table: &Rows<'_>, field: &Field) -> Result<f64, Fault> {
+    match table.number(field) {
+        Some(number) if number.is_finite() => Ok(number),
+        Some(_) => Err(Fault {
+            span: Some(field.span.clone()),
             what: What::NotFinite {
-                value: quoted(field),
+                value: field.shown(),
             },
         }),
-        Err(_) => {
-            let problem = format!("has `{}` where a number is wanted", quoted(field));
+        None => {
+            let problem = format!("has `{}` where a number is wanted", field.shown());
             let help = "write a number, or `#` before a comment";
-            Err(Fault::at(span.clone(), problem, help))
+            Err(Fault::at(field.span.clone(), problem, help))
         }
     }
-}
-
-/// The columns of a line before its comment, each with its bytes.
-pub(super) fn fields(line: &str, start: usize) -> Vec<(&str, Range<usize>)> {
-    let line = line.split('#').next().unwrap_or("");
-    let separator =
-        |character: char| character == ',' || character == ';' || character.is_whitespace();
-    let base = line.as_ptr().addr();
-    line.split(separator)
-        .filter(|field| !field.is_empty())
-        .map(|field| {
-            let from = start + (field.as_ptr().addr() - base);
-            (field, from..from + field.len())
-        })
-        .collect()
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use std::path::Path;
-
-    fn points(text: &str) -> Vec<(f64, f64)> {
-        read(text.as_bytes()).expect("a good file").1.points
-    }
-
-    #[test]
-    fn names_comments_and_every_separator_are_read() {
-        let text = "\u{feff}# made up\nwavelength_nm,R\r\n400,0.1\r\n500; 0.2 # peak\n\n\
-                    600\t0.3\n700 4e-1";
-        let expected = [(400.0, 0.1), (500.0, 0.2), (600.0, 0.3), (700.0, 0.4)];
-        assert_eq!(points(text), expected);
-    }
-
-    /// As an SVC HR-1024i writes it, with numbers of our own.
-    const SIG: &str = "/*** Spectra Vista SIG Data ***/\r\nname= oak.sig\r\n\
-        instrument= HI: 1152050 (HR-1024i)\r\nunits= Radiance, Radiance\r\n\
-        time= 6/1/2024 11:02:03AM, 6/1/2024 11:03:03AM\r\ndata= \r\n\
-        450.1 100.00 5.00 5.00\r\n550.2 200.00 24.00 12.00\r\n800.3 100.00 48.00 48.00\r\n";
-
-    #[test]
-    fn a_sig_file_gives_its_ratio_as_a_share_and_says_so() {
-        let (_, mut found) = read(SIG.as_bytes()).expect("a good file");
-        assert_eq!(found.form, Form::Svc);
-        let notes = found.to_nm_and_shares();
-        assert_eq!(notes.len(), 1, "{notes:?}");
-        assert_eq!(found.points, [(450.1, 0.05), (550.2, 0.12), (800.3, 0.48)]);
-        let overlap = SIG.replace("800.3", "549.0");
-        let fault = read(overlap.as_bytes()).expect_err("wavelengths fall");
-        let shown = fault.shown(Path::new("oak.sig"), &overlap);
-        assert!(shown.starts_with("oak.sig, line 9: has wavelength 549 behind 550.2"));
-        let without = SIG.replace("data=", "date=");
-        assert!(read(without.as_bytes()).is_err());
-    }
-
-    #[test]
-    fn an_export_of_an_asd_is_read_with_and_without_its_header() {
-        let short = "Wavelength\toak00001.asd\r\n350\t0.04\r\n351\t0.05\r\n";
-        let long = "Text conversion of header file oak00001.asd\r\n\r\n\
-            The instrument number was 18140/2.\r\nSpectrum was saved 06/01/2024, 11:02\r\n\r\n\
-            Wavelength\toak00001.asd\r\n350\t0.04\r\n351\t0.05\r\n";
-        for text in [short, long] {
-            let (_, found) = read(text.as_bytes()).expect("a good file");
-            assert_eq!(found.form, Form::Asd);
-            assert_eq!(found.points, [(350.0, 0.04), (351.0, 0.05)]);
-        }
-        let several = "Wavelength\ta.asd\tb.asd\n350\t0.04\t0.05\n";
-        let fault = read(several.as_bytes()).expect_err("two spectra");
-        assert!(fault.to_string().contains("3 columns"), "{fault}");
-        let binary = read(b"as7\0\xff\xfe\x80").expect_err("no text");
-        assert!(binary.to_string().contains("binary"), "{binary}");
-    }
-
-    #[test]
-    fn micrometres_and_percent_are_recognised_and_told() {
-        let (_, mut found) = read(b"um R\n0.4 5\n0.5 10\n0.8 50\n").expect("a good file");
-        assert_eq!(found.to_nm_and_shares(), [MICROMETRES, PERCENT]);
-        assert_eq!(found.points, [(400.0, 0.05), (500.0, 0.1), (800.0, 0.5)]);
-        let (_, mut plain) = read(b"400 0.5\n500 0.6\n").expect("a good file");
-        assert!(plain.to_nm_and_shares().is_empty());
-    }
-
-    #[test]
-    fn what_is_no_number_is_told_with_its_line_below_the_names() {
-        for (text, line) in [
-            ("nm,R\nnm,R\n", 2),
-            ("400,0.1,3\n", 1),
-            ("400;0,1\n", 1),
-            ("400,0.1\n410\n", 2),
-            ("400,0.1\n410,nan\n", 2),
-            ("400,0.1\n410,--\n", 2),
-        ] {
-            let fault = read(text.as_bytes()).expect_err(text);
-            let shown = fault.shown(Path::new("x.csv"), text);
-            let start = format!("x.csv, line {line}: ");
-            assert!(shown.starts_with(&start), "{text:?}: {shown}");
-        }
-    }
-}
+mod tests;

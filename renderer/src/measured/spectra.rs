@@ -2,16 +2,22 @@
 //!
 //! A table has a line of names. One column holds wavelengths. Either every other column belongs to
 //! a leaf and ends in R or T (`birch_R`, `birch_R_abaxial`, `birch.T`, `leaf 3 reflectance`), or a
-//! column names the leaf of each line and others are R and T. Micrometres and percent are
-//! recognised and told. [`of_files`] joins files of one spectrum each to a leaf.
+//! column names the leaf of each line and others are R and T. Or each line is a leaf, and columns are
+//! named by wavelengths. Wavelengths rise or fall. Micrometres, percent and masked bands are
+//! recognised; notes name them, and every column that is not read. [`of_files`] joins files of one
+//! spectrum each to a leaf.
 
-use csv::StringRecord;
-use leafmodel::document::rows::delimiter;
+mod leaves;
 
-use super::columns::{Column, Measure, columns};
+use leafmodel::document::rows::{Field, Guess, Rows, without_mark};
+use leafmodel::document::source::quoted;
+
+use self::leaves::{Draft, Leaves};
+use super::columns::{Column, Named, columns, is_wavelength, listed};
+use super::known::{Known, Measure, ValueUnit, WavelengthUnit};
 use super::series::Series;
-use super::units::{MICROMETRES, PERCENT, are_micrometres, are_percent};
-use super::{Fault, Lines, Slack, of_csv, quoted};
+use super::units::{are_micrometres, are_percent, micrometres, percent};
+use super::{Fault, Slack, of_ragged};
 
 /// A leaf's spectra, by rising wavelength.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,8 +41,8 @@ pub struct Leaf {
 pub struct Spectra {
     /// In the order of the file.
     pub leaves: Vec<Leaf>,
-    /// Sentences.
-    pub notes: Vec<String>,
+    /// What was guessed, left out or passed over.
+    pub notes: Vec<Guess>,
 }
 
 impl Leaf {
@@ -111,117 +117,136 @@ impl Leaf {
 /// # Errors
 ///
 /// The first [`Fault`] of its form; [`Leaf::check`] looks at the values.
-pub fn read(text: &str) -> Result<Spectra, Fault> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(delimiter(text))
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
-    let names = reader
-        .headers()
-        .map_err(|error| of_csv(text, &error))?
-        .clone();
-    let columns = columns(&names).map_err(|what| Fault::of_file(what, ""))?;
-    let mut leaves = Leaves::new(&columns);
-    let mut lines = Lines::of(text);
-    for record in reader.records() {
-        let record = record.map_err(|error| of_csv(text, &error))?;
-        let line = record.position().map_or(1, |began| lines.at(began));
+pub fn read(text: &str, known: &Known) -> Result<Spectra, Fault> {
+    let start = names_at(text);
+    let table = Rows::below(text, start, known.form);
+    let mut rows = table.records();
+    let names = match rows.next() {
+        Some(Ok(row)) => row.fields,
+        Some(Err(ragged)) => return Err(of_ragged(&ragged)),
+        None => return Err(Fault::of_file("is empty: it has no line of names", "")),
+    };
+    let columns = columns(&names, known.quantity).map_err(|what| Fault::of_file(what, ""))?;
+    let mut leaves = Leaves::new(known);
+    for row in rows {
+        let row = row.map_err(|ragged| of_ragged(&ragged))?;
+        if row.fields.iter().all(|field| field.text.is_empty()) {
+            continue;
+        }
         leaves
-            .add(&record, &names, &columns, line)
-            .map_err(|problem| Fault::in_line(text, line, problem, ""))?;
+            .add(&table, &row, &names, &columns)
+            .map_err(|problem| Fault::in_line(text, row.line, problem, ""))?;
     }
-    let mut leaves = leaves.found;
+    let mut notes = table.guesses();
+    let above = text[..start].lines().map(str::trim);
+    let above = above.filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let lines = above.count();
+    if lines > 0 {
+        notes.push(note(format!(
+            "lines above the names of columns that are not read: {lines}"
+        )));
+    }
+    notes.extend(ignored(&names, &columns));
+    if leaves.is_guess {
+        notes.push(Guess {
+            what:
+                "values in columns that are named by wavelengths alone are taken for reflectances"
+                    .to_owned(),
+            otherwise: Some(("quantity", "transmittance")),
+        });
+    }
+    let mut drafts = leaves.found;
+    to_nm_and_fractions(&mut drafts, &columns, known, &mut notes);
+    let mut leaves = Vec::with_capacity(drafts.len());
+    for draft in drafts {
+        leaves.extend(draft.leaf(text, known, &mut notes)?);
+    }
     if leaves.is_empty() {
         return Err(Fault::of_file("there are no lines of numbers", ""));
-    }
-    let mut notes = Vec::new();
-    if are_micrometres(leaves.iter().flat_map(|leaf| leaf.nm.iter().copied())) {
-        notes.push(MICROMETRES.to_owned());
-        for nm in leaves.iter_mut().flat_map(|leaf| &mut leaf.nm) {
-            *nm *= 1000.0;
-        }
-    }
-    let values = leaves
-        .iter()
-        .flat_map(|leaf| leaf.all().map(|(_, values)| values));
-    if are_percent(values.flatten().copied()) {
-        notes.push(PERCENT.to_owned());
-        for leaf in &mut leaves {
-            for measure in [
-                Measure::Reflectance,
-                Measure::Abaxial,
-                Measure::Transmittance,
-            ] {
-                for value in leaf.values(measure) {
-                    *value /= 100.0;
-                }
-            }
-        }
     }
     Ok(Spectra { leaves, notes })
 }
 
-/// Leaves while lines are read.
-struct Leaves {
-    found: Vec<Leaf>,
-    /// The leaf of each column's latest value.
-    latest: Vec<Option<usize>>,
+/// Where the line of names begins: the first line, or below lines about an instrument the first that
+/// begins with a word of wavelengths.
+fn names_at(text: &str) -> usize {
+    const MOST_LINES: usize = 200;
+    let mut at = 0;
+    for line in text.split_inclusive('\n').take(MOST_LINES) {
+        let first = without_mark(line)
+            .split(['\t', ',', ';'])
+            .next()
+            .unwrap_or_default();
+        let first = first.trim_matches(|c: char| c == '"' || c.is_whitespace());
+        if is_wavelength(first) {
+            return at;
+        }
+        at += line.len();
+    }
+    0
 }
 
-impl Leaves {
-    fn new(columns: &[Column]) -> Self {
-        Self {
-            found: Vec::new(),
-            latest: vec![None; columns.len()],
-        }
-    }
+/// The columns that are passed over.
+fn ignored(names: &[Field], columns: &[Named]) -> Option<Guess> {
+    let ignored = names.iter().zip(columns);
+    let ignored =
+        ignored.filter(|(name, column)| column.holds == Column::Other && !name.text.is_empty());
+    let ignored = ignored.map(|(name, _)| name);
+    ignored.clone().next()?;
+    Some(note(format!(
+        "columns that are not read: {}",
+        listed(ignored)
+    )))
+}
 
-    fn add(
-        &mut self,
-        record: &StringRecord,
-        names: &StringRecord,
-        columns: &[Column],
-        line: usize,
-    ) -> Result<(), String> {
-        let place = |wanted: &Column| columns.iter().position(|column| column == wanted);
-        let nm = number(record, names, place(&Column::Wavelength).unwrap_or(0))?;
-        let of_line = place(&Column::Name);
-        for (column, kind) in columns.iter().enumerate() {
-            let (measure, leaf) = match kind {
-                Column::Of(measure, leaf) => (*measure, leaf),
-                Column::Wavelength | Column::Name | Column::Other => continue,
-            };
-            let leaf = of_line.map_or(leaf.as_str(), |column| &record[column]);
-            let value = number(record, names, column)?;
-            let known = self.latest[column].filter(|&i| self.found[i].name == leaf);
-            let i = known
-                .or_else(|| self.found.iter().position(|known| known.name == leaf))
-                .unwrap_or_else(|| {
-                    self.found.push(Leaf {
-                        name: leaf.to_owned(),
-                        ..Leaf::default()
-                    });
-                    self.found.len() - 1
-                });
-            self.latest[column] = Some(i);
-            let leaf = &mut self.found[i];
-            if leaf.nm.last() != Some(&nm) {
-                if let Some(last) = leaf.nm.last().filter(|last| nm < **last) {
-                    return Err(format!("wavelength {nm} after {last}: sort the lines"));
-                }
-                leaf.nm.push(nm);
-                leaf.lines.push(line);
-            }
-            let wanted = leaf.nm.len();
-            let values = leaf.values(measure);
-            values.push(value);
-            if values.len() != wanted {
-                return Err(format!("wavelength {nm} is there twice for one leaf"));
+/// Something that a person should know, and that no flag changes.
+fn note(what: String) -> Guess {
+    let otherwise = None;
+    Guess { what, otherwise }
+}
+
+/// Brings wavelengths into nm and values into fractions, by what the columns or a person say, or else
+/// by their sizes.
+fn to_nm_and_fractions(
+    drafts: &mut [Draft],
+    columns: &[Named],
+    known: &Known,
+    notes: &mut Vec<Guess>,
+) {
+    let says_um = columns
+        .iter()
+        .any(|column| column.holds == Column::Wavelength(Some(WavelengthUnit::Micrometres)));
+    let all = || drafts.iter().flat_map(|draft| &draft.points);
+    let is_um = match known.wavelengths {
+        Some(unit) => unit == WavelengthUnit::Micrometres,
+        None if says_um => true,
+        None => {
+            let is_guess = are_micrometres(all().map(|point| point.nm));
+            notes.extend(is_guess.then(micrometres));
+            is_guess
+        }
+    };
+    let says_percent = columns.iter().any(|column| {
+        column.is_percent && matches!(column.holds, Column::Of(..) | Column::Band(..))
+    });
+    let is_percent = match known.values {
+        Some(unit) => unit == ValueUnit::Percent,
+        None if says_percent => true,
+        None => {
+            let is_guess = are_percent(all().flat_map(|point| point.values.into_iter().flatten()));
+            notes.extend(is_guess.then(percent));
+            is_guess
+        }
+    };
+    for point in drafts.iter_mut().flat_map(|draft| &mut draft.points) {
+        if is_um {
+            point.nm *= 1000.0;
+        }
+        if is_percent {
+            for value in point.values.iter_mut().flatten() {
+                *value /= 100.0;
             }
         }
-        Ok(())
     }
 }
 
@@ -266,21 +291,6 @@ fn between(points: &[(f64, f64)], nm: f64) -> f64 {
     }
     let (x0, y0) = points[above - 1];
     y0 + (y1 - y0) * (nm - x0) / (x1 - x0)
-}
-
-fn number(record: &StringRecord, names: &StringRecord, column: usize) -> Result<f64, String> {
-    let written = &record[column];
-    let value = written
-        .parse::<f64>()
-        .ok()
-        .filter(|value| value.is_finite());
-    value.ok_or_else(|| {
-        let name = quoted(&names[column]);
-        if written.is_empty() {
-            return format!("{name} is missing: write a number, or leave the line out");
-        }
-        format!("{name} is \"{}\", not a number", quoted(written))
-    })
 }
 
 #[cfg(test)]

@@ -1,16 +1,31 @@
 //! Units of measured spectra, guessed where a file does not say them, and gaps.
 
+use leafmodel::document::rows::Guess;
+
 /// Wavelengths below this are micrometres: 0.4 to 2.5 against 400 to 2500.
 const MOST_UM: f64 = 30.0;
 /// Where the upper quarter of all values is above this they are percent.
 const MOST_SHARE: f64 = 1.5;
-/// A step this many times as long as both of its neighbours is a gap.
-const GAP: f64 = 10.0;
+/// A step this many times as long as its neighbours is a gap that no spectrum of a scene may have.
+pub const WIDE_GAP: f64 = 10.0;
+/// A step this many times as long as its neighbours is a gap that is reported.
+pub const GAP: f64 = 2.5;
 
-/// What is told where wavelengths are taken for micrometres.
-pub const MICROMETRES: &str = "wavelengths are taken for µm";
-/// What is told where values are taken for percent.
-pub const PERCENT: &str = "values are taken for percent";
+/// What is said where wavelengths are taken for micrometres.
+pub fn micrometres() -> Guess {
+    Guess {
+        what: "wavelengths are taken for µm".to_owned(),
+        otherwise: Some(("wavelengths", "nm")),
+    }
+}
+
+/// What is said where values are taken for percent.
+pub fn percent() -> Guess {
+    Guess {
+        what: "values are taken for percent".to_owned(),
+        otherwise: Some(("values", "fraction")),
+    }
+}
 
 /// Whether wavelengths must be micrometres.
 pub fn are_micrometres(wavelengths: impl Iterator<Item = f64>) -> bool {
@@ -27,13 +42,22 @@ pub fn are_percent(values: impl Iterator<Item = f64>) -> bool {
     upper.is_some_and(|value| *value > MOST_SHARE)
 }
 
-/// A gap in wavelengths that rise: the number of the wavelength behind a step that is more than ten
-/// times as long as the step before and as the step behind it. Tables that grow coarser, or whose
-/// steps are all long, have none.
-pub fn gap(nm: &[f64]) -> Option<usize> {
+/// Gaps in wavelengths that rise: the numbers of the wavelengths behind steps that are more than so
+/// many times as long as most of the three steps before and of the three behind. Tables that grow
+/// coarser, or whose steps are all long, have none.
+pub fn gaps(nm: &[f64], times: f64) -> impl Iterator<Item = usize> {
     let step = |i: usize| nm[i] - nm[i - 1];
-    (2..nm.len().saturating_sub(1))
-        .find(|&i| step(i) > GAP * step(i - 1) && step(i) > GAP * step(i + 1))
+    let median = move |steps: std::ops::Range<usize>| {
+        let mut steps: Vec<f64> = steps.map(step).collect();
+        steps.sort_by(f64::total_cmp);
+        steps.get(steps.len() / 2).copied()
+    };
+    (1..nm.len()).filter(move |&i| {
+        let before = median(i.saturating_sub(3).max(1)..i);
+        let behind = median(i + 1..(i + 4).min(nm.len()));
+        let is_long = |other: Option<f64>| other.is_some_and(|other| step(i) > times * other);
+        is_long(before) && is_long(behind)
+    })
 }
 
 #[cfg(test)]
@@ -46,12 +70,29 @@ mod tests {
             .filter(|nm| !(1350..1450).contains(nm))
             .map(f64::from)
             .collect();
-        let at = gap(&cut).expect("100 nm are missing");
-        assert_eq!([cut[at - 1], cut[at]], [1349.0, 1450.0]);
+        let ends = |nm: &[f64], times: f64| -> Vec<[f64; 2]> {
+            gaps(nm, times).map(|at| [nm[at - 1], nm[at]]).collect()
+        };
+        assert_eq!(ends(&cut, WIDE_GAP), [[1349.0, 1450.0]]);
         let coarser = [400.0, 410.0, 420.0, 500.0, 700.0, 1200.0, 2500.0];
-        assert_eq!(gap(&coarser), None);
-        assert_eq!(gap(&[400.0, 401.0, 2500.0]), None);
-        assert_eq!(gap(&[400.0]), None);
+        for times in [GAP, WIDE_GAP] {
+            for none in [&coarser[..], &[400.0, 401.0, 2500.0], &[400.0], &[]] {
+                assert_eq!(ends(none, times), [[0.0; 2]; 0], "{none:?}");
+            }
+        }
+        // All of several, one with a single wavelength between two, one at the first step but one.
+        let cut: Vec<f64> = (400..=2500)
+            .filter(|nm| {
+                ![401..410, 1350..1400, 1401..1450, 1800..1803]
+                    .iter()
+                    .any(|cut| cut.contains(nm))
+            })
+            .map(f64::from)
+            .collect();
+        let narrow = [1799.0, 1803.0];
+        let wide = [[1349.0, 1400.0], [1400.0, 1450.0]];
+        assert_eq!(ends(&cut, WIDE_GAP), wide);
+        assert_eq!(ends(&cut, GAP), [wide[0], wide[1], narrow]);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
+use glam::DMat3;
 use thiserror::Error;
 
 use leafmodel::document::assets::{Assets, Raster, Triangles};
@@ -12,7 +13,7 @@ use leafmodel::memory;
 use leafmodel::optics::{Constituent, Texel};
 
 use crate::geometry;
-use crate::image::{ImageError, Picture, jpeg, openexr, portable_network, radiance};
+use crate::image::{ImageError, Picture, colours, openexr, portable_network};
 use crate::material::contents_texture::ContentsTexture;
 use crate::scene::model::{self, Container, Model, ModelError};
 
@@ -88,8 +89,10 @@ pub struct RgbPicture {
     pub width: usize,
     /// Row by row from the top.
     pub texels: Vec<[f32; 3]>,
-    /// Share of the pixels of which a channel was below 0 in the file and is 0 here.
+    /// Fraction of the pixels of which a channel was below 0 in the file and is 0 here.
     pub below: f64,
+    /// Fraction of the pixels whose colour lies outside of Rec. 709.
+    pub outside: f64,
 }
 
 /// The bytes of a regular file.
@@ -134,12 +137,12 @@ const SHARES: Allowed = Allowed {
     range: "0 to 1",
 };
 
-fn channel(
+fn channel<'p>(
     file: &Path,
-    picture: &Picture,
+    picture: &'p Picture,
     name: &'static str,
     allowed: &Allowed,
-) -> Result<Vec<f32>, AssetError> {
+) -> Result<&'p [f32], AssetError> {
     let layer = picture
         .layers
         .iter()
@@ -163,7 +166,7 @@ fn channel(
             range: allowed.range,
         });
     }
-    Ok(layer.data.clone())
+    Ok(&layer.data)
 }
 
 /// A contents map: an EXR with a channel for each [`Constituent`]; its first row is v = 0.
@@ -286,18 +289,19 @@ const MOST_BELOW: f64 = 0.05;
 /// Greatest share of a picture's light that may be missing below 0.
 const MOST_MISSING: f64 = 0.01;
 
-/// A picture that shines: EXR with R, G, B, or PNG or JPEG (their values are converted to linear
-/// ones).
+/// A picture that shines: of an EXR the layer of this name.
 ///
 /// Scaling with a sharp filter leaves values below 0 beside bright edges, which no light has. They
-/// are 0 here, if they are few, and [`RgbPicture::below`] tells their share.
+/// are 0 here, if they are few, and [`RgbPicture::below`] is their fraction. Colours of other
+/// primaries are converted after that: those outside of Rec. 709 then have channels below 0, which
+/// are right for all that mixes with them, and [`RgbPicture::outside`] is their fraction.
 ///
 /// # Errors
 ///
 /// [`AssetError`] if it is not such a picture, holds values that are not finite or many negative
 /// ones, or is dark everywhere.
-pub fn shining(file: &Path) -> Result<RgbPicture, AssetError> {
-    let mut picture = colours(file, &FINITE)?;
+pub fn shining(file: &Path, layer: Option<&str>) -> Result<RgbPicture, AssetError> {
+    let (mut picture, map) = stored(file, layer, &FINITE)?;
     let texels = || picture.texels.iter();
     let below = texels().filter(|texel| texel.iter().any(|value| *value < 0.0));
     let share = below.count() as f64 / picture.texels.len().max(1) as f64;
@@ -307,7 +311,7 @@ pub fn shining(file: &Path) -> Result<RgbPicture, AssetError> {
         let light: f64 = values().map(f64::abs).sum();
         if share > MOST_BELOW || missing > MOST_MISSING * light {
             // The error names the first of them.
-            colours(file, &LIGHT)?;
+            stored(file, layer, &LIGHT)?;
         }
         for value in picture.texels.iter_mut().flatten() {
             *value = value.max(0.0);
@@ -319,41 +323,88 @@ pub fn shining(file: &Path) -> Result<RgbPicture, AssetError> {
             file: file.to_owned(),
         });
     }
+    picture.convert(map, f32::MAX);
+    if let Some(place) = picture
+        .texels
+        .iter()
+        .flatten()
+        .position(|value| !value.is_finite())
+    {
+        let pixel = place / 3;
+        return Err(AssetError::Value {
+            file: file.to_owned(),
+            channel: colours::CHANNELS[place % 3],
+            value: picture.texels[pixel][place % 3],
+            x: pixel % picture.width,
+            y: pixel / picture.width,
+            range: LIGHT.range,
+        });
+    }
     Ok(picture)
 }
 
-/// A picture of reflectances: as one that shines, with values in [0, 1].
+/// A picture of reflectances, each in [0, 1]: of an EXR the layer of this name. Colours of other
+/// primaries are converted; what lies outside of Rec. 709 comes to its border, and
+/// [`RgbPicture::outside`] is the fraction of such pixels.
 ///
 /// # Errors
 ///
 /// [`AssetError`] if it is not such a picture or holds other values.
-pub fn reflectances(file: &Path) -> Result<RgbPicture, AssetError> {
-    colours(file, &SHARES)
+pub fn reflectances(file: &Path, layer: Option<&str>) -> Result<RgbPicture, AssetError> {
+    let (mut picture, map) = stored(file, layer, &SHARES)?;
+    picture.convert(map, 1.0);
+    for value in picture.texels.iter_mut().flatten() {
+        *value = value.clamp(0.0, 1.0);
+    }
+    Ok(picture)
 }
 
-fn colours(file: &Path, allowed: &Allowed) -> Result<RgbPicture, AssetError> {
-    let ending = file.extension().and_then(|ending| ending.to_str());
-    let ending = ending.unwrap_or_default().to_ascii_lowercase();
-    let picture = match ending.as_str() {
-        "png" => portable_network::read(file)?,
-        "jpg" | "jpeg" => jpeg::read(file)?,
-        "hdr" => radiance::read(file)?,
-        _ => openexr::read_texture(file)?,
-    };
-    let red = channel(file, &picture, "R", allowed)?;
-    let green = channel(file, &picture, "G", allowed)?;
-    let blue = channel(file, &picture, "B", allowed)?;
-    let texels = red
-        .into_iter()
-        .zip(green)
-        .zip(blue)
-        .map(|((r, g), b)| [r, g, b])
-        .collect();
-    Ok(RgbPicture {
+impl RgbPicture {
+    /// Converts the colours by a map; those with a channel below 0 or above `most` are counted.
+    fn convert(&mut self, map: Option<DMat3>, most: f32) {
+        /// Conversions of colours on the border of Rec. 709 may end so far beyond it.
+        const ROUNDING: f32 = 1e-4;
+        if map.is_none() {
+            return;
+        }
+        let mut outside = 0_usize;
+        for texel in &mut self.texels {
+            *texel = colours::mapped(map, *texel);
+            let greatest = texel
+                .iter()
+                .fold(0.0_f32, |most, value| most.max(value.abs()));
+            let slack = ROUNDING * greatest;
+            let is_outside = |value: &f32| *value < -slack || *value > most + slack;
+            outside += usize::from(texel.iter().any(is_outside));
+            for value in texel.iter_mut().filter(|value| **value >= -slack) {
+                *value = value.max(0.0);
+            }
+        }
+        self.outside = outside as f64 / self.texels.len().max(1) as f64;
+    }
+}
+
+/// A picture with its colours as stored, and the map from them to linear sRGB.
+fn stored(
+    file: &Path,
+    layer: Option<&str>,
+    allowed: &Allowed,
+) -> Result<(RgbPicture, Option<DMat3>), AssetError> {
+    let picture = colours::read(file, layer)?;
+    let [red, green, blue] = colours::CHANNELS.map(|name| channel(file, &picture, name, allowed));
+    let (red, green, blue) = (red?, green?, blue?);
+    let map = colours::to_rec709(&picture).map_err(|source| ImageError::Contents {
+        path: file.to_owned(),
+        source: Box::new(source),
+    })?;
+    let texels = red.iter().zip(green).zip(blue);
+    let picture = RgbPicture {
         width: picture.width as usize,
-        texels,
+        texels: texels.map(|((r, g), b)| [*r, *g, *b]).collect(),
         below: 0.0,
-    })
+        outside: 0.0,
+    };
+    Ok((picture, map))
 }
 
 /// The model of a glTF file; `beside` are the files that it names, as written there and where they
@@ -430,5 +481,76 @@ impl Assets for Decoder {
                 .map(|normals| normals.iter().map(|normal| normal.as_dvec3()).collect()),
             dropped: (dropped.total() > 0).then(|| dropped.to_string()),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::{Attribute, Layer};
+
+    /// One pixel in the primaries of Rec. 2020, as a file.
+    fn wide(folder: &Path, colour: [f32; 3]) -> PathBuf {
+        let file = folder.join("wide.exr");
+        let layers = colours::CHANNELS
+            .into_iter()
+            .zip(colour)
+            .map(|(name, value)| Layer {
+                name: name.to_owned(),
+                data: vec![value],
+            });
+        let points = [
+            [0.708, 0.292],
+            [0.170, 0.797],
+            [0.131, 0.046],
+            [0.3127, 0.3290],
+        ];
+        let picture = Picture {
+            width: 1,
+            height: 1,
+            layers: layers.collect(),
+            attributes: vec![(
+                "chromaticities".to_owned(),
+                Attribute::Chromaticities(points),
+            )],
+        };
+        openexr::write(&picture, &file).expect("a folder");
+        file
+    }
+
+    #[test]
+    fn reflectances_come_to_the_border_of_rec_709_and_are_counted() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let red = wide(folder.path(), [0.5, 0.0, 0.0]);
+        let red = reflectances(&red, None).expect("reflectances");
+        assert_eq!(
+            (red.texels[0][1], red.texels[0][2], red.outside),
+            (0.0, 0.0, 1.0)
+        );
+        assert!((red.texels[0][0] - 0.830).abs() < 1e-3, "{:?}", red.texels);
+        let grey = wide(folder.path(), [1.0; 3]);
+        let grey = reflectances(&grey, None).expect("reflectances");
+        assert_eq!(grey.outside, 0.0);
+        assert!(
+            grey.texels[0]
+                .iter()
+                .all(|value| (*value - 1.0).abs() < 1e-5)
+        );
+    }
+
+    #[test]
+    fn lights_keep_colours_outside_of_rec_709_but_no_values_below_0_of_the_file() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let green = wide(folder.path(), [0.0, 2.0, 0.0]);
+        let green = shining(&green, None).expect("light");
+        assert_eq!((green.below, green.outside), (0.0, 1.0));
+        assert!(
+            (green.texels[0][0] + 1.1753).abs() < 1e-3,
+            "{:?}",
+            green.texels
+        );
+        let negative = wide(folder.path(), [-1.0, 2.0, 0.0]);
+        let refused = shining(&negative, None).map(|_| ()).expect_err("no light");
+        assert!(refused.to_string().contains("holds -1"), "{refused}");
     }
 }

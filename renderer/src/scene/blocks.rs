@@ -41,7 +41,7 @@ use std::rc::Rc;
 use leafmodel::document::context::Context;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, NamedList};
-use leafmodel::document::names::{Named, require_name};
+use leafmodel::document::names::{Named, require_title};
 use leafmodel::document::reader::Block;
 use leafmodel::document::schema::BlockSchema;
 use leafmodel::document::sections::Names;
@@ -152,7 +152,7 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
     keys.optional("name", &mut name, Text("a name"), about);
     if let (Some(name), Some(root)) = (name, keys.reader()) {
         let at = root.node("name").map_or(&root.at, |node| &node.at);
-        require_name(root.cx, &name, at);
+        require_title(root.cx, &name, at);
         scene.name = name;
     }
     let mut extrapolate = false;
@@ -304,6 +304,14 @@ fn section<T>(
 /// Reports an error at a key of the present block, or at the block if the key is missing.
 fn report(keys: &Keys<'_>, key: &str, error: DocumentError) {
     keys.report(&[key], error);
+}
+
+/// The key `layer` of a picture.
+fn picture_layer(layer: &mut Option<String>, keys: &mut Keys<'_>) {
+    const LAYER: Text = Text("the name of a layer of the EXR");
+    let about = "The layer of an EXR whose channels R, G and B, or Y alone, are used: `sky` has `sky.R`. \
+        Without it the channels without a layer are.";
+    keys.optional("layer", layer, LAYER, about);
 }
 
 /// A key with the path of a file that must exist.

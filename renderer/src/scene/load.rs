@@ -7,10 +7,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use leafmodel::document::context::QUOTED;
-use leafmodel::document::names::is_name;
+use leafmodel::document::names::{LONGEST_FILE, is_title, may_be_in_a_title};
 use leafmodel::document::opened::Opened;
 use leafmodel::document::report::{DocumentErrors, Warning};
-use leafmodel::document::schema::BlockSchema;
+use leafmodel::document::schema::{self, Alone, BlockSchema};
 use leafmodel::document::source::escaped;
 use leafmodel::plan_file;
 
@@ -51,6 +51,13 @@ pub fn load(path: &Path, overrides: &[String]) -> Result<Loaded, DocumentErrors>
 pub fn load_for_instruments(path: &Path, overrides: &[String]) -> Result<Loaded, DocumentErrors> {
     let opened = Opened::file(path, overrides, schema)?;
     into_scene(opened, &default_name(path), Purpose::Instruments)
+}
+
+/// The kind of the film of the scene file at `path`, if it can be read so far.
+pub fn film_kind(path: &Path, overrides: &[String]) -> Option<String> {
+    let opened = Opened::file(path, overrides, schema).ok()?;
+    let film = opened.tree.get("film")?.node.table()?;
+    Some(film.0.first()?.key.clone())
 }
 
 /// Reads a scene from its text.
@@ -105,6 +112,18 @@ pub fn load_leaves(path: &Path, overrides: &[String]) -> Result<Vec<Named<Leaf>>
     into_leaves(Opened::file(path, overrides, schema)?)
 }
 
+/// A file of leaves only, of which margin and veins may be all.
+const LEAVES_ALONE: Alone = Alone {
+    section: "leaves",
+    without: &["film", "camera", "lights", "objects"],
+    optional: "contents",
+};
+
+/// The JSON Schema of scenes and of files of leaves only.
+pub fn json_schema() -> serde_json::Value {
+    schema::json_schema(&schema(), LEAVES_ALONE, "A scene of Lamina, format 1")
+}
+
 /// Leaves with warnings, or all errors.
 pub type LeavesRead = Result<(Vec<Named<Leaf>>, Vec<Warning>), DocumentErrors>;
 
@@ -113,8 +132,7 @@ pub type LeavesRead = Result<(Vec<Named<Leaf>>, Vec<Warning>), DocumentErrors>;
 pub fn load_if_only_leaves(path: &Path, overrides: &[String]) -> Option<LeavesRead> {
     let mut opened = Opened::file(path, overrides, schema).ok()?;
     let has = |section: &&str| opened.tree.get(section).is_some();
-    let has_leaves = has(&"leaves");
-    if !has_leaves || ["film", "camera", "lights", "objects"].iter().any(has) {
+    if !has(&LEAVES_ALONE.section) || LEAVES_ALONE.without.iter().any(has) {
         return None;
     }
     opened.cx.assets = Some(&DECODER);
@@ -214,17 +232,23 @@ fn default_name(path: &Path) -> String {
     } else {
         of_file.map(std::ffi::OsStr::to_os_string)
     };
-    let name: String = name
+    let mut name: String = name
         .map(|name| name.to_string_lossy().into_owned())
         .unwrap_or_default()
         .chars()
         .take(100)
         .map(|character| {
-            let allowed = character.is_ascii_alphanumeric() || matches!(character, '_' | '-');
-            if allowed { character } else { '-' }
+            if may_be_in_a_title(character) {
+                character
+            } else {
+                '-'
+            }
         })
         .collect();
-    if is_name(&name) {
+    while name.len() > LONGEST_FILE {
+        name.pop();
+    }
+    if is_title(&name) {
         name
     } else {
         "scene".to_owned()

@@ -15,7 +15,11 @@
 mod accessors;
 mod base_colours;
 mod container;
+mod cut_out;
 mod left_out;
+mod masks;
+mod painted;
+mod pictures;
 mod surfaces;
 mod textures;
 
@@ -55,7 +59,7 @@ pub enum ModelError {
     },
     /// It needs an extension that is not known.
     #[error(
-        "it requires the extension {0}, which is not read: save it anew without (export \
+        "it requires the extension {0}, which is not read: save it again without (export \
          uncompressed geometry and PNG or JPEG pictures)"
     )]
     Extension(String),
@@ -121,14 +125,20 @@ pub fn read<'a>(
     let accessors = accessors::Accessors::new(root, &buffers);
     let mut left_out = left_out::of_document(root);
     let mut patches = surfaces::patches(root, &accessors, scale, &mut left_out)?;
-    let slots = base_colours::side_by_side(root, &mut patches, &mut left_out);
+    let some = !patches.is_empty();
+    masks::cut_out(root, &mut patches, &buffers, files)?;
     if patches.is_empty() {
         let only = match left_out.iter().find(|what| what.contains("lines")) {
+            _ if some => " that the alpha masks of its materials leave",
             Some(_) => ", only lines and points",
             None => "",
         };
         return Err(ModelError::NoTriangles(only.to_owned()));
     }
+    if colours {
+        painted::paint(root, &mut patches, &mut left_out);
+    }
+    let slots = base_colours::side_by_side(root, &mut patches, &mut left_out);
     let colours = if colours {
         Some(base_colours::colours(root, &slots, &buffers, files)?)
     } else {

@@ -355,6 +355,7 @@ fn hang(
     let pattern = (panel.edge < 1.0).then_some(AreaPattern {
         edge: panel.edge,
         picture: None,
+        layer: None,
     });
     let light = Light::Area {
         object: scene.objects.len() - 1,

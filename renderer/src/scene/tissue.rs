@@ -7,7 +7,7 @@ use leafmodel::optics::solid::ReflectanceTable;
 use super::description::{self, Fluorescence, LeafFaces, LeafOptics, SolidOptics};
 use crate::bsdf::leaf::Coat;
 use crate::material::held::Held;
-use crate::material::leaf::{LeafMaterial, LeafTissue};
+use crate::material::leaf::{Abaxial, LeafMaterial, LeafTissue};
 use crate::material::palette::Palette;
 use crate::material::solid::SolidMaterial;
 use crate::spectrum::Curve;
@@ -19,8 +19,12 @@ pub(super) fn leaf(
     faces: &LeafFaces,
     fluorescence: Option<Fluorescence>,
 ) -> LeafMaterial {
-    let ratio = faces.abaxial_ratio.as_ref().map(Curve::from_description);
-    let leaf = LeafMaterial::new(tissue, palette, ratio, faces.coats.map(coat_of));
+    let curve = |spectrum: &Option<_>| spectrum.as_ref().map(Curve::from_description);
+    let abaxial = match curve(&faces.abaxial_reflectance) {
+        Some(reflectance) => Some(Abaxial::Reflectance(reflectance.into())),
+        None => curve(&faces.abaxial_ratio).map(|ratio| Abaxial::Ratio(ratio.into())),
+    };
+    let leaf = LeafMaterial::new(tissue, palette, abaxial, faces.coats.map(coat_of));
     let leaf = match fluorescence {
         Some(own) => leaf.fluorescing(own.quantum_efficiency),
         None => leaf,

@@ -5,11 +5,12 @@ mod error;
 mod light_colours;
 mod lights;
 mod materials;
+pub mod memory;
 pub(in crate::scene) mod meshes;
 mod middle;
 mod notes;
 mod placing;
-mod recentred;
+mod seen;
 mod strewing;
 #[cfg(test)]
 mod tests;
@@ -24,12 +25,14 @@ use rayon::prelude::*;
 
 use self::bodies::{around, build_media, set_bodies, set_drops};
 pub use self::error::WorldError;
-use self::light_colours::{check_white, light_colours};
+use self::light_colours::{brightest, check_brightness, check_white, light_colours};
 use self::lights::build_lights;
 use self::materials::{Known, build_materials};
 use self::meshes::build_mesh;
+pub use self::notes::on_mesh;
 pub use self::placing::{Pieces, WorldObject, WorldObjects};
 use self::placing::{Placed, place};
+use self::seen::Seen;
 pub use self::strewing::Places;
 use self::strewing::Strewing;
 use crate::camera::Camera;
@@ -44,7 +47,7 @@ use crate::material::colour_map::ColourMap;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
 use crate::medium::Media;
-use crate::scene::description::{self, Description, Named, Object};
+use crate::scene::description::{self, Description};
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::plants::{self, Piece};
 use crate::spectrum::{WavelengthGrid, WavelengthSampler};
@@ -52,11 +55,9 @@ use crate::spectrum::{WavelengthGrid, WavelengthSampler};
 /// Everything that paths need.
 #[derive(Debug)]
 pub struct World {
-    /// The placed surfaces, around [`World::origin`].
+    /// The placed surfaces. Its [origin](Geometry::origin) is also that of the lights and the
+    /// camera.
     pub geometry: Geometry,
-    /// Where the origin of the geometry, the lights and the camera lies in the scene, m
-    /// ([`View::origin`](crate::camera::view::View::origin)).
-    pub origin: DVec3,
     /// The object, material and light of each instance of the geometry.
     pub objects: WorldObjects,
     /// The parts of leaves and bodies.
@@ -79,7 +80,7 @@ pub struct World {
     pub selections: Selections,
     /// The camera.
     pub camera: Camera,
-    /// Its view, in the scene's own coordinates and focused.
+    /// Its view, focused.
     pub view: View,
     /// The pixel filter.
     pub filter: PixelFilter,
@@ -87,6 +88,8 @@ pub struct World {
     pub integrator: description::Integrator,
     /// The wavelengths of paths.
     pub wavelengths: WavelengthSampler,
+    /// A radiance that lights exceed nowhere, W m⁻² sr⁻¹ nm⁻¹; infinite if one has no extent.
+    pub brightest: f32,
     /// Whether any of its materials fluoresces.
     pub fluoresces: bool,
     /// Notes for the user, such as dropped faces or clamped reflectance.
@@ -121,6 +124,8 @@ pub struct BuildOptions<'a> {
     pub at_rest: Option<&'a AtomicUsize>,
     /// Wavelengths of paths that are not the film's.
     pub wavelengths: Option<&'a WavelengthSampler>,
+    /// Most memory that meshes with their trees and the places of objects may take, bytes.
+    pub most_bytes: Option<f64>,
 }
 
 impl World {
@@ -139,39 +144,13 @@ impl World {
     ///
     /// As [`World::build`]; a cache that fails only gives a note.
     pub fn build_with(scene: &Description, options: &BuildOptions<'_>) -> Result<Self, WorldError> {
-        let origin = scene.camera.view.origin();
-        if origin == DVec3::ZERO {
-            Self::build_around(scene, &scene.objects, origin, options)
-        } else {
-            let moved = recentred::moved(scene, -origin);
-            let mut world = Self::build_around(&moved, &scene.objects, origin, options)?;
-            let View {
-                position, look_at, ..
-            } = scene.camera.view;
-            world.view = View {
-                position,
-                look_at,
-                ..world.view
-            };
-            Ok(world)
-        }
-    }
-
-    /// Builds a scene whose camera is near the origin, which lies at `origin` in the scene as
-    /// written, whose objects are given too.
-    fn build_around(
-        scene: &Description,
-        objects_as_written: &[Named<Object>],
-        origin: DVec3,
-        options: &BuildOptions<'_>,
-    ) -> Result<Self, WorldError> {
         let mut notes = Vec::new();
         let (mut meshes, colours) = build_meshes(scene, &mut notes)?;
         let of_film = || WavelengthSampler::new(&scene.film.kind);
         let wavelengths = options.wavelengths.cloned().unwrap_or_else(of_film);
         let range_nm = wavelengths.range_nm();
         let mut known = Known::on(wavelengths.grid());
-        let mut materials = build_materials(scene, &colours, &mut known)?;
+        let mut materials = build_materials(scene, &colours, &mut known, &mut notes)?;
         let names = scene.materials.iter().map(|named| named.name.as_str());
         notes.extend(notes::on_maps(names.zip(&materials)));
         notes.extend(notes::on_missing_uvs(scene, &meshes, &materials));
@@ -182,12 +161,8 @@ impl World {
             || grow_leaves(scene, for_leaves, options),
             || grow_solids(scene, for_solids),
         );
-        notes.extend(
-            options
-                .cache
-                .map(PlantCache::take_notes)
-                .unwrap_or_default(),
-        );
+        let of_cache = options.cache.map(PlantCache::take_notes);
+        notes.extend(of_cache.into_iter().flatten());
         // The pieces of each leaf, with the scene's numbers of meshes and materials.
         let mut leaves: Vec<Vec<Piece>> = Vec::new();
         for (number, grown) in grown_leaves?.into_iter().enumerate() {
@@ -199,8 +174,7 @@ impl World {
             leaves.push(pieces.collect());
             meshes.extend(grown.meshes);
             for (part, material) in grown.materials.into_iter().enumerate() {
-                let leaf = number;
-                owners.push(MaterialOwner::Leaf { leaf, part });
+                owners.push(MaterialOwner::Leaf { leaf: number, part });
                 materials.push(Material::Leaf(Box::new(material)));
             }
         }
@@ -217,36 +191,38 @@ impl World {
         }
         notes.extend(notes::on_coats(scene, &materials, &owners, range_nm));
         let pieces = Pieces { leaves, solids };
-        let (strewn, told) =
-            Strewing::new(&meshes, &pieces, objects_as_written, options.at_rest).all()?;
-        notes.extend(told);
-        let strewn_around = strewing::around(&strewn, origin);
+        let limits = (options.most_bytes, options.at_rest);
+        let strewing = Strewing::new(&meshes, &pieces, &scene.objects, limits)?;
+        let strewn = strewing.all(&mut notes)?;
+        let strewn_places = strewing::as_places(&strewn);
+        notes.extend(notes::on_sizes(scene, &meshes, &pieces, &strewn_places));
         let Placed {
             instances,
             mut objects,
             first,
-        } = place(scene, &pieces, &strewn_around);
+        } = place(scene, &pieces, &strewn_places);
         set_drops(&mut objects, scene, &owners, &instances);
         let mut media = build_media(scene, wavelengths.grid());
         if media.are_present {
             set_bodies(&mut objects, scene, &owners, (&meshes, &instances))?;
         }
-        let view = scene
+        let mut view = scene
             .camera
             .view_on(|object| middle::of_object(object, &meshes, &instances, &objects))
             .map_err(WorldError::Focus)?;
+        let seen = (&meshes[..], &instances[..], &objects);
+        let origin = look(scene, &mut view, seen, options, &mut notes);
         let placed = (&meshes[..], &instances[..], &first[..]);
-        let mut lights = all_lights(scene, placed, &mut objects, &mut notes)?;
+        let mut lights = all_lights(scene, placed, origin, &mut objects, &mut notes)?;
         let light_colours = colours_on_film(scene, &lights, &wavelengths, options)?;
         tabulate(&mut materials, &mut lights, wavelengths.grid());
         let fluoresces = materials.iter().any(|own| own.fluorescing().is_some());
-        let geometry = Geometry::build(meshes, instances)?;
+        let geometry = Geometry::build_around(origin, meshes, instances)?;
         if media.are_present {
-            media.around_camera = around(view.position.as_vec3(), &geometry, &objects);
+            media.around_camera = around((view.start() - origin).as_vec3(), &geometry, &objects);
         }
         Ok(Self {
             geometry,
-            origin,
             objects,
             pieces,
             strewn,
@@ -254,6 +230,7 @@ impl World {
             media,
             owners,
             palettes: known.palettes,
+            brightest: brightest(&lights, &wavelengths, fluoresces),
             selections: Selections::new(&lights, lit_range(range_nm, fluoresces)),
             lights,
             light_colours,
@@ -282,6 +259,23 @@ fn lit_range([first, last]: [f64; 2], fluoresces: bool) -> [f64; 2] {
     }
 }
 
+/// Finds out what a view shows and where its rays are traced, and returns the origin for them.
+fn look(
+    scene: &Description,
+    view: &mut View,
+    (meshes, instances, objects): (&[TriangleMesh], &[Instance], &WorldObjects),
+    options: &BuildOptions<'_>,
+    notes: &mut Vec<String>,
+) -> DVec3 {
+    let seen = Seen::of(scene, view, meshes, instances);
+    view.near = seen.near();
+    // Instruments look at what they measure, wherever the camera is.
+    if options.wavelengths.is_none() {
+        notes.extend(seen.notes(scene, meshes, (instances, objects)));
+    }
+    view.near.origin
+}
+
 /// The colours of the lights on the film, if there is one: instruments have wavelengths of their own.
 fn colours_on_film(
     scene: &Description,
@@ -292,6 +286,7 @@ fn colours_on_film(
     if options.wavelengths.is_some() {
         return Ok(Vec::new());
     }
+    check_brightness(scene, lights, wavelengths)?;
     let colours = light_colours(scene, lights, wavelengths);
     check_white(scene, &colours)?;
     Ok(colours)
@@ -311,6 +306,7 @@ fn tabulate(materials: &mut [Material], lights: &mut [Light], grid: &WavelengthG
 fn all_lights(
     scene: &Description,
     (meshes, instances, first): (&[TriangleMesh], &[Instance], &[usize]),
+    origin: DVec3,
     objects: &mut WorldObjects,
     notes: &mut Vec<String>,
 ) -> Result<Vec<Light>, WorldError> {
@@ -325,6 +321,7 @@ fn all_lights(
             &light.value,
             meshes,
             instance_of,
+            origin,
             notes,
         )?);
     }
@@ -342,16 +339,7 @@ fn build_meshes(
     let (mut meshes, mut colours) = (Vec::new(), Vec::new());
     for (number, mesh) in scene.meshes.iter().enumerate() {
         let built = build_mesh(&mesh.name, &mesh.value, scene.wants_colours_of(number))?;
-        if built.mesh.dropped().total() > 0 {
-            notes.push(format!("meshes.{}: {}", mesh.name, built.mesh.dropped()));
-        }
-        if !built.left_out.is_empty() {
-            let parts = built.left_out.join(", ");
-            notes.push(format!(
-                "meshes.{}: left out of its file: {parts}",
-                mesh.name
-            ));
-        }
+        notes.extend(on_mesh(&mesh.name, &built.mesh, &built.left_out));
         meshes.push(built.mesh);
         colours.push(built.colours);
     }

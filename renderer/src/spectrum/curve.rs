@@ -2,7 +2,7 @@
 
 use super::written;
 use crate::spectrum::cie;
-use crate::spectrum::grid::Wavelengths;
+use crate::spectrum::grid::{Share, Wavelengths};
 use crate::spectrum::lanes::Lanes;
 use crate::spectrum::planck;
 
@@ -25,7 +25,7 @@ pub enum Curve {
     /// Points at wavelengths that rise strictly.
     Points {
         /// At least two wavelengths, nm.
-        nm: Box<[f32]>,
+        nm: Box<[f64]>,
         /// A value for each.
         values: Box<[f32]>,
     },
@@ -55,7 +55,7 @@ impl Curve {
             [] => Self::Constant(0.0),
             [(_, value)] => Self::Constant(*value as f32),
             _ => Self::Points {
-                nm: points.iter().map(|point| point.0 as f32).collect(),
+                nm: points.iter().map(|point| point.0).collect(),
                 values: points.iter().map(|point| point.1 as f32).collect(),
             },
         }
@@ -87,14 +87,15 @@ impl Curve {
                 values[below] * (1.0 - share) + values[below + 1] * share
             }
             Self::Points { nm: places, values } => {
-                let above = places.partition_point(|&place| place <= nm);
+                let above = places.partition_point(|&place| place as f32 <= nm);
                 if above == 0 {
                     return values[0];
                 }
                 if above == places.len() {
                     return values[above - 1];
                 }
-                let share = (nm - places[above - 1]) / (places[above] - places[above - 1]);
+                let [low, high] = [above - 1, above].map(|i| places[i] as f32);
+                let share = (nm - low) / (high - low);
                 values[above - 1] * (1.0 - share) + values[above] * share
             }
         }
@@ -139,11 +140,67 @@ impl Curve {
             }
             Self::Points { nm, values } => {
                 let points = nm.iter().zip(values);
-                points
-                    .map(|(nm, value)| (f64::from(*nm), f64::from(*value)))
-                    .collect()
+                points.map(|(nm, value)| (*nm, f64::from(*value))).collect()
             }
         }
+    }
+
+    /// Number of points, and the wavelength and the value of one, nm.
+    fn point(&self) -> (usize, impl Fn(usize) -> (f64, f64)) {
+        let count = match self {
+            Self::Constant(_) => 1,
+            Self::Uniform { values, .. } | Self::Points { values, .. } => values.len(),
+        };
+        let point = move |i: usize| match self {
+            Self::Constant(value) => (560.0, f64::from(*value)),
+            Self::Uniform {
+                first_nm,
+                per_nm,
+                values,
+            } => {
+                let nm = f64::from(*first_nm) + i as f64 / f64::from(*per_nm);
+                (nm, f64::from(values[i]))
+            }
+            Self::Points { nm, values } => (nm[i], f64::from(values[i])),
+        };
+        (count, point)
+    }
+
+    /// Mean over what a wavelength represents: exact, so that no line is too narrow to count.
+    pub fn over(&self, share: &Share) -> f32 {
+        let [first, last] = share.edges_nm;
+        let (count, point) = self.point();
+        let (mut low, mut high) = (0, count);
+        while low < high {
+            let middle = usize::midpoint(low, high);
+            if point(middle).0 <= first {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        // Where it is straight, the mean is the value in the middle.
+        if low == count || point(low).0 >= last {
+            return self.at(share.nm);
+        }
+        let value = |nm: f64, i: usize| {
+            let next = point(i.min(count - 1));
+            let before = point(i.saturating_sub(1));
+            if i == 0 || i == count {
+                return next.1;
+            }
+            before.1 + (next.1 - before.1) * (nm - before.0) / (next.0 - before.0)
+        };
+        let mut from = (first, value(first, low));
+        let mut sum = 0.0;
+        while low < count && point(low).0 < last {
+            let to = point(low);
+            sum += 0.5 * (from.1 + to.1) * (to.0 - from.0);
+            from = to;
+            low += 1;
+        }
+        sum += 0.5 * (from.1 + value(last, low)) * (last - from.0);
+        (sum / (last - first)) as f32
     }
 
     /// The curve as a scene would write it.
@@ -154,12 +211,9 @@ impl Curve {
         }
     }
 
-    /// Mean over equal steps of a range in nm: a rough measure, for the choice of lights.
-    pub fn mean_over(&self, range_nm: [f64; 2]) -> f32 {
-        const STEPS: usize = 32;
-        let at =
-            |i: usize| range_nm[0] + (range_nm[1] - range_nm[0]) * (i as f64 + 0.5) / STEPS as f64;
-        (0..STEPS).map(|i| self.at(at(i) as f32)).sum::<f32>() / STEPS as f32
+    /// Mean over a range in nm.
+    pub fn mean_over(&self, [first, last]: [f64; 2]) -> f32 {
+        self.over(&Share::around(0.5 * (first + last), last - first))
     }
 }
 

@@ -6,7 +6,7 @@
 //! - **Always true**: the shares lie side by side and fill the range, so that whatever the density,
 //!   what the observer sees of all is what it sees of the range: the density changes noise only.
 
-use super::grid::ROWS;
+use super::grid::{ROWS, Share};
 use super::observer::Observer;
 use super::observer::fit::reflectances;
 use crate::spectrum::cie;
@@ -145,6 +145,14 @@ impl Shares {
     /// The wavelength that stands for a share, nm.
     pub(super) fn middle(&self, row: usize, lane: usize) -> f64 {
         self.drawn(row as f64 + 0.5, lane)
+    }
+
+    /// A share with its wavelength.
+    pub(super) fn share(&self, row: usize, lane: usize) -> Share {
+        Share {
+            nm: self.middle(row, lane) as f32,
+            edges_nm: [row as f64, row as f64 + 1.0].map(|row| self.drawn(row, lane)),
+        }
     }
 
     /// What is seen of a share in all. A wavelength represents its whole share: the observer is

@@ -27,21 +27,60 @@ impl<const N: usize> Wavelengths<N> {
     }
 }
 
+/// A wavelength and the part of the range that it represents.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share {
+    /// The wavelength, nm.
+    pub nm: f32,
+    /// Where its part begins and ends, nm; both are the same if it represents itself alone.
+    pub edges_nm: [f64; 2],
+}
+
+impl Share {
+    /// A wavelength that represents itself alone, nm.
+    pub fn only(nm: f32) -> Self {
+        Self {
+            nm,
+            edges_nm: [f64::from(nm); 2],
+        }
+    }
+
+    /// A wavelength in the middle of a part of this width, nm.
+    pub fn around(nm: f64, width_nm: f64) -> Self {
+        Self {
+            nm: nm as f32,
+            edges_nm: [nm - 0.5 * width_nm, nm + 0.5 * width_nm],
+        }
+    }
+}
+
 /// The sets of wavelengths of a picture, or of instruments.
 #[derive(Clone, Debug)]
 pub struct WavelengthGrid {
     pub(super) lanes: usize,
     /// Wavelengths by row and lane, nm.
     pub(super) nm: Box<[f32]>,
+    /// Ends of the part of the range that each represents, nm; empty if each represents itself.
+    edges_nm: Box<[[f64; 2]]>,
 }
 
 impl WavelengthGrid {
-    pub(super) fn new(lanes: usize, mut nm: impl FnMut(usize, usize) -> f32) -> Self {
+    pub(super) fn new(lanes: usize, mut share: impl FnMut(usize, usize) -> Share) -> Self {
         let places = (0..ROWS).flat_map(|row| (0..lanes).map(move |lane| (row, lane)));
+        let shares: Vec<Share> = places.map(|(row, lane)| share(row, lane)).collect();
         Self {
             lanes,
-            nm: places.map(|(row, lane)| nm(row, lane)).collect(),
+            nm: shares.iter().map(|share| share.nm).collect(),
+            edges_nm: shares.iter().map(|share| share.edges_nm).collect(),
         }
+    }
+
+    /// A wavelength with the part of the range that it represents.
+    pub fn share(&self, row: usize, lane: usize) -> Share {
+        let place = row * self.lanes + lane;
+        let nm = self.nm[place];
+        let edges_nm = self.edges_nm.get(place);
+        edges_nm.map_or(Share::only(nm), |&edges_nm| Share { nm, edges_nm })
     }
 
     /// Sets of given wavelengths, nm, of `lanes` each; their number is a multiple of `lanes`.
@@ -50,7 +89,14 @@ impl WavelengthGrid {
         Self {
             lanes,
             nm: nm.into(),
+            edges_nm: Box::default(),
         }
+    }
+
+    /// All wavelengths with the parts of the range that they represent, row by row.
+    pub fn shares(&self) -> impl Iterator<Item = Share> + '_ {
+        let places = 0..self.nm.len();
+        places.map(|place| self.share(place / self.lanes, place % self.lanes))
     }
 
     /// The set with this number.

@@ -8,7 +8,7 @@
 use std::sync::OnceLock;
 
 use crate::spectrum::curve::Curve;
-use crate::spectrum::grid::{WavelengthGrid, Wavelengths};
+use crate::spectrum::grid::{Share, WavelengthGrid, Wavelengths};
 use crate::spectrum::lanes::Lanes;
 use crate::spectrum::table::parse_shipped;
 use crate::spectrum::tabulated::Table;
@@ -62,7 +62,9 @@ impl Primaries {
 
     /// Evaluates them at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
-        self.table = Some(Table::new(grid, |nm| self.at(nm)));
+        self.table = Some(Table::by_place(grid, |row, lane| {
+            self.over(&grid.share(row, lane))
+        }));
     }
 
     /// Red, green and blue as curves over every wavelength of a film.
@@ -70,13 +72,15 @@ impl Primaries {
         let [first, last] = CURVES_NM;
         [0, 1, 2].map(|primary| {
             Curve::uniform(first, 1.0, (last - first) as usize, |nm| {
-                f64::from(self.at(nm as f32)[primary])
+                f64::from(self.over(&Share::only(nm as f32))[primary])
             })
         })
     }
 
-    fn at(&self, nm: f32) -> [f32; 3] {
-        basis_at(nm).map(|basis| basis * self.white.at(nm))
+    /// Means over what a wavelength represents.
+    pub fn over(&self, share: &Share) -> [f32; 3] {
+        let white = self.white.over(share);
+        basis_at(share.nm).map(|basis| basis * white)
     }
 
     /// The spectrum of a linear colour at a path's wavelengths.
@@ -88,7 +92,7 @@ impl Primaries {
     ) -> Lanes<N> {
         let row = self.table.as_ref().and_then(|table| table.row(wavelengths));
         let [red, green, blue] = row.unwrap_or_else(|| {
-            let values = wavelengths.nm.map(|nm| self.at(nm));
+            let values = wavelengths.nm.map(|nm| self.over(&Share::only(nm)));
             std::array::from_fn(|primary| Lanes::from_fn(|lane| values[lane][primary]))
         });
         red * r + green * g + blue * b

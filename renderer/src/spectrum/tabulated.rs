@@ -75,12 +75,14 @@ impl Spectrum {
         &self.curve
     }
 
-    /// Evaluates it at every wavelength of a grid.
+    /// Evaluates it at every wavelength of a grid, as the mean over what that represents.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         self.table = match &self.curve {
             Curve::Constant(_) => None,
             Curve::Uniform { .. } | Curve::Points { .. } => {
-                Some(Table::new(grid, |nm| [self.curve.at(nm)]))
+                Some(Table::by_place(grid, |row, lane| {
+                    [self.curve.over(&grid.share(row, lane))]
+                }))
             }
         };
     }
@@ -101,7 +103,7 @@ mod tests {
     use crate::spectrum::recorded::FilmKind;
 
     #[test]
-    fn a_tabulated_spectrum_has_the_values_of_its_curve() {
+    fn a_tabulated_spectrum_has_the_values_of_its_curve_where_that_is_straight() {
         let sampler = WavelengthSampler::new(&FilmKind::Rgb {
             range_nm: [360.0, 830.0],
             observer: crate::spectrum::observer::Observer::Cie1931,
@@ -114,9 +116,44 @@ mod tests {
             }
             for row in 0..ROWS {
                 let drawn = sampler.draw::<8>((row as f32 + 0.5) / ROWS as f32);
-                assert_eq!(spectrum.lanes(&drawn), curve.lanes(&drawn));
+                let table = spectrum.lanes(&drawn);
+                let straight = |lane: &usize| {
+                    let [first, last] = sampler.grid().share(row, *lane).edges_nm;
+                    ![400.0, 500.0, 520.0]
+                        .iter()
+                        .any(|nm| first < *nm && *nm < last)
+                };
+                for lane in (0..8).filter(straight) {
+                    assert_eq!(table.0[lane], curve.lanes(&drawn).0[lane]);
+                }
                 let free = Wavelengths::new(drawn.nm);
                 assert_eq!(spectrum.lanes(&free), curve.lanes(&drawn));
+            }
+        }
+    }
+
+    #[test]
+    fn lines_narrower_than_a_share_are_recorded_whole_wherever_they_lie() {
+        let rgb = FilmKind::Rgb {
+            range_nm: [360.0, 830.0],
+            observer: crate::spectrum::observer::Observer::Cie1931,
+        };
+        let sampler = WavelengthSampler::new(&rgb);
+        for step in 0..40 {
+            // A triangle of area 10 at one of places that are 0.05 nm apart.
+            let nm = 550.0 + 0.05 * f64::from(step);
+            for half in [0.1, 0.01, 0.001] {
+                let top = 10.0 / half;
+                let points = [(nm - half, 0.0), (nm, top), (nm + half, 0.0)];
+                let curve = Curve::from_points(&points);
+                let found = sampler.recorded(&|share| curve.over(share).into());
+                let seen = crate::spectrum::observer::Observer::Cie1931.srgb_at(nm);
+                let most = seen.iter().fold(0.0_f64, |most, seen| most.max(seen.abs()));
+                for (found, seen) in found.into_iter().zip(seen) {
+                    // What the observer sees changes within a share.
+                    let off = (found - 10.0 * seen).abs();
+                    assert!(off < 4e-3 * 10.0 * most, "{nm} {half}: {found} {seen}");
+                }
             }
         }
     }

@@ -2,11 +2,12 @@
 //!
 //! A picture's paths carry one of [`ROWS`] sets of wavelengths: the centres of `ROWS × lanes` equal
 //! shares of the distribution, so some 0.2 nm apart in a colour picture. Everything that depends on
-//! wavelength alone is tabulated for them ([`Table`]) and never computed along a path.
+//! wavelength alone is tabulated for them ([`Table`]) and never computed along a path. Tables of
+//! spectra hold means over the shares, so that no line is too narrow to be met.
 
 use super::density::{Distribution, LANES, Shares};
 use super::recorded::{Band, FilmKind};
-pub use crate::spectrum::grid::{ROWS, WavelengthGrid, Wavelengths};
+pub use crate::spectrum::grid::{ROWS, Share, WavelengthGrid, Wavelengths};
 use crate::spectrum::lanes::Lanes;
 use crate::spectrum::observer::Observer;
 use crate::spectrum::tabulated::Table;
@@ -59,7 +60,7 @@ impl WavelengthSampler {
         // samples of a pixel are stratified over the rows, and the eight wavelengths of each sample
         // over the whole range.
         let shares = Shares(Distribution::of(range_nm, observer));
-        let grid = WavelengthGrid::new(LANES, |row, lane| shares.middle(row, lane) as f32);
+        let grid = WavelengthGrid::new(LANES, |row, lane| shares.share(row, lane));
         let srgb_at = |nm: f64| observer.srgb_at(nm);
         let channels_at = |nm: f64| observer.channels_at(nm);
         let weights = Table::by_place(&grid, |row, lane| {
@@ -94,7 +95,8 @@ impl WavelengthSampler {
         let grid = WavelengthGrid::new(lanes_of(bands.len()), |row, lane| {
             let band = bands[lane % bands.len()];
             let share = (row as f64 + 0.5) / ROWS as f64;
-            (band.center_nm + (share - 0.5) * band.width_nm) as f32
+            let middle = band.center_nm + (share - 0.5) * band.width_nm;
+            Share::around(middle, band.width_nm / ROWS as f64)
         });
         Self {
             grid,
@@ -186,9 +188,9 @@ impl WavelengthSampler {
         }
     }
 
-    /// The film values of light of this spectrum, a function of nm, over all wavelengths that are
-    /// drawn: what samples of it converge to.
-    pub fn recorded(&self, spectrum: &dyn Fn(f32) -> f64) -> Vec<f64> {
+    /// The film values of light of this spectrum, a function of the shares of the range, over all
+    /// wavelengths that are drawn: what samples of it converge to.
+    pub fn recorded(&self, spectrum: &dyn Fn(&Share) -> f64) -> Vec<f64> {
         match self.grid.lanes() {
             4 => self.mean_over_rows::<4>(spectrum),
             8 => self.mean_over_rows::<8>(spectrum),
@@ -197,12 +199,13 @@ impl WavelengthSampler {
         }
     }
 
-    fn mean_over_rows<const N: usize>(&self, spectrum: &dyn Fn(f32) -> f64) -> Vec<f64> {
+    fn mean_over_rows<const N: usize>(&self, spectrum: &dyn Fn(&Share) -> f64) -> Vec<f64> {
         let rows = self.grid.rows();
         let mut sums = vec![0.0; self.channels()];
         for row in 0..rows {
             let wavelengths = self.grid.set::<N>(row);
-            let radiance = wavelengths.nm.map(spectrum);
+            let radiance: [f64; N] =
+                std::array::from_fn(|lane| spectrum(&self.grid.share(row, lane)));
             for (channel, sum) in sums.iter_mut().enumerate() {
                 *sum += match &self.kind {
                     Kind::Rgb { weights, .. } => {

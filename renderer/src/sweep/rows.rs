@@ -4,7 +4,7 @@ use std::path::Path;
 
 use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::error::DocumentError;
-use leafmodel::document::rows::{Field, Rows};
+use leafmodel::document::rows::{Field, Ragged, Row, Rows, without_mark};
 use leafmodel::document::source::{Place, escaped};
 
 use super::{Axis, Cell, Key, MOST_TASKS, cell, impossible};
@@ -30,14 +30,26 @@ pub(super) fn read(cx: &Context, path: &Path, written: &str, at: &Place) -> Opti
         }
     };
     let errors = cx.error_count();
-    let mut records = Rows::of(cx, escaped(written, QUOTED), &text).records();
+    let text = without_mark(&text);
+    let source = cx.sources.borrow_mut().add(escaped(written, QUOTED), text);
+    let table = Rows::of(text);
+    let good = |row: Result<Row, Ragged>| {
+        let ragged = row.map(|row| row.fields);
+        ragged
+            .map_err(|ragged| cx.error(&ragged.at(source), ragged.error()))
+            .ok()
+    };
+    let mut records = table
+        .records()
+        .take_while(|_| !cx.is_full())
+        .filter_map(good);
     let keys = records
         .next()
-        .map_or_else(Vec::new, |names| header(cx, names));
+        .map_or_else(Vec::new, |names| header(cx, source, names));
     // One more than may be, which the sweep refuses.
     let rows = records
         .take(MOST_TASKS + 1)
-        .filter_map(|fields| row(cx, &keys, fields))
+        .filter_map(|fields| row(cx, source, &keys, fields))
         .collect();
     let axis = Axis { keys, rows };
     if axis.rows.is_empty() && cx.error_count() == errors {
@@ -49,8 +61,9 @@ pub(super) fn read(cx: &Context, path: &Path, written: &str, at: &Place) -> Opti
     (cx.error_count() == errors).then_some(axis)
 }
 
-fn header(cx: &Context, names: Vec<Field>) -> Vec<Key> {
-    let keys = names.into_iter().map(|Field { text: path, at }| {
+fn header(cx: &Context, source: usize, names: Vec<Field>) -> Vec<Key> {
+    let keys = names.into_iter().map(|name| {
+        let (at, path) = (name.at(source), name.text);
         if path.is_empty() {
             let help = "write the key that the column sets";
             impossible(cx, &at, "", "a column without a key", help);
@@ -60,9 +73,9 @@ fn header(cx: &Context, names: Vec<Field>) -> Vec<Key> {
     keys.collect()
 }
 
-fn row(cx: &Context, keys: &[Key], fields: Vec<Field>) -> Option<Vec<Cell>> {
+fn row(cx: &Context, source: usize, keys: &[Key], fields: Vec<Field>) -> Option<Vec<Cell>> {
     let cells = fields.into_iter().zip(keys);
     cells
-        .map(|(field, key)| cell(cx, &key.path, &field.text, field.at))
+        .map(|(field, key)| cell(cx, &key.path, &field.text, field.at(source)))
         .collect()
 }

@@ -264,7 +264,7 @@ const SLIPS: &[(&str, &str, [&str; 3])] = &[
         "a,b\n1,2\n3\n",
         [
             "rows.csv:3:1",
-            "a row of 1 values under 2 names",
+            "the line has 1 values, but there are 2 columns",
             "one value for each name",
         ],
     ),

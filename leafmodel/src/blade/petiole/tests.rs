@@ -444,3 +444,51 @@ fn the_rim_of_a_peltate_petiole_lies_on_both_sides_of_the_blade() {
     };
     assert!(near(-0.0161, 0.0) >= 8 && near(0.0, 0.0161) >= 8);
 }
+
+#[test]
+fn a_petiole_is_a_tube_even_where_veins_are_thicker_than_it_is_long() {
+    let outline = ellipse(0.15, 0.43, 60);
+    let node = |i: u32| VeinNode {
+        position: DVec2::new(0.0, f64::from(i) * 0.03),
+        born: i,
+    };
+    let edge = |i: u32| VeinEdge {
+        from: i,
+        to: i + 1,
+        radius_from: 52.0,
+        radius_to: 51.0,
+        order: 1,
+    };
+    let network = VenationNetwork::from_parts(
+        (0..=12).map(node).collect(),
+        (0..12).map(edge).collect(),
+        0.03,
+    )
+    .expect("a midrib");
+    for curl in [-2.9, -1.5, 0.0, 1.5, 2.967] {
+        for relief in [0.0, 0.27, 1.0] {
+            let plan = PetiolePlan {
+                length: 0.139,
+                radius_mm: Some(0.017),
+                curl,
+                course: Course {
+                    sag: 0.5 * curl,
+                    neck: 2.0,
+                    neck_length: 0.02,
+                    ..Course::STRAIGHT
+                },
+                section: Section::default(),
+            };
+            let form = BladeForm { relief, ..flat() };
+            let tube = plan.build(&outline, &network, &form).expect("a petiole");
+            assert!(
+                tube.positions.iter().all(|p| p.is_finite()),
+                "{curl} {relief}"
+            );
+            assert!(
+                tube.normals.iter().all(|n| n.is_finite()),
+                "{curl} {relief}"
+            );
+        }
+    }
+}

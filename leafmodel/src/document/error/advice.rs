@@ -48,7 +48,7 @@ impl DocumentError {
             None => format!("{what}: {known}"),
         };
         Some(match self {
-            Self::Syntax { .. } => return None,
+            Self::Syntax { help, .. } => return help.clone(),
             Self::Duplicate { .. } | Self::Conflict { .. } => "keep one of the two".to_owned(),
             Self::NotAnOverride { .. } => {
                 "write it as in the file, text in quotes: `-D film.rgb.spp=16`, \
@@ -80,7 +80,8 @@ impl DocumentError {
             }
             Self::UnknownWord { nearest, known, .. } => meant(nearest, known, "choices"),
             Self::PathOutside { .. } => {
-                "copy the file into the scene's folder and name it by its path from there"
+                "copy the file into the scene's folder and name it by its path from there, or allow \
+                 its folder with `--allow DIR`"
                     .to_owned()
             }
             Self::FileMissing {

@@ -8,6 +8,9 @@ use crate::document::reader::Block;
 use crate::document::source::Place;
 use crate::document::tree::{Node, Value};
 
+/// Name of a preset that is misspelt.
+pub(super) const UNKNOWN: &str = "";
+
 impl<'p> Keys<'p> {
     /// Reports two keys that shut each other out, if both are there.
     pub fn exclude(&mut self, first: &'static str, second: &'static str) {
@@ -82,6 +85,12 @@ impl<'p> Keys<'p> {
         if let Pass::Read(reading) = &mut self.pass {
             reading.base = Some(Rc::from(preset));
         }
+    }
+
+    /// Notes that a preset stands beneath whose name is misspelt. Whatever is missing may be its, so
+    /// that one error is enough.
+    pub fn set_unknown_base(&mut self) {
+        self.set_base(UNKNOWN);
     }
 
     /// Reports what is wrong with values that are allowed one by one, at the deepest part of the

@@ -1,5 +1,6 @@
 //! Values that are of one of several kinds.
 
+use super::checks::UNKNOWN;
 use super::{Keys, Pass, fresh};
 use crate::document::schema::{BlockSchema, EntrySchema, Group, Is};
 
@@ -58,10 +59,10 @@ impl Keys<'_> {
                 let mut below = reading.base.clone();
                 if kept != Some(name) {
                     *value = (variant.new)();
-                    if let Some((preset, current)) = base {
+                    if let Some((preset, current)) = base.filter(|(preset, _)| *preset != UNKNOWN) {
                         inner.starts_anew(preset, current.name);
                     }
-                    below = None;
+                    below = below.filter(|base| **base == *UNKNOWN);
                 }
                 Self::read_within(inner, below, |keys| (variant.declare)(value, keys));
             }
@@ -98,7 +99,8 @@ impl Keys<'_> {
                 if !is_same {
                     *value = (variant.new)();
                 }
-                let base = reading.base.clone().filter(|_| is_same);
+                let base = reading.base.clone();
+                let base = base.filter(|base| is_same || **base == *UNKNOWN);
                 if let Some(inner) = reading.block.optional_block(variant.name) {
                     Self::read_within(inner, base, |keys| (variant.declare)(value, keys));
                 }

@@ -7,8 +7,19 @@ use super::{BlockSchema, EntrySchema, Is, Type, default_in_words, unit_of};
 use crate::document::limits::Limits;
 use crate::document::tree::Value;
 
-/// The schema of a file with these keys.
-pub fn json_schema(root: &BlockSchema, title: &str) -> Json {
+/// A section that a file may hold without what other files need.
+#[derive(Clone, Copy, Debug)]
+pub struct Alone {
+    /// The section.
+    pub section: &'static str,
+    /// Sections of which a file with nothing but that one has none.
+    pub without: &'static [&'static str],
+    /// A key of its blocks that is only needed beside those.
+    pub optional: &'static str,
+}
+
+/// The schema of a file with these keys, which may also hold one section `alone`.
+pub fn json_schema(root: &BlockSchema, alone: Alone, title: &str) -> Json {
     let mut definitions = Map::new();
     let mut schema = block(root, &mut definitions);
     schema["$schema"] = json!("http://json-schema.org/draft-07/schema#");
@@ -16,10 +27,32 @@ pub fn json_schema(root: &BlockSchema, title: &str) -> Json {
     if !definitions.is_empty() {
         schema["definitions"] = Json::Object(definitions);
     }
-    if let Some(demands) = demands(root) {
-        schema["allOf"] = json!([demands]);
+    if let Some(whole) = demands(root) {
+        let one = |key: &&str| json!({ "required": [*key] });
+        let others: Vec<Json> = alone.without.iter().map(one).collect();
+        let is_alone = json!({ "required": [alone.section], "not": { "anyOf": others } });
+        let demands = demands(&only(root, alone)).unwrap_or_else(|| json!({}));
+        schema["allOf"] = json!([{ "if": is_alone, "then": demands, "else": whole }]);
     }
     schema
+}
+
+/// The keys of a file with one section alone.
+fn only(root: &BlockSchema, alone: Alone) -> BlockSchema {
+    let mut own = root.clone();
+    own.groups.clear();
+    own.entries
+        .retain(|entry| entry.key == "format" || entry.key == alone.section);
+    for entry in &mut own.entries {
+        if let Is::Named(inner) = &mut entry.is {
+            let optional = inner.entries.iter_mut();
+            let mut optional = optional.filter(|entry| entry.key == alone.optional);
+            if let Some(optional) = optional.next() {
+                optional.required = false;
+            }
+        }
+    }
+    own
 }
 
 /// What a block may hold.

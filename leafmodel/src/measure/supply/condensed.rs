@@ -24,7 +24,7 @@ pub(super) struct Stretch {
     conductance: f64,
     /// What leaves along it, mm, as it is drawn from the ends.
     outflow: [f64; 2],
-    /// The power of what leaves between the ends, with both at pressure 0.
+    /// The power of what leaves along it and between the ends, with both at pressure 0.
     own_power: f64,
     /// Its length, mm.
     pub(super) length: f64,
@@ -66,7 +66,8 @@ impl Stretches {
             for (i, &edge) in edges.iter().enumerate() {
                 let edge = &graph.edges()[edge as usize];
                 at = if edge.from == at { edge.to } else { edge.from };
-                row.push(edge, length(graph, edge));
+                let is_forward = edge.to == at;
+                row.push(edge, length(graph, edge), is_forward);
                 let next = edges.get(i + 1).map(|&next| &graph.edges()[next as usize]);
                 let is_middle = middle == Some(i);
                 let goes_on = next.is_some_and(|next| next.order == edge.order)
@@ -275,23 +276,35 @@ impl System {
 struct Row {
     resistances: Vec<f64>,
     lengths: Vec<f64>,
+    /// What leaves at the near end of each pipe.
+    near: Vec<f64>,
+    /// The power of what leaves along the pipes themselves.
+    within: f64,
     /// At each node between two pipes: resistance from the far end, and `Σ q t` beyond.
     beyond: Vec<[f64; 2]>,
 }
 
 impl Row {
-    fn push(&mut self, edge: &VeinEdge, length: f64) {
-        let (r, s) = (edge.radius_from, edge.radius_to);
+    fn push(&mut self, edge: &VeinEdge, length: f64, is_forward: bool) {
+        let (mut r, mut s) = (edge.radius_from, edge.radius_to);
+        if !is_forward {
+            std::mem::swap(&mut r, &mut s);
+        }
         let (r3, s3) = (r * r * r, s * s * s);
         let conductance = 3.0 * r3 * s3 / (length * (r * r + r * s + s * s));
         self.resistances.push(1.0 / conductance);
         self.lengths.push(length);
+        let squares = r * r + r * s + s * s;
+        self.near
+            .push(length * (r * (2.0 * r + s) / (2.0 * squares)));
+        self.within += length * length * length / (4.0 * r * s * squares);
     }
 
     /// Makes a stretch of the row, and empties it.
     fn condensed(&mut self, ends: [u32; 2], order: u8, chain: u32) -> Stretch {
         let count = self.lengths.len();
-        let leaving = |k: usize| 0.5 * (self.lengths[k] + self.lengths[k + 1]);
+        let far = |k: usize| self.lengths[k] - self.near[k];
+        let leaving = |k: usize| far(k) + self.near[k + 1];
         self.beyond.clear();
         self.beyond.resize(count - 1, [0.0; 2]);
         let (mut t, mut sum) = (0.0, 0.0);
@@ -301,8 +314,8 @@ impl Row {
             sum += leaving(k) * t;
         }
         let whole = t + self.resistances[0];
-        let mut outflow = [0.5 * self.lengths[0], 0.5 * self.lengths[count - 1]];
-        let (mut s, mut before, mut own_power) = (0.0, 0.0, 0.0);
+        let mut outflow = [self.near[0], far(count - 1)];
+        let (mut s, mut before, mut own_power) = (0.0, 0.0, self.within);
         for k in 0..count - 1 {
             s += self.resistances[k];
             let (q, [t, beyond]) = (leaving(k), self.beyond[k]);
@@ -322,6 +335,8 @@ impl Row {
         };
         self.resistances.clear();
         self.lengths.clear();
+        self.near.clear();
+        self.within = 0.0;
         stretch
     }
 }

@@ -162,7 +162,11 @@ fn three_crotons_differ_with_equal_statistics_and_are_unstructured() {
     // individuals.
     let mut counts = Vec::new();
     for (mosaic, seen) in mosaics.iter().zip(&leaves) {
-        let field = SheetField::new(&leaf, TypeField::of_mosaic(mosaic, 2, 0.0), false);
+        let field = SheetField::new(
+            &leaf,
+            TypeField::of_mosaic(mosaic, 2, 0.0).expect("hard edges"),
+            false,
+        );
         for height in [40.0, 60.0, 75.0, 90.0, 110.0] {
             let across = (0..200).map(|i| DVec2::new(-15.0 + 0.15 * f64::from(i), height));
             let across: Vec<SurfacePoint> = across.map(|p| field.locate(p)).collect();
@@ -183,7 +187,11 @@ fn noise_of_a_small_lattice_repeats_its_blotches_and_a_mosaic_does_not() {
     let leaf = lamina(2.0);
     let mosaic = Mosaic::grow(&leaf, &INDIVIDUALS.plan(), 1).expect("a good plan");
     let seen = Seen::of(&mosaic);
-    let field = SheetField::new(&leaf, TypeField::of_mosaic(&mosaic, 2, 0.0), false);
+    let field = SheetField::new(
+        &leaf,
+        TypeField::of_mosaic(&mosaic, 2, 0.0).expect("hard edges"),
+        false,
+    );
     // A square of the lamina, and how far along the midrib it is compared with itself.
     let square = |shift: f64| {
         let places = (0..1600).map(|i| (f64::from(i % 40), f64::from(i / 40)));

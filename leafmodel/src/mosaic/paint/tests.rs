@@ -168,3 +168,63 @@ fn where_no_cell_may_be_the_tissue_is_not_of_the_mosaic() {
     let painted = field.paint(points.into_par_iter(), &[contents(40.0)]);
     assert_eq!(painted, [None, Some(contents(40.0)), None]);
 }
+
+#[test]
+fn borders_are_searched_only_where_types_meet_and_no_farther_than_the_nearest_of_each() {
+    let sheet = square();
+    let sites = scattered(&sheet, 200, 4);
+    let field = |kinds: &[u16], blend_mm: f64, most: u64| {
+        let voronoi = Voronoi::new(&sheet, &sites);
+        TypeField::limited(&sheet, voronoi, kinds, 3, blend_mm, most)
+    };
+    // Cells of one type have no borders: nothing is laid out, however wide the blend.
+    assert!(field(&[1; 200], 100.0, 0).is_some());
+    let kinds = kinds(200, 3);
+    assert!(field(&kinds, 100.0, 1000).is_none(), "there is a limit");
+    // All borders within reach give the same weights as those that are kept.
+    let near = field(&kinds, 100.0, u64::MAX).expect("no limit");
+    let mut all = near.clone();
+    let everywhere: Vec<Border> = (0..sheet.faces().len() as u32)
+        .flat_map(|face| {
+            // The sheet is flat, but every face has a frame of its own.
+            let own = borders_in(&near.voronoi, &kinds, face);
+            own.into_iter().map(move |border| (face, border))
+        })
+        .map(|(face, border)| {
+            let place = |at: DVec2| sheet.position(&sheet.point(face, at)).truncate();
+            let (from, to) = (place(border.from), place(border.to));
+            Border { from, to, ..border }
+        })
+        .collect();
+    for (face, borders) in (0_u32..).zip(&mut all.borders) {
+        let [a, b, _] = sheet.corners(face);
+        let centre = sheet.position(&sheet.centre(face)).truncate();
+        let [x, y] = [a, b].map(|corner| sheet.position(&sheet.point(face, corner)).truncate());
+        // From the sheet into the frame of the face: a turn and a shift.
+        let back = |by: DVec2, at: DVec2| DVec2::new(by.x, -by.y).rotate(at);
+        let turn = back((b - a).normalize(), (y - x).normalize());
+        let into = |at: DVec2| back(turn, at - x) + a;
+        assert!(into(centre).distance(sheet.flat(&sheet.centre(face))) < 1e-9);
+        *borders = everywhere
+            .iter()
+            .map(|border| Border {
+                from: into(border.from),
+                to: into(border.to),
+                kinds: border.kinds,
+            })
+            .collect();
+    }
+    let (mut few, mut many) = ([0.0; 3], [0.0; 3]);
+    for probe in scattered(&sheet, 500, 5) {
+        near.type_weights(&probe, &mut few);
+        all.type_weights(&probe, &mut many);
+        for (a, b) in few.iter().zip(many) {
+            assert!((a - b).abs() < 1e-9, "{few:?} {many:?}");
+        }
+    }
+    let kept: usize = near.borders.iter().map(Vec::len).sum();
+    assert!(
+        kept * 4 < everywhere.len() * near.borders.len(),
+        "{kept} are kept"
+    );
+}

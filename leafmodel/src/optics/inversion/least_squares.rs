@@ -1,11 +1,11 @@
 //! Least squares within bounds.
 //!
 //! - **In**: a function from parameters to residuals, bounds, a start.
-//! - **Out**: the parameters of a local minimum of the sum of squares within the bounds, and the
-//!   standard errors of those that no bound holds.
+//! - **Out**: the parameters of a local minimum of the sum of squares within the bounds, which of them
+//!   the residuals determine, and how each residual moves those.
 //!
-//! Standard errors hold for residuals that scatter more in some places than in others, as noise does
-//! that is a share of the signal.
+//! Covariances hold for residuals that scatter more in some places than in others, as noise does
+//! that is a fraction of the signal.
 //!
 //! Steps are those of Levenberg and Marquardt in the parameters that are free to move, cut at the
 //! bounds; a parameter at a bound is held while the sum falls beyond it.
@@ -25,6 +25,8 @@ const DIFFERENCE: f64 = 1e-5;
 const MOST_DAMPING: f64 = 1e12;
 /// Share of a diagonal that must be left of a pivot: below, the parameter is not told from others.
 const LEAST_PIVOT: f64 = 1e-11;
+/// Share of the square of a parameter's effect that another has in the sum of others that equals it.
+const LEAST_PART: f64 = 1e-6;
 
 /// A parameter: where it may be, and a step that matters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,9 +44,43 @@ pub struct Minimum {
     pub parameters: Vec<f64>,
     /// Sum of squares of the residuals.
     pub sum: f64,
-    /// Standard error of each, if the residuals are independent; `None` for a parameter at a bound,
-    /// or one that the residuals do not tell from the others.
-    pub errors: Vec<Option<f64>>,
+    /// Residuals at the minimum.
+    pub left: Vec<f64>,
+    /// What holds for each parameter.
+    pub states: Vec<State>,
+    /// Change of each determined parameter, in their order, with each residual.
+    pub influence: Vec<Vec<f64>>,
+    /// Number of unknowns that the residuals were fitted by.
+    pub unknowns: usize,
+}
+
+/// What is known of a parameter at a minimum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// The residuals determine it.
+    Determined,
+    /// It is at a bound, beyond which the sum falls.
+    AtBound,
+    /// It does not change the residuals.
+    WithoutInfluence,
+    /// Others change the residuals as it does.
+    LikeOthers,
+    /// There are not more residuals than unknowns.
+    TooFewResiduals,
+}
+
+impl Minimum {
+    /// The covariance of the determined parameters, if the residuals are independent.
+    pub fn covariance(&self) -> Vec<Vec<f64>> {
+        let count = self.left.len() as f64;
+        let spare = count - self.unknowns as f64;
+        let moved = |a: &[f64], b: &[f64]| -> f64 {
+            let parts = a.iter().zip(b).zip(&self.left);
+            parts.map(|((a, b), left)| a * b * left * left).sum::<f64>() * count / spare
+        };
+        let line = |a: &Vec<f64>| self.influence.iter().map(|b| moved(a, b)).collect();
+        self.influence.iter().map(line).collect()
+    }
 }
 
 /// Minimises the sum of squares of `residuals(parameters)` from a start within the bounds.
@@ -92,14 +128,14 @@ pub fn minimise(
         }
     }
     let system = System::of(known, &at, &left, &mut residuals);
-    let free = system.free(known, &at);
-    let errors = system.errors(&free, &left).into_iter().zip(known);
+    let (states, unknowns, influence) = system.determined(known, &at, left.len());
     Minimum {
-        errors: errors
-            .map(|(error, known)| Some(error? * known.scale))
-            .collect(),
         parameters: at,
         sum,
+        left,
+        states,
+        influence,
+        unknowns,
     }
 }
 
@@ -177,40 +213,72 @@ impl System {
         Some(step)
     }
 
-    /// Standard errors of the free parameters that can be told from one another: the influence of
-    /// each residual on a parameter times that residual, added up in squares.
-    fn errors(&self, free: &[bool], left: &[f64]) -> Vec<Option<f64>> {
-        let mut numbers: Vec<usize> = (0..free.len()).filter(|&i| free[i]).collect();
+    /// What holds for each parameter, the number of unknowns, and how each residual moves what is
+    /// determined. Of parameters that change the residuals alike none is.
+    fn determined(
+        &self,
+        known: &[Parameter],
+        at: &[f64],
+        residuals: usize,
+    ) -> (Vec<State>, usize, Vec<Vec<f64>>) {
+        let free = self.free(known, at);
+        let mut states: Vec<State> = (0..at.len())
+            .map(|i| match (self.matrix[i][i] > 0.0, free[i]) {
+                (true, true) => State::Determined,
+                (true, false) => State::AtBound,
+                (false, _) => State::WithoutInfluence,
+            })
+            .collect();
+        let is_determined = |state: &State| *state == State::Determined;
+        let mut numbers: Vec<usize> = (0..at.len())
+            .filter(|&i| is_determined(&states[i]))
+            .collect();
         let factor = loop {
             match Factor::of(&self.matrix, &numbers, 0.0, LEAST_PIVOT) {
                 Ok(factor) => break factor,
                 Err(place) => {
-                    numbers.remove(place);
+                    let like = numbers.remove(place);
+                    states[like] = State::LikeOthers;
+                    // The sum of others that changes the residuals as it does.
+                    let before = &numbers[..place];
+                    let right = before.iter().map(|&j| self.matrix[j][like]).collect();
+                    let parts = Factor::of(&self.matrix, before, 0.0, LEAST_PIVOT)
+                        .map_or_else(|_| Vec::new(), |factor| factor.solve(right));
+                    for (&j, part) in before.iter().zip(parts) {
+                        let size = part * part * self.matrix[j][j];
+                        if size > LEAST_PART * self.matrix[like][like] {
+                            states[j] = State::LikeOthers;
+                        }
+                    }
                 }
             }
         };
-        let mut errors = vec![None; free.len()];
-        if left.len() <= numbers.len() {
-            return errors;
+        if residuals <= numbers.len() {
+            for state in states
+                .iter_mut()
+                .filter(|state| **state == State::Determined)
+            {
+                *state = State::TooFewResiduals;
+            }
         }
-        let spare = left.len() - numbers.len();
-        for (place, &i) in numbers.iter().enumerate() {
+        let mut influence = Vec::new();
+        for (place, &i) in numbers
+            .iter()
+            .enumerate()
+            .filter(|(_, i)| is_determined(&states[**i]))
+        {
             let unit = (0..numbers.len()).map(|other| f64::from(u8::from(other == place)));
             let row = factor.solve(unit.collect());
-            let influence = |at: usize| {
+            let at = |at: usize| {
                 let parts = row.iter().zip(&numbers);
                 parts
                     .map(|(row, &j)| row * self.columns[j][at])
                     .sum::<f64>()
+                    * known[i].scale
             };
-            let moved = left
-                .iter()
-                .enumerate()
-                .map(|(at, left)| influence(at) * left);
-            let variance: f64 = moved.map(|moved| moved * moved).sum();
-            errors[i] = Some((variance * left.len() as f64 / spare as f64).sqrt());
+            influence.push((0..residuals).map(at).collect());
         }
-        errors
+        (states, numbers.len(), influence)
     }
 }
 
@@ -289,8 +357,12 @@ mod tests {
         });
         assert_near(found.parameters[0], 3.0001, 1e-4);
         assert_near(found.parameters[1], 0.5001, 1e-4);
-        assert_near(found.errors[0].expect("it is free"), 0.98949, 1e-4);
-        assert_near(found.errors[1].expect("it is free"), 0.11415, 1e-4);
+        assert_eq!(found.states, [State::Determined; 2]);
+        let covariance = found.covariance();
+        assert_near(covariance[0][0].sqrt(), 0.98949, 1e-4);
+        assert_near(covariance[1][1].sqrt(), 0.11415, 1e-4);
+        assert_eq!(covariance[0][1], covariance[1][0]);
+        assert!(covariance[0][1] < 0.0, "{covariance:?}");
     }
 
     #[test]
@@ -313,23 +385,32 @@ mod tests {
         assert_eq!(found.parameters[0], 0.0);
         // The sum tells a parameter within the root of its rounding.
         assert_near(found.parameters[1], 1.5, 1e-7);
-        assert_eq!(found.errors[0], None);
-        assert!(found.errors[1].is_some());
+        assert_eq!(found.states, [State::AtBound, State::Determined]);
     }
 
     #[test]
-    fn what_the_data_do_not_tell_has_no_error_instead_of_a_wrong_one() {
+    fn what_the_data_do_not_determine_is_named_with_all_that_act_alike() {
         let x = [1.0, 2.0, 3.0, 4.0];
         let y = [1.1, 1.9, 3.2, 3.9];
-        // Only the sum of the first two counts; the third has no influence.
-        let found = minimise(&free(3), &[0.0; 3], |p| {
+        // Only the sum of the first two counts; the third has no influence, the fourth its own.
+        let found = minimise(&free(4), &[0.0; 4], |p| {
             x.iter()
                 .zip(y)
-                .map(|(x, y)| (p[0] + p[1]) * x - y)
+                .map(|(x, y)| (p[0] + p[1]) * x + p[3] - y)
                 .collect()
         });
-        assert_near(found.parameters[0] + found.parameters[1], 1.0033, 1e-3);
-        assert_eq!(found.errors[2], None);
-        assert_eq!(found.errors.iter().flatten().count(), 1);
+        // The line through the four points.
+        assert_near(found.parameters[0] + found.parameters[1], 0.97, 1e-6);
+        assert_near(found.parameters[3], 0.1, 1e-6);
+        let wanted = [
+            State::LikeOthers,
+            State::LikeOthers,
+            State::WithoutInfluence,
+            State::Determined,
+        ];
+        assert_eq!(found.states, wanted);
+        assert_eq!((found.influence.len(), found.unknowns), (1, 2));
+        let few = minimise(&free(2), &[0.0; 2], |p| vec![p[0] - 1.0, p[0] + p[1]]);
+        assert_eq!(few.states, [State::TooFewResiduals; 2]);
     }
 }

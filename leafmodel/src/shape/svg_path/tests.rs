@@ -107,6 +107,48 @@ fn what_a_drawing_lacks_is_told() {
 }
 
 #[test]
+fn hidden_paths_are_passed_over_and_basic_shapes_are_outlines_where_there_is_no_path() {
+    let hidden = "<g style=\"display:none\" id=\"old\"><path id=\"h\" d=\"M0 0 h10 v10 z\"/></g>";
+    let both = svg(&format!("{hidden}<path d=\"{KITE}\"/>"));
+    let reading = SvgContour::read("leaf.svg", &both, None).expect("a kite");
+    assert_eq!((reading.contour.points.len(), reading.passed_over), (4, 0));
+    assert_eq!(
+        reading.left_out,
+        ["elements of the drawing are hidden (1): line 1 <g> \"old\""]
+    );
+    // A path that is asked for by its name is read all the same.
+    let named = SvgContour::read("leaf.svg", &both, Some("h")).expect("a triangle");
+    assert_eq!((named.contour.points.len(), named.left_out.len()), (3, 0));
+    for (shape, area) in [
+        (
+            "<ellipse cx=\"5\" cy=\"5\" rx=\"1\" ry=\"2\"/>",
+            std::f64::consts::PI * 0.5,
+        ),
+        ("<polygon points=\"4,7 5,9 6,7 5,5\"/>", 1.0),
+        ("<rect x=\"4\" y=\"5\" width=\"1\" height=\"4\"/>", 1.0),
+    ] {
+        let outline = parsed(shape).expect(shape).grow(2.0).expect(shape);
+        assert!(
+            (outline.area() - area).abs() < 1e-3,
+            "{shape}: {}",
+            outline.area()
+        );
+    }
+}
+
+#[test]
+fn a_drawing_that_is_stretched_on_its_page_is_stretched() {
+    let page = "width=\"20mm\" height=\"10mm\" viewBox=\"0 0 10 10\" preserveAspectRatio=\"none\"";
+    let text =
+        format!("<svg xmlns=\"http://www.w3.org/2000/svg\" {page}><path d=\"{KITE}\"/></svg>");
+    let contour = SvgContour::parse("leaf.svg", &text, None).expect("a kite");
+    assert_eq!((contour.base, contour.apex), ([5.0, 4.5], [5.0, 2.5]));
+    let outline = contour.grow(4.0).expect("a kite");
+    // 2 wide and 4 high, twice as wide as high on the page: 4 by 4.
+    assert!((outline.area() - 8.0).abs() < 1e-12);
+}
+
+#[test]
 fn a_circle_of_arcs_has_the_area_of_a_circle() {
     let contour = parsed("<path d=\"M5 10 A5 5 0 0 1 5 0 A5 5 0 0 1 5 10 Z\"/>").expect("a circle");
     let outline = contour.grow(2.0).expect("a circle");
@@ -134,7 +176,7 @@ fn each_unfit_file_is_refused_by_its_own_error() {
     let not_xml = SvgContour::parse("leaf.svg", "<svg", None).expect_err("cut off");
     assert!(matches!(not_xml, SvgError::NotXml { .. }));
     for (inside, start) in [
-        ("<rect width=\"1\" height=\"2\"/>", "has no path"),
+        ("<text>leaf</text>", "has no path"),
         ("<path/>", "has no path"),
         ("<path d=\"M0 0 L1\"/>", "has an attribute `d`"),
         (
@@ -142,7 +184,7 @@ fn each_unfit_file_is_refused_by_its_own_error() {
             "has an attribute `transform`",
         ),
         (
-            "<g style=\"transform: none\"><path d=\"M0 0H1V1Z\"/></g>",
+            "<g style=\"transform: rotate(3deg)\"><path d=\"M0 0H1V1Z\"/></g>",
             "has an attribute `style`",
         ),
         ("<path d=\"M0 0H9V9Z M1 1H2V2Z\"/>", "has a path of 2 parts"),

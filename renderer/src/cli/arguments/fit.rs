@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::tables::{ReadingTablesArguments, overlap, quantity, values};
+use crate::measured::known::{Known, Measure, Overlap, ValueUnit};
+
 /// `lamina fit`: contents of leaves from their spectra.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct FitArguments {
@@ -20,6 +23,24 @@ pub struct FitArguments {
     /// Its transmittance
     #[arg(long, value_name = "FILE", conflicts_with = "spectra")]
     pub transmittance: Option<PathBuf>,
+    /// How tables and files are read.
+    #[command(flatten)]
+    pub reading: ReadingTablesArguments,
+    /// Unit of reflectance and transmittance: fraction or percent; by default found from the names of
+    /// columns and the sizes of values
+    #[arg(long, value_name = "UNIT", value_parser = values)]
+    pub values: Option<ValueUnit>,
+    /// What values are whose columns do not say it: reflectance, abaxial or transmittance; for tables
+    /// whose columns are named by wavelengths, or by leaves
+    #[arg(long, value_name = "WORD", value_parser = quantity)]
+    pub quantity: Option<Measure>,
+    /// Where two detectors of a .sig file have measured: the first counts, the second, or each up to
+    /// the middle [default: middle]
+    #[arg(long, value_name = "WORD", value_parser = overlap)]
+    pub overlap: Option<Overlap>,
+    /// The number in bands that were masked; by default empty values, NA, NaN, -9999 and such
+    #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
+    pub masked: Option<f64>,
     /// Contents that are looked for: structure, chlorophyll, … [default: all of PROSPECT-D]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub free: Vec<String>,
@@ -35,7 +56,23 @@ pub struct FitArguments {
     /// Measured and fitted spectra to write, and what is left
     #[arg(long, value_name = "FILE.csv")]
     pub spectra_out: Option<PathBuf>,
+    /// Covariances of the contents of each leaf to write; --out FILE.json holds them too
+    #[arg(long, value_name = "FILE.csv")]
+    pub covariance_out: Option<PathBuf>,
     /// Drawing of measured and fitted spectra of the first leaves to write
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
+}
+
+impl FitArguments {
+    /// What is known of the files.
+    pub fn known(&self) -> Known {
+        Known {
+            values: self.values,
+            quantity: self.quantity,
+            overlap: self.overlap,
+            masked: self.masked,
+            ..self.reading.known()
+        }
+    }
 }

@@ -53,6 +53,6 @@ pub struct FitVeinsArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
     /// Memory that the veins of one leaf may take; one that needs more counts as failed
-    #[arg(long, value_name = "GIB", default_value_t = USUAL_GIB, value_parser = between::<0, 1024>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "GIB", default_value_t = USUAL_GIB, value_parser = between::<0, 1024>)]
     pub memory: f64,
 }

@@ -105,7 +105,7 @@ pub struct GrowArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
     /// Memory that growing may take; the default is what the machine has free
-    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,
     /// What the colour of a vein tells in pictures and films
     #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
@@ -120,7 +120,7 @@ pub struct GrowArguments {
     #[arg(long, value_name = "N", default_value_t = 12.0, value_parser = frames_a_second)]
     pub fps: f64,
     /// Seconds for which a film shows its last frame
-    #[arg(long, value_name = "SECONDS", default_value_t = 1.5, value_parser = between::<0, 60>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 1.5, value_parser = between::<0, 60>)]
     pub hold: f64,
     /// Pixels along the longer side of a png, or of a frame without its caption
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=16_384))]

@@ -4,12 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{MOST_GIB, SceneArguments, between};
+use super::{MOST_GIB, MOST_SECONDS, SceneArguments, between};
+use crate::instruments::Target;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
   lamina instruments bench.toml --out bench.csv
   lamina instruments bench.toml --error 1e-3 --only ball --out ball.json --plot ball.svg
+  lamina instruments bench.toml --error 1% --time 600 --out bench.csv
   lamina instruments bench.toml --rays 1000000 -D objects.leaves.volume.seed=2 --out canopy.csv";
 
 /// Greatest number of rays: 2³⁶.
@@ -34,9 +36,13 @@ pub struct InstrumentsArguments {
     /// --error 2^32 at most
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(crate::instruments::FEWEST_RAYS..=MOST_RAYS))]
     pub rays: Option<u64>,
-    /// Standard error at which a figure is good enough; rays are added until all figures are
-    #[arg(long, value_name = "SHARE", value_parser = error)]
-    pub error: Option<f64>,
+    /// Standard error at which a figure is good enough, as 1e-3, or as a part of the figure, as 1%;
+    /// rays are added until all figures are
+    #[arg(long, value_name = "ERROR", value_parser = error)]
+    pub error: Option<Target>,
+    /// Stop following rays after this time; what has been measured is written
+    #[arg(long, value_name = "SECONDS", value_parser = between::<0, MOST_SECONDS>)]
+    pub time: Option<f64>,
     /// Seed of every random number
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
@@ -47,13 +53,19 @@ pub struct InstrumentsArguments {
     #[arg(long, value_name = "DIR")]
     pub cache: Option<PathBuf>,
     /// Memory that building the scene may take; the default is what the machine has free
-    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,
 }
 
-/// A standard error above 0 and up to 1.
-fn error(text: &str) -> Result<f64, String> {
-    let number = between::<0, 1>(text)?;
-    let allowed = "must be above 0 and at most 1".to_owned();
-    (number > 0.0).then_some(number).ok_or(allowed)
+/// A standard error above 0 and up to 1, or up to 100 % of a figure.
+fn error(text: &str) -> Result<Target, String> {
+    let (number, target) = match text.strip_suffix('%') {
+        None => (between::<0, 1>(text)?, Target::Absolute as fn(f64) -> _),
+        Some(percent) => {
+            let part = between::<0, 100>(percent.trim_end())? / 100.0;
+            (part, Target::Relative as fn(f64) -> _)
+        }
+    };
+    let allowed = "must be above 0 and at most 1, or 100%".to_owned();
+    (number > 0.0).then(|| target(number)).ok_or(allowed)
 }

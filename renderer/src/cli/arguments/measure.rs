@@ -103,7 +103,7 @@ pub struct MeasuringArguments {
     #[arg(long)]
     pub quick: bool,
     /// The exponent n of Murray's law that the measured ratio of widths at forks refers to
-    #[arg(long, value_name = "N", default_value_t = 3.0, value_parser = between::<0, 100>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 3.0, value_parser = between::<0, 100>)]
     pub murray_exponent: f64,
     /// Number of the widest veins that are cut, one at a time
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(0..=100_000))]

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 use leafmodel::optics::{Constituent, PerConstituent};
 
+use super::TableArguments;
+
 /// `lamina optics`: a preset, PROSPECT-D's inputs and betalains, and what is to be told of them.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 #[command(group = ArgGroup::new("wanted").args(["list", "figures", "out", "colour", "layers", "angles", "about"]).required(true).multiple(true))]
@@ -51,6 +53,9 @@ pub struct OpticsArguments {
     /// give what has no column; --out is then `leaf,wavelength_nm,R,T`, or an `.npy` array
     #[arg(long, value_name = "LEAVES.csv", requires = "out", conflicts_with_all = ["colour", "layers", "angles", "about"])]
     pub table: Option<PathBuf>,
+    /// How the table is written.
+    #[command(flatten)]
+    pub form: TableArguments,
     /// Table to write: `wavelength_nm,R,T`; `-` is the standard output; with --table also `.npy`,
     /// float64 by leaf, R and T, wavelength
     #[arg(long, value_name = "FILE.csv")]

@@ -36,7 +36,7 @@ pub struct SweepArguments {
     #[arg(long, value_name = "N", value_parser = samples())]
     pub spp: Option<u32>,
     /// Target noise of each picture, instead of the scene's
-    #[arg(long, value_name = "SHARE", value_parser = between::<0, 1>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", value_parser = between::<0, 1>)]
     pub noise: Option<f64>,
     /// Folder of the outputs and of sweep.csv; what is done already stays there
     #[arg(long, value_name = "DIR", required_unless_present = "list")]

@@ -1,14 +1,12 @@
-use clap::CommandFactory;
-
 use super::*;
 
 fn parsed(line: &str) -> Result<Arguments, clap::Error> {
-    Arguments::try_parse_from(line.split(' '))
+    Arguments::of_line(line.split(' '))
 }
 
 #[test]
 fn the_command_line_has_no_contradictions() {
-    Arguments::command().debug_assert();
+    Arguments::grammar().debug_assert();
     assert_eq!(GREETING.lines().count(), 5);
 }
 
@@ -82,6 +80,33 @@ fn bad_arguments_end_with_code_2() {
         let error = parsed(line).expect_err(line);
         assert_eq!(error.exit_code(), 2, "{line}");
     }
+}
+
+#[test]
+fn a_negative_number_gets_the_range_of_its_option() {
+    for (line, range) in [
+        ("lamina optics --cab -3 --colour", "from 0 to 1000"),
+        (
+            "lamina grow poplar --frames -2 --out a.svg",
+            "-2 is not in 1..=10000",
+        ),
+        ("lamina render a.toml --spp -8", "-8 is not in 1..="),
+        (
+            "lamina instruments a.toml --out a.csv --time -1",
+            "must be from 0 to",
+        ),
+        ("lamina render a.toml --size 7", "640x480"),
+    ] {
+        let error = parsed(line).expect_err(line).to_string();
+        assert!(error.contains(range), "{error}");
+    }
+    let line = "lamina render a.toml --size 7x5 --allow b --allow c";
+    let arguments = parsed(line).expect("the line is right");
+    assert_eq!(arguments.allow, ["b", "c"].map(PathBuf::from));
+    let Some(Command::Render(render)) = arguments.command else {
+        panic!("no render");
+    };
+    assert_eq!(render.size, Some([7, 5]));
 }
 
 #[test]

@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use leafmodel::document::nearest::nearest;
+use leafmodel::document::rows::{Ragged, Rows};
+use leafmodel::document::source::quoted;
 
 use crate::cli::Failure;
 use crate::cli::arguments::{CompareNetworksArguments, ReadingArguments, file_and_leaf};
 use crate::cli::grow::is_word;
-use crate::cli::measure::has_ending;
+use crate::cli::measure::{has_ending, text_of};
 
 /// The columns of a table of leaves, besides those that say how a file is read.
 const COLUMNS: [&str; 3] = ["file", "group", "name"];
@@ -157,22 +159,25 @@ impl Sources {
 
     fn add_table(&mut self, path: &Path, strict: bool, seeds: Option<u32>) -> Result<(), Failure> {
         let shown = path.display();
-        let told = |error: csv::Error| Failure::bad(format!("{shown}: {error}"));
-        let mut table = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .from_path(path)
-            .map_err(told)?;
-        let header = table.headers().map_err(told)?.clone();
-        check_header(&header).map_err(|problem| Failure::bad(format!("{shown}:1: {problem}")))?;
-        let column = |name: &str| header.iter().position(|column| column == name);
+        let text = text_of(path)?;
+        let table = Rows::of(&text);
+        let refused_at =
+            |line: usize, problem: String| Failure::bad(format!("{shown}:{line}: {problem}"));
+        let ragged = |ragged: Ragged| refused_at(ragged.line, ragged.to_string());
+        let mut rows = table.records();
+        let header = rows.next().transpose().map_err(ragged)?;
+        let (line, header) = header.map_or((1, Vec::new()), |row| (row.line, row.fields));
+        let header: Vec<&str> = header.iter().map(|name| name.text.as_str()).collect();
+        check_header(&header).map_err(|problem| refused_at(line, problem))?;
+        let column = |name: &str| header.iter().position(|column| *column == name);
         let has_groups = column("group").is_some();
-        for row in table.records() {
-            let row = row.map_err(told)?;
-            let line = row.position().map_or(0, csv::Position::line);
-            let refused = |problem: String| Failure::bad(format!("{shown}:{line}: {problem}"));
+        for row in rows {
+            let row = row.map_err(ragged)?;
+            let refused = |problem: String| refused_at(row.line, problem);
             let cell = |name: &str| {
-                let cell = column(name).and_then(|column| row.get(column));
-                cell.filter(|cell| !cell.is_empty())
+                let cell = column(name).and_then(|column| row.fields.get(column));
+                cell.map(|cell| cell.text.as_str())
+                    .filter(|cell| !cell.is_empty())
             };
             let Some(file) = cell("file") else {
                 return Err(refused("`file` is empty: name a network".to_owned()));
@@ -180,6 +185,7 @@ impl Sources {
             let group = match (has_groups, cell("group")) {
                 (true, Some(group)) => group.to_owned(),
                 (true, None) => {
+                    let file = quoted(file);
                     return Err(refused(format!("`group` of {file} is empty: name one")));
                 }
                 (false, _) => cell("name").unwrap_or(file).to_owned(),
@@ -192,10 +198,7 @@ impl Sources {
                 if let Some(word) = cell(column) {
                     let set = reading.set(column, word);
                     set.map_err(|problem| {
-                        refused(format!(
-                            "`{column}` is `{}`: {problem}",
-                            word.escape_debug()
-                        ))
+                        refused(format!("`{column}` is `{}`: {problem}", quoted(word)))
                     })?;
                 }
             }
@@ -232,13 +235,13 @@ impl Sources {
                 } else {
                     format!(
                         "in the groups {} and {}",
-                        self.groups[other.group].escape_debug(),
-                        self.groups[leaf.group].escape_debug()
+                        quoted(&self.groups[other.group]),
+                        quoted(&self.groups[leaf.group])
                     )
                 };
                 return Err(Failure::bad(format!(
                     "{} is named twice: {what}",
-                    leaf.given
+                    quoted(&leaf.given)
                 )));
             }
         }
@@ -282,23 +285,23 @@ impl Sources {
     }
 }
 
-fn check_header(header: &csv::StringRecord) -> Result<(), String> {
-    for (number, column) in header.iter().enumerate() {
+fn check_header(header: &[&str]) -> Result<(), String> {
+    for (number, &column) in header.iter().enumerate() {
         let known = || COLUMNS.into_iter().chain(ReadingArguments::COLUMNS);
         if !known().any(|known| known == column) {
             let meant = nearest(column, known())
                 .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
             return Err(format!(
                 "there is no column `{}`{meant} ({})",
-                column.escape_debug(),
+                quoted(column),
                 known().collect::<Vec<_>>().join(", ")
             ));
         }
-        if header.iter().take(number).any(|other| other == column) {
+        if header[..number].contains(&column) {
             return Err(format!("the column `{column}` is there twice"));
         }
     }
-    if header.iter().any(|column| column == "file") {
+    if header.contains(&"file") {
         return Ok(());
     }
     Err("there is no column `file`".to_owned())

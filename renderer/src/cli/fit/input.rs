@@ -2,9 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use leafmodel::document::source::quoted;
+
 use crate::cli::Failure;
 use crate::cli::arguments::FitArguments;
 use crate::measured::Slack;
+use crate::measured::known::Known;
 use crate::measured::series::{self, Series};
 use crate::measured::spectra::{self, Leaf};
 use crate::measured::units;
@@ -22,29 +25,35 @@ pub(super) fn files(arguments: &FitArguments) -> Vec<PathBuf> {
 
 /// The leaves, within what noise explains; stderr says what was taken for granted.
 pub(super) fn leaves(arguments: &FitArguments) -> Result<Vec<Leaf>, Failure> {
+    let known = arguments.known();
     let leaves = match &arguments.spectra {
-        Some(file) => of_table(file)?,
+        Some(file) => of_table(file, &known)?,
         None => vec![of_single_files(arguments)?],
     };
-    for leaf in &leaves {
-        if let Some(at) = units::gap(&leaf.nm) {
-            let (from, to) = (leaf.nm[at - 1], leaf.nm[at]);
-            let name = super::shown(leaf);
-            eprintln!("note: {name}: nothing between {from} and {to} nm, which fits do not need");
-        }
+    for note in leaves.iter().flat_map(gaps) {
+        eprintln!("note: {note}");
     }
     Ok(leaves)
+}
+
+/// All gaps in a leaf's wavelengths.
+fn gaps(leaf: &Leaf) -> Vec<String> {
+    let gaps = units::gaps(&leaf.nm, units::GAP).map(|at| {
+        let (from, to, name) = (leaf.nm[at - 1], leaf.nm[at], quoted(super::shown(leaf)));
+        format!("{name}: nothing between {from} and {to} nm, which fits do not need")
+    });
+    gaps.collect()
 }
 
 fn read(file: &Path) -> Result<Vec<u8>, Failure> {
     std::fs::read(file).map_err(|error| Failure::bad(format!("{}: {error}", file.display())))
 }
 
-fn of_table(file: &Path) -> Result<Vec<Leaf>, Failure> {
+fn of_table(file: &Path, known: &Known) -> Result<Vec<Leaf>, Failure> {
     let bytes = read(file)?;
     let text = series::text(&bytes).map_err(|fault| Failure::bad(fault.shown(file, "")))?;
     let refused = |fault: &crate::measured::Fault| Failure::bad(fault.shown(file, text));
-    let found = spectra::read(text).map_err(|fault| refused(&fault))?;
+    let found = spectra::read(text, known).map_err(|fault| refused(&fault))?;
     for note in &found.notes {
         eprintln!("note: {note}");
     }
@@ -56,7 +65,12 @@ fn of_table(file: &Path) -> Result<Vec<Leaf>, Failure> {
 }
 
 fn of_single_files(arguments: &FitArguments) -> Result<Leaf, Failure> {
-    let single = |file: &Option<PathBuf>| file.as_deref().map(one_spectrum).transpose();
+    let known = arguments.known();
+    let single = |file: &Option<PathBuf>| {
+        file.as_deref()
+            .map(|file| one_spectrum(file, &known))
+            .transpose()
+    };
     let found = [
         single(&arguments.adaxial)?,
         single(&arguments.abaxial)?,
@@ -73,16 +87,39 @@ fn of_single_files(arguments: &FitArguments) -> Result<Leaf, Failure> {
 }
 
 /// A spectrum in nm and shares, whose wavelengths rise.
-fn one_spectrum(file: &Path) -> Result<Series, Failure> {
+fn one_spectrum(file: &Path, known: &Known) -> Result<Series, Failure> {
     let bytes = read(file)?;
     let text = series::text(&bytes).map_err(|fault| Failure::bad(fault.shown(file, "")))?;
     let refused = |fault: &crate::measured::Fault| Failure::bad(fault.shown(file, text));
-    let mut series = series::series(text).map_err(|fault| refused(&fault))?;
+    let mut series = series::series(text, known).map_err(|fault| refused(&fault))?;
     series.require_rising().map_err(|fault| refused(&fault))?;
-    for note in series.to_nm_and_shares() {
+    for note in series.to_nm_and_fractions(known) {
         eprintln!("note: {}: {note}", file.display());
     }
     let checked = series.require_shares(Slack::NOISE);
     checked.map_err(|fault| refused(&fault))?;
     Ok(series)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_gap_is_named() {
+        let nm = (400..=2498).step_by(4).map(f64::from);
+        let nm = nm.filter(|nm| !(1350.0..1450.0).contains(nm) && !(1800.0..1960.0).contains(nm));
+        let leaf = Leaf {
+            nm: nm.collect(),
+            ..Leaf::default()
+        };
+        let rest = "nm, which fits do not need";
+        assert_eq!(
+            gaps(&leaf),
+            [
+                format!("the leaf: nothing between 1348 and 1452 {rest}"),
+                format!("the leaf: nothing between 1796 and 1960 {rest}"),
+            ]
+        );
+    }
 }

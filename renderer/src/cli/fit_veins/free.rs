@@ -90,7 +90,7 @@ impl Grower {
             plan: &self.plan,
         };
         let leaf = load_one_leaf(file, Some(&DECODER), true, &[], settings);
-        let leaf = leaf.map_err(|error| Failure::from(grow::NotChosen::from(error)))?;
+        let (leaf, _) = leaf.map_err(|error| Failure::from(grow::NotChosen::from(error)))?;
         Ok(leaf.value)
     }
 

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use leafmodel::document::nearest::nearest;
+use leafmodel::document::source::quoted;
 use leafmodel::inference::{Observation, Role};
 use leafmodel::measure::fitting::{FITTED, HELD_OUT, possible};
 use serde_json::{Map, Value};
@@ -81,7 +82,7 @@ impl Observed {
                 return Err(format!(
                     "`{}` is no number that is measured of leaves that grow{meant}\n  These can be \
                      fitted or held out: {}",
-                    key.escape_debug(),
+                    quoted(key),
                     possible.join(", ")
                 ));
             }
@@ -131,7 +132,7 @@ fn number(key: &str, value: &Value) -> Result<Option<f64>, String> {
         Value::Null => Ok(None),
         Value::Number(number) => Ok(number.as_f64()),
         Value::Bool(flag) => refused(flag.to_string()),
-        Value::String(text) => refused(format!("the text \"{}\"", text.escape_debug())),
+        Value::String(text) => refused(format!("the text \"{}\"", quoted(text))),
         Value::Array(_) => refused("a list".to_owned()),
         Value::Object(_) => refused("an object".to_owned()),
     }

@@ -10,7 +10,8 @@ use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use csv::{ReaderBuilder, StringRecord, Writer};
+use csv::Writer;
+use leafmodel::document::rows::{Decimal, Form, Rows, Separator};
 use leafmodel::inference::{Draw, Outcome, Problem};
 use rayon::prelude::*;
 
@@ -186,16 +187,22 @@ fn read(path: &Path, identity: &str, problem: &Problem) -> Result<Grown, Failure
             path.display()
         ))
     };
-    let mut reader = ReaderBuilder::new()
-        .flexible(true)
-        .from_reader(text.as_bytes());
-    let header = StringRecord::from(header(problem));
-    if reader.headers().ok() != Some(&header) {
+    let form = Form {
+        separator: Some(Separator::Comma),
+        decimal: Some(Decimal::Point),
+    };
+    let table = Rows::written(&text, form);
+    let mut rows = table.of_any_length().map(|row| {
+        let texts = row.fields.into_iter().map(|field| field.text);
+        texts.collect::<Vec<String>>()
+    });
+    let header = header(problem);
+    if rows.next().as_ref() != Some(&header) {
         return Err(foreign());
     }
     let mut grown = Grown::new();
-    for row in reader.records().flatten() {
-        if row.get(0) != Some(identity) {
+    for row in rows {
+        if row.first().map(String::as_str) != Some(identity) {
             return Err(foreign());
         }
         if let Some((draw, outcome)) = simulation(&row, header.len(), problem) {
@@ -205,7 +212,7 @@ fn read(path: &Path, identity: &str, problem: &Problem) -> Result<Grown, Failure
     Ok(grown)
 }
 
-fn simulation(row: &StringRecord, cells: usize, problem: &Problem) -> Option<(Draw, Outcome)> {
+fn simulation(row: &[String], cells: usize, problem: &Problem) -> Option<(Draw, Outcome)> {
     if row.len() != cells {
         return None;
     }
@@ -219,9 +226,9 @@ fn simulation(row: &StringRecord, cells: usize, problem: &Problem) -> Option<(Dr
     };
     let failed = &row[cells - 1];
     if !failed.is_empty() {
-        return Some((draw, Err(failed.to_owned())));
+        return Some((draw, Err(failed.clone())));
     }
-    let measures = (measures_from..cells - 1).map(|cell| match &row[cell] {
+    let measures = (measures_from..cells - 1).map(|cell| match row[cell].as_str() {
         "" => Some(None),
         text => text.parse::<f64>().ok().map(Some),
     });

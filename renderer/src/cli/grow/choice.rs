@@ -5,10 +5,10 @@ use leafmodel::leaf::LeafPlan;
 use leafmodel::plan_file::{LeafFile, LeafNotChosen, load_one_leaf};
 use leafmodel::species;
 
-use crate::cli::Failure;
 use crate::cli::arguments::{GrowArguments, file_and_leaf};
+use crate::cli::{Failure, colour};
 use crate::scene::assets::DECODER;
-use leafmodel::document::nearest::nearest;
+use leafmodel::document::nearest::meant;
 
 /// A leaf that is to be grown.
 pub(super) struct Chosen {
@@ -77,6 +77,10 @@ pub(super) fn choose(wish: Wish<'_>, veins_alone: bool) -> Result<Chosen, NotCho
         }
         read(LeafFile::File { path: &path, leaf })
     }?;
+    let (chosen, warnings) = chosen;
+    for warning in warnings {
+        eprintln!("{}", warning.render(colour()));
+    }
     let mut plan = chosen.value;
     plan.seed = wish.seed.unwrap_or(plan.seed);
     Ok(Chosen {
@@ -92,9 +96,9 @@ pub(in crate::cli) fn is_word(wanted: &str) -> bool {
 }
 
 pub(in crate::cli) fn unknown_preset(wanted: &str) -> Failure {
-    let names = species::PRESETS.iter().map(|preset| preset.name);
-    let meant =
-        nearest(wanted, names).map_or_else(String::new, |name| format!("; did you mean `{name}`?"));
+    let presets = species::PRESETS.iter();
+    let meant = meant(wanted, presets.map(|preset| (preset.name, preset.about)));
+    let meant = meant.map_or_else(String::new, |name| format!("; did you mean `{name}`?"));
     Failure::bad(format!(
         "there is neither a preset nor a file `{}`{meant} (`lamina grow --list` names the presets)",
         wanted.escape_debug()

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde_json::{Value, json};
 
 use crate::checkpoint::PROGRAM;
-use crate::instruments::{Budget, Direction, Row, ViewAngles};
+use crate::instruments::{Budget, CutPaths, Direction, Row, Target, ViewAngles};
 use crate::scene::description::Description;
 
 /// A row for each figure.
@@ -53,8 +53,14 @@ fn shown(number: Option<f64>) -> String {
     number.map(|number| number.to_string()).unwrap_or_default()
 }
 
-/// The figures, and what they were measured with.
-pub(super) fn json(scene: &Description, budget: &Budget, rows: &[Row]) -> String {
+/// The figures, and what they were measured with; `is_complete` says whether all instruments have
+/// followed all of their rays.
+pub(super) fn json(
+    scene: &Description,
+    budget: &Budget,
+    (rows, cuts): (&[Row], &[(String, CutPaths)]),
+    is_complete: bool,
+) -> String {
     let figures = rows.iter().map(|row| {
         let incidence = match row.incidence {
             Direction::Beam(_) => row.incidence.to_string().parse::<f64>().ok().into(),
@@ -82,7 +88,17 @@ pub(super) fn json(scene: &Description, budget: &Budget, rows: &[Row]) -> String
         "scene": scene.name,
         "seed": budget.seed,
         "rays": budget.rays,
-        "target_error": budget.error,
+        "target_error": budget.error.map(|target| match target {
+            Target::Absolute(error) => json!(error),
+            Target::Relative(_) => json!(target.to_string()),
+        }),
+        "complete": is_complete,
+        // What such paths carried counts as absorbed.
+        "cut_paths": cuts.iter().map(|(instrument, cut)| json!({
+            "instrument": instrument,
+            "paths": cut.paths,
+            "light_at_most": cut.at_most,
+        })).collect::<Vec<_>>(),
         "figures": figures.collect::<Vec<_>>(),
     });
     format!("{report:#}\n")

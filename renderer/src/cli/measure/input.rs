@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use leafmodel::document::encoding::{Decoded, decoded};
 use leafmodel::import::{self, Draft, Fault, FaultKind, Format, ImportError, Imported, Wanted};
 use leafmodel::measure::{Blade, Known};
 use leafmodel::shape::outline::Outline;
@@ -84,6 +85,8 @@ impl Input {
             format!("{word}: {}", fault.line())
         };
         let mut remarks: Vec<String> = self.faults.iter().map(told).collect();
+        let places = self.network.nodes().iter().map(|node| node.position);
+        remarks.extend(trace::note_on_length(places, "--mm-per-unit"));
         let mut note = |text: &str| remarks.push(format!("note: {text}"));
         let is_told = |fault: &Fault| fault.kind == FaultKind::NoRadius;
         if !self.known.radii && !self.faults.iter().any(is_told) {
@@ -216,7 +219,8 @@ fn is_fault(finding: &Finding) -> bool {
         | FindingKind::Spurs { .. }
         | FindingKind::Crossings { .. }
         | FindingKind::Petiole
-        | FindingKind::BaseGuessed => false,
+        | FindingKind::BaseGuessed
+        | FindingKind::Moved { .. } => false,
     }
 }
 
@@ -233,7 +237,8 @@ fn margin(path: &Path, arguments: &ReadingArguments) -> Result<Outline, Failure>
     let shown = path.display();
     let format = match Kind::of(path)? {
         Kind::Network(format @ (Format::Svg | Format::Json)) => format,
-        Kind::Network(Format::GraphMl | Format::Table) | Kind::Picture => {
+        Kind::Network(Format::GraphMl | Format::Table | Format::Gml | Format::Neighbours)
+        | Kind::Picture => {
             return Err(Failure::bad(format!(
                 "{shown}: a margin is read from svg, json or geojson"
             )));
@@ -252,15 +257,16 @@ fn margin(path: &Path, arguments: &ReadingArguments) -> Result<Outline, Failure>
     }
 }
 
-/// The text of a file.
-fn text_of(path: &Path) -> Result<String, Failure> {
-    let bytes = std::fs::read(path)
-        .map_err(|error| Failure::bad(format!("{}: {error}", path.display())))?;
-    String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        Failure::bad(format!(
-            "{}: is no text in UTF-8: byte {at} is not part of a character",
+/// The text of a file; a note says so if its encoding is a guess.
+pub(in crate::cli) fn text_of(path: &Path) -> Result<String, Failure> {
+    let bad = |error: &dyn std::fmt::Display| Failure::bad(format!("{}: {error}", path.display()));
+    let bytes = std::fs::read(path).map_err(|error| bad(&error))?;
+    let Decoded { text, is_guessed } = decoded(&bytes).map_err(|error| bad(&error))?;
+    if is_guessed {
+        eprintln!(
+            "note: {} is not in UTF-8; it is read as Latin-1 (Windows-1252)",
             path.display()
-        ))
-    })
+        );
+    }
+    Ok(text)
 }

@@ -66,6 +66,11 @@ pub(super) struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
+    /// A measure that is a number.
+    pub(super) fn number(&self, key: &str) -> Option<f64> {
+        self.measures.number(key)
+    }
+
     pub(super) fn new(
         arguments: &MeasureArguments,
         input: &'a Input,

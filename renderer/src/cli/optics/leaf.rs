@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::cli::Failure;
 use crate::cli::arguments::OpticsArguments;
 use crate::cli::columns::in_columns;
-use leafmodel::document::nearest::nearest;
+use leafmodel::document::nearest::meant;
 
 /// The default leaf.
 const DEFAULT: Contents = Contents::of(&[
@@ -42,9 +42,9 @@ pub(super) fn choose(arguments: &OpticsArguments) -> Result<Chosen, Failure> {
 }
 
 fn unknown_preset(wanted: &str) -> Failure {
-    let names = presets::ALL.iter().map(|preset| preset.name);
-    let meant =
-        nearest(wanted, names).map_or_else(String::new, |name| format!("; did you mean `{name}`?"));
+    let presets = presets::ALL.iter();
+    let meant = meant(wanted, presets.map(|preset| (preset.name, preset.about)));
+    let meant = meant.map_or_else(String::new, |name| format!("; did you mean `{name}`?"));
     Failure::bad(format!(
         "there is no preset `{}`{meant} (`lamina optics --list` names the presets)",
         wanted.escape_debug()

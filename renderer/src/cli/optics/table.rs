@@ -10,7 +10,7 @@ use leafmodel::document::error::DocumentError;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::nearest::nearest;
 use leafmodel::document::report::DocumentErrors;
-use leafmodel::document::rows::{Field, Rows};
+use leafmodel::document::rows::{Field, Form, Rows, without_mark};
 use leafmodel::document::source::{Sources, escaped};
 use leafmodel::optics::{Constituent, Contents, ProspectD};
 
@@ -24,7 +24,7 @@ use crate::image::atomic;
 /// Names of the column that names leaves.
 const IDENTITIES: [&str; 5] = ["leaf", "id", "name", "sample", "case"];
 /// Columns of `lamina fit` that are no contents, beside those of standard errors.
-const OF_FITS: [&str; 3] = ["face_contrast", "rms", "values"];
+const OF_FITS: [&str; 4] = ["face_contrast", "rms", "values", "reasons"];
 
 const EMPTY: &str = "has an empty value";
 
@@ -47,7 +47,12 @@ pub(super) fn run(arguments: &OpticsArguments, table: &Path, out: &Path) -> Resu
     }
     let bytes = std::fs::read_to_string(table);
     let text = bytes.map_err(|error| Failure::bad(format!("{}: {error}", table.display())))?;
-    let leaves = read(&leaf::choose(arguments)?, table, &text)?;
+    let leaves = read(
+        &leaf::choose(arguments)?,
+        arguments.form.form(),
+        table,
+        &text,
+    )?;
     drop(text);
     warn_of_mixtures(&leaves.contents);
     let wavelengths: Vec<f64> = if arguments.nm.is_empty() {
@@ -90,13 +95,20 @@ enum Column {
 }
 
 /// The leaves of the table, or all that is wrong with it.
-fn read(chosen: &Chosen, file: &Path, text: &str) -> Result<Leaves, DocumentErrors> {
+fn read(chosen: &Chosen, form: Form, file: &Path, text: &str) -> Result<Leaves, DocumentErrors> {
     let shown = escaped(&file.display().to_string(), 4 * QUOTED);
     let cx = Context::new(Sources::default(), ".".into());
-    let rows = Rows::of(&cx, shown.as_str(), text);
-    let mut records = rows.records();
+    let text = without_mark(text);
+    let source = cx.sources.borrow_mut().add(shown.as_str(), text);
+    let rows = Rows::written(text, form);
+    let mut records = rows.records().filter_map(|row| {
+        let ragged = row.map(|row| row.fields);
+        ragged
+            .map_err(|ragged| cx.error(&ragged.at(source), ragged.error()))
+            .ok()
+    });
     let names = records.next().unwrap_or_default();
-    let columns = columns(&cx, &names, chosen);
+    let columns = columns(&cx, source, &names, chosen);
     let named_by = columns.iter().position(|column| *column == Column::Name);
     let mut leaves = Leaves {
         column: named_by.map_or_else(|| "leaf".to_owned(), |at| names[at].text.clone()),
@@ -109,18 +121,18 @@ fn read(chosen: &Chosen, file: &Path, text: &str) -> Result<Leaves, DocumentErro
         for ((field, column), name) in fields.iter().zip(&columns).zip(&names) {
             match *column {
                 Column::Content(of) => {
-                    if let Some(value) = number(&cx, of, name, field, rows.have_decimal_commas()) {
+                    if let Some(value) = number(&cx, source, of, [name, field], &rows) {
                         contents[of] = value;
                     }
                 }
                 Column::Name if field.text.is_empty() => {
                     let error = impossible(name, EMPTY.to_owned(), "give each leaf a name");
-                    cx.error(&field.at, error);
+                    cx.error(&field.at(source), error);
                 }
                 Column::Name if !seen.insert(field.text.clone()) => {
-                    let problem = format!("there is another leaf `{}`", safe(field));
+                    let problem = format!("there is another leaf `{}`", field.shown());
                     let error = impossible(name, problem, "give each leaf a name of its own");
-                    cx.error(&field.at, error);
+                    cx.error(&field.at(source), error);
                 }
                 Column::Name | Column::Other => {}
             }
@@ -137,6 +149,9 @@ fn read(chosen: &Chosen, file: &Path, text: &str) -> Result<Leaves, DocumentErro
             help: "write names of columns into its first line, and a line for each leaf".to_owned(),
         });
     }
+    for guess in rows.guesses() {
+        eprintln!("note: {guess}");
+    }
     let (sources, errors, _) = cx.into_parts();
     if errors.is_empty() {
         Ok(leaves)
@@ -147,7 +162,7 @@ fn read(chosen: &Chosen, file: &Path, text: &str) -> Result<Leaves, DocumentErro
 
 /// What the columns hold. A content may be called as its option, as `lamina fit` calls it, or by
 /// PROSPECT's letters.
-fn columns(cx: &Context, names: &[Field], chosen: &Chosen) -> Vec<Column> {
+fn columns(cx: &Context, source: usize, names: &[Field], chosen: &Chosen) -> Vec<Column> {
     let mut columns = Vec::with_capacity(names.len());
     for name in names {
         let is = |known: &str| known.eq_ignore_ascii_case(&name.text);
@@ -164,21 +179,24 @@ fn columns(cx: &Context, names: &[Field], chosen: &Chosen) -> Vec<Column> {
             Column::Other
         };
         let conflict = |second: String| DocumentError::Conflict {
-            first: safe(name),
+            first: name.shown(),
             second,
         };
         match column {
             Column::Other => {
                 if !OF_FITS.into_iter().any(is) && !name.text.ends_with("_standard_error") {
-                    cx.error(&name.at, unknown(name, chosen));
+                    cx.error(&name.at(source), unknown(name, chosen));
                 }
             }
             Column::Content(of) if chosen.is_given(of) => {
-                cx.error(&name.at, conflict(format!("--{}", chosen.option(of))));
+                cx.error(
+                    &name.at(source),
+                    conflict(format!("--{}", chosen.option(of))),
+                );
             }
             Column::Content(_) | Column::Name => {
                 if let Some(earlier) = columns.iter().position(|other| *other == column) {
-                    cx.error(&name.at, conflict(safe(&names[earlier])));
+                    cx.error(&name.at(source), conflict(names[earlier].shown()));
                 }
             }
         }
@@ -196,7 +214,7 @@ fn unknown(name: &Field, chosen: &Chosen) -> DocumentError {
             .chain(Constituent::ALL.map(Constituent::name))
     };
     DocumentError::UnknownKey {
-        key: safe(name),
+        key: name.shown(),
         block: "the table".to_owned(),
         nearest: nearest(&name.text, known()).map(str::to_owned),
         known: known().collect::<Vec<_>>().join(", "),
@@ -206,55 +224,45 @@ fn unknown(name: &Field, chosen: &Chosen) -> DocumentError {
 /// A content as a number in its range; an error otherwise.
 fn number(
     cx: &Context,
+    source: usize,
     of: Constituent,
-    name: &Field,
-    field: &Field,
-    has_decimal_commas: bool,
+    [name, field]: [&Field; 2],
+    rows: &Rows<'_>,
 ) -> Option<f64> {
     let [low, high] = of.range();
     let limits = Limits::closed(low, high);
-    let key = safe(name);
-    let written = if has_decimal_commas {
-        field.text.replace(',', ".")
-    } else {
-        field.text.clone()
-    };
-    let error = match written.parse::<f64>() {
-        Ok(value) if limits.contain(value) => return Some(value),
-        Ok(value) if value.is_finite() => DocumentError::OutOfRange {
+    let key = name.shown();
+    let error = match rows.number(field) {
+        Some(value) if limits.contain(value) => return Some(value),
+        Some(value) if value.is_finite() => DocumentError::OutOfRange {
             key,
-            value: safe(field),
+            value: field.shown(),
             range: format!("{limits} {}", of.unit()).trim_end().to_owned(),
             help: limits.advice(value),
         },
-        Ok(_) => DocumentError::NotFinite {
+        Some(_) => DocumentError::NotFinite {
             key,
-            value: safe(field),
+            value: field.shown(),
         },
-        Err(_) => {
+        None => {
             let problem = if field.text.is_empty() {
                 EMPTY.to_owned()
             } else {
-                format!("`{}` is not a number", safe(field))
+                format!("`{}` is not a number", field.shown())
             };
             impossible(name, problem, &format!("write a number from {limits}"))
         }
     };
-    cx.error(&field.at, error);
+    cx.error(&field.at(source), error);
     None
 }
 
 fn impossible(name: &Field, problem: String, help: &str) -> DocumentError {
     DocumentError::Impossible {
-        key: safe(name),
+        key: name.shown(),
         problem,
         help: help.to_owned(),
     }
-}
-
-/// A field as messages show it.
-fn safe(field: &Field) -> String {
-    escaped(&field.text, QUOTED)
 }
 
 #[cfg(test)]

@@ -57,6 +57,10 @@ pub(super) fn report(traced: &Traced<'_>, rendered: &Rendered, times: &Times) ->
         "mpaths_per_s": times.millions_per_second(film.drawn() - paths_before),
         "rejected_samples": film.rejected(),
         "clamped_values": film.clamped(),
+        "unknown_variances": film.overflowed(),
+        "cut_paths": film.cut(),
+        // No number of JSON is infinite.
+        "missing_at_most": Some(film.missing()).filter(|missing| missing.is_finite()),
         "interrupted": rendered.ended == Ended::Interrupted,
     });
     report["resumed_paths"] = json!(paths_before);

@@ -8,19 +8,19 @@ use serde_json::{Map, Value, json};
 use super::tasks::{hexadecimal, identities, words_of};
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::SweepArguments;
-use crate::cli::{Failure, say};
+use crate::cli::{Failure, has_no_reader, say};
 use crate::sweep::{Sweep, Target};
 
-/// Prints a line for the sweep ([`about`]), then one for each task: its number, its identity, the
-/// values of its keys, and the words behind `lamina` that do it, but for its outputs.
+/// Prints a line for the sweep ([`about`]), then one for each task as soon as it is read: its number,
+/// its identity, the values of its keys, and the words behind `lamina` that do it, but for its
+/// outputs. A task that is refused ends the list with its error.
 pub(super) fn print(
     sweep: &Sweep,
     arguments: &SweepArguments,
     range: Range<usize>,
 ) -> Result<(), Failure> {
-    let identities = identities(sweep, range.clone())?;
     say(about(sweep));
-    for (number, identity) in range.zip(identities) {
+    identities(sweep, range, |number, identity| {
         let task = sweep.task(number);
         let settings = task.settings.iter();
         let mut values: Map<String, Value> = settings
@@ -35,8 +35,8 @@ pub(super) fn print(
             "values": values,
             "arguments": words_of(sweep, &task, arguments.cache.as_deref()),
         }));
-    }
-    Ok(())
+        !has_no_reader()
+    })
 }
 
 /// What all tasks share.

@@ -3,7 +3,6 @@
 use std::ops::Range;
 use std::path::Path;
 
-use clap::Parser as _;
 use rayon::prelude::*;
 
 use crate::checkpoint::PROGRAM;
@@ -12,10 +11,12 @@ use crate::cli::{Failure, colour, grow};
 use crate::scene::fingerprint::{fingerprint, fnv1a};
 use crate::scene::load::load;
 use crate::sweep::{Refused, Sweep, Target, Task};
+use leafmodel::document::path::allowed;
 use leafmodel::document::report::DocumentErrors;
 
-/// Tasks that are looked at between two looks at the errors.
-const BATCH: usize = 2048;
+/// Tasks that are looked at between two looks at the errors: few at first, so that the first are
+/// there at once.
+const BATCHES: [usize; 2] = [32, 2048];
 
 /// The words behind `lamina` that do a task, but for its outputs.
 pub(super) fn words_of(sweep: &Sweep, task: &Task<'_>, cache: Option<&Path>) -> Vec<String> {
@@ -37,6 +38,9 @@ pub(super) fn words_of(sweep: &Sweep, task: &Task<'_>, cache: Option<&Path>) -> 
             "--set"
         }
     };
+    for folder in allowed() {
+        add("--allow", folder.display().to_string());
+    }
     for setting in &sweep.fixed {
         add("-D", setting.clone());
     }
@@ -64,19 +68,28 @@ pub(super) fn words_of(sweep: &Sweep, task: &Task<'_>, cache: Option<&Path>) -> 
 /// program among it. For a scene that is its [fingerprint], samples, seed, noise and the picture's
 /// tone; for a leaf its plan.
 ///
-/// All tasks of the range are read, so that no error waits for its turn.
-pub(super) fn identities(sweep: &Sweep, range: Range<usize>) -> Result<Vec<u64>, Failure> {
-    let mut found = Vec::with_capacity(range.len());
+/// All tasks of the range are read, so that no error waits for its turn; `found` is called with the
+/// number and the identity of each in order, until one is refused or it returns false.
+pub(super) fn identities(
+    sweep: &Sweep,
+    range: Range<usize>,
+    mut found: impl FnMut(usize, u64) -> bool,
+) -> Result<(), Failure> {
     let mut refused = Refused::default();
-    for start in range.clone().step_by(BATCH) {
-        let numbers = start..(start + BATCH).min(range.end);
+    let [mut batch, most] = BATCHES;
+    let mut start = range.start;
+    while start < range.end {
+        let numbers = start..(start + batch).min(range.end);
+        (start, batch) = (numbers.end, (2 * batch).min(most));
         let read: Vec<(usize, Result<u64, Why>)> = numbers
             .into_par_iter()
             .map(|number| (number, identity(sweep, &sweep.task(number))))
             .collect();
         for (number, result) in read {
             match result {
-                Ok(identity) => found.push(identity),
+                Ok(_) if !refused.is_empty() => {}
+                Ok(identity) if found(number, identity) => {}
+                Ok(_) => return Ok(()),
                 Err(Why::Document(errors)) => refused.add(sweep, &sweep.task(number), &errors),
                 Err(Why::Failure(failure)) => return Err(failure),
             }
@@ -86,7 +99,7 @@ pub(super) fn identities(sweep: &Sweep, range: Range<usize>) -> Result<Vec<u64>,
         }
     }
     if refused.is_empty() {
-        Ok(found)
+        Ok(())
     } else {
         Err(Failure::BadInput(refused.render(sweep, colour())))
     }
@@ -124,7 +137,7 @@ fn identity(sweep: &Sweep, task: &Task<'_>) -> Result<u64, Why> {
         Target::Leaf(_) => {
             let mut line = vec!["lamina".to_owned()];
             line.extend(words_of(sweep, task, None));
-            let parsed = Arguments::try_parse_from(line);
+            let parsed = Arguments::of_line(line);
             let Ok(Some(Command::Grow(arguments))) = parsed.map(|parsed| parsed.command) else {
                 return Err(Why::Failure(Failure::bad(
                     "the leaf's name is no word of a command",

@@ -48,6 +48,30 @@ pub(super) fn layered(scene: &Description) -> Option<String> {
     })
 }
 
+/// Whether light that a material takes up comes out at other wavelengths. Measured spectra do not
+/// say what chlorophyll absorbs.
+pub(super) fn fluoresces(material: &Material) -> bool {
+    matches!(
+        material,
+        Material::Leaf {
+            tissue: LeafTissue::Held(_),
+            fluorescence: Some(_),
+            ..
+        }
+    )
+}
+
+/// Whether a material becomes a BSDF of Mitsuba's own that scatters.
+pub(super) fn is_stock(material: &material::Material) -> bool {
+    match material {
+        material::Material::Diffuse(_) => true,
+        material::Material::Dielectric(dielectric) => dielectric.eta != 1.0,
+        material::Material::Plastic(_)
+        | material::Material::Leaf(_)
+        | material::Material::Solid(_) => false,
+    }
+}
+
 /// The material with this number.
 pub(super) fn bsdf(
     scene: &Description,
@@ -206,10 +230,15 @@ fn leaf_faces(bsdf: Element, faces: &LeafFaces, spectra: &mut Spectra) -> Elemen
             .float(&format!("{face}_alpha_across"), coat.alpha_across)
             .float(&format!("{face}_alpha_along"), coat.alpha_along)
     });
-    match &faces.abaxial_ratio {
-        Some(ratio) => bsdf.holding(spectra.element("abaxial_ratio", ratio, 1.0)),
-        None => bsdf,
-    }
+    let known = [
+        ("abaxial_ratio", &faces.abaxial_ratio),
+        ("abaxial_reflectance", &faces.abaxial_reflectance),
+    ];
+    let known = known.into_iter();
+    let known = known.filter_map(|(name, spectrum)| Some((name, spectrum.as_ref()?)));
+    known.fold(bsdf, |bsdf, (name, spectrum)| {
+        bsdf.holding(spectra.element(name, spectrum, 1.0))
+    })
 }
 
 fn solid_optics(bsdf: Element, optics: &SolidOptics) -> Element {

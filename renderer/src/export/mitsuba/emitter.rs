@@ -117,7 +117,7 @@ fn primaries(spectra: &mut Spectra) -> [Element; 3] {
 /// Distance of what shines from infinity, mm, and the middle of the scene, mm.
 pub(super) fn far(world: &World) -> (f64, DVec3) {
     let (low, high) = world.geometry.bounds();
-    let middle = ((low + high).as_dvec3() * 0.5 + world.origin) * UNITS_PER_METRE;
+    let middle = ((low + high).as_dvec3() * 0.5 + world.geometry.origin()) * UNITS_PER_METRE;
     let radius = f64::from((high - low).length()) * 0.5 * UNITS_PER_METRE;
     (SUN_DISTANCE * radius, middle)
 }

@@ -1,6 +1,6 @@
 //! Media, and which shapes they fill.
 
-use glam::{Vec3, Vec3Swizzles as _};
+use glam::{DVec3, Vec3Swizzles as _};
 
 use crate::export::element::Element;
 use crate::scene::description::{Description, Material, Medium, MediumPhase, Named, Spectrum};
@@ -18,7 +18,7 @@ pub(super) fn nested<'s>(scene: &'s Description, world: &World) -> Option<[&'s s
     }
     let numbers = 0..world.objects.len() as u32;
     let bodies = numbers.filter(|&number| world.objects[number as usize].body.is_some());
-    let mut boxes: Vec<(Vec3, Vec3, usize)> = bodies
+    let mut boxes: Vec<(DVec3, DVec3, usize)> = bodies
         .map(|number| {
             let (least, most) = world.geometry.bounds_of(number);
             (least, most, world.objects[number as usize].object)

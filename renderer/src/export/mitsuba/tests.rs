@@ -187,7 +187,7 @@ position_m = [0, 0, 0.1]
         let instance = world.geometry.instance(number as u32);
         let file = MeshFile {
             mesh: instance.mesh as usize,
-            mirrored: instance.to_world.matrix3.determinant() < 0.0,
+            mirrored: instance.linear.determinant() < 0.0,
         };
         let bytes = fs::read(out.join(file.path(&scene, &world))).expect("its mesh");
         let mesh = crate::geometry::import(&bytes, "ply", 1.0).expect("a mesh");
@@ -291,9 +291,10 @@ radiance_w_m2_sr_nm = 1
         let exported = crate::geometry::import(&bytes, "ply", 1.0).expect("a mesh");
         let instance = world.geometry.instance(instance as u32);
         let traced = world.geometry.mesh(instance.mesh);
+        let to_scene = instance.to_scene();
         for (theirs, ours) in exported.positions().iter().zip(traced.positions()) {
             let theirs = to_world.transform_point3(theirs.as_dvec3());
-            let ours = 1000.0 * instance.to_world.transform_point3(*ours).as_dvec3();
+            let ours = 1000.0 * to_scene.transform_point3(ours.as_dvec3());
             // Millimetres; coordinates reach 300 of them.
             assert!(theirs.distance(ours) < 2e-4, "{id}: {theirs} is not {ours}");
         }
@@ -487,4 +488,72 @@ fn bodies_within_each_other_and_a_camera_in_a_body_are_refused() {
     let (scene, world) = scene_with(&around, folder.path());
     let error = write(&scene, &world, &out).expect_err("the camera is in the air");
     assert!(matches!(error, ExportError::CameraInside), "{error}");
+}
+
+#[test]
+fn what_cannot_be_exported_shows_before_anything_is_grown() {
+    let folder = tempfile::tempdir().expect("a folder");
+    openexr::write(&map_picture(&map()), &folder.path().join("map.exr")).expect("a map");
+    let checked = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+        let loaded = load::parse(SCENE, "scene.toml", folder.path(), &overrides);
+        let scene = loaded.unwrap_or_else(|errors| panic!("{errors}"));
+        check(&scene.description).map_err(|error| error.to_string())
+    };
+    assert_eq!(checked(&[]), Ok(()));
+    for (overrides, part) in [
+        (
+            &[
+                "camera.perspective.f_number=4",
+                "camera.perspective.blades=5",
+            ][..],
+            "camera.perspective.blades",
+        ),
+        (
+            &["materials.mapped.leaf.optics=\"layers\""],
+            "materials.mapped.leaf.optics",
+        ),
+        (&["materials.mapped.leaf.fluorescence={}"], "fluoresces"),
+    ] {
+        let error = checked(overrides).expect_err(part);
+        assert!(error.contains(part), "{error}");
+    }
+}
+
+#[test]
+fn smooth_objects_of_mitsubas_own_bsdfs_are_reported_as_leaking() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut blocks = "
+[meshes.ball.sphere]
+radius_m = 0.01
+[meshes.cube.box]
+size_m = [0.01, 0.01, 0.01]
+[materials.paint.diffuse]
+reflectance = 0.5
+[materials.glass.dielectric]
+eta = 1.5
+[materials.air.dielectric]
+eta = 1
+[materials.glaze.plastic]
+reflectance = 0.5
+"
+    .to_owned();
+    for (number, (name, mesh, material)) in [
+        ("painted", "ball", "paint"),
+        ("flat", "cube", "paint"),
+        ("clear", "ball", "glass"),
+        ("absent", "ball", "air"),
+        ("pot", "ball", "glaze"),
+        ("leaf", "ball", "plain"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        blocks += &format!(
+            "[objects.{name}]\nmesh = \"{mesh}\"\nmaterial = \"{material}\"\n\
+             position_m = [0, {number}, 1]\n"
+        );
+    }
+    let (scene, world) = scene_with(&blocks, folder.path());
+    assert_eq!(leaking(&scene, &world), ["painted", "clear"]);
 }

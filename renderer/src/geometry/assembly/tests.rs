@@ -78,7 +78,7 @@ fn in_doubles(geometry: &Geometry, ray: &Ray) -> (Option<f64>, f64) {
     let (mut nearest, mut margin): (Option<f64>, f64) = (None, f64::INFINITY);
     for placement in &geometry.placements {
         let mesh = &geometry.meshes[placement.instance.mesh as usize];
-        let to_world = placement.instance.to_world;
+        let to_world = placement.instance.around(geometry.origin);
         let linear = [
             to_world.matrix3.x_axis,
             to_world.matrix3.y_axis,
@@ -131,12 +131,12 @@ fn the_trees_find_what_testing_every_triangle_finds() {
             let mut ray = ray_through(&mut numbers, &geometry);
             if numbers.unit() < 0.5 {
                 // At a triangle, so that not all of them pass between.
-                let instance = geometry.instance(numbers.below(instances.len()) as u32);
+                let number = numbers.below(instances.len()) as u32;
                 let corners = geometry
-                    .mesh(instance.mesh)
+                    .mesh(geometry.instance(number).mesh)
                     .corners(numbers.below(40) as u32);
-                let target = instance
-                    .to_world
+                let target = geometry
+                    .to_world(number)
                     .transform_point3((corners[0] + corners[1] + corners[2]) / 3.0);
                 ray = Ray::new(ray.origin(), target - ray.origin());
             }

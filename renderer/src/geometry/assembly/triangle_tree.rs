@@ -32,8 +32,6 @@ pub(super) struct TriangleTree {
     wall_boxes: Vec<Bounds>,
     /// The box around all of them.
     pub(super) wall_bounds: Bounds,
-    /// Of joined meshes, each instance in rising order, and the box around it.
-    members: Vec<(u32, Bounds)>,
     /// Boxes that enclose the rotated triangles more tightly than the tree's own box.
     pub(super) hull: Vec<Bounds>,
 }
@@ -66,7 +64,6 @@ impl TriangleTree {
             owners: Vec::new(),
             wall_boxes: Vec::new(),
             wall_bounds: Bounds::EMPTY,
-            members: Vec::new(),
         }
     }
 
@@ -79,7 +76,6 @@ impl TriangleTree {
             owners: Vec::new(),
             wall_boxes: Vec::new(),
             wall_bounds: Bounds::EMPTY,
-            members: Vec::new(),
             hull: Vec::new(),
         }
     }
@@ -134,15 +130,6 @@ impl TriangleTree {
             .iter()
             .map(|leaf| joined.instances[member_of(leaf)])
             .collect();
-        let mut members: Vec<_> = joined
-            .instances
-            .iter()
-            .zip(firsts.windows(2))
-            .map(|(&instance, part)| {
-                let own = boxes[part[0]..part[1]].iter();
-                (instance, own.copied().fold(Bounds::EMPTY, Bounds::union))
-            })
-            .collect();
         let mut hull = tree.hull(HULL_BOXES);
         let mut wall_boxes = Vec::with_capacity(joined.walls.len());
         for &instance in &joined.walls {
@@ -152,11 +139,9 @@ impl TriangleTree {
             let bounds = Bounds::around(triangles.iter().flat_map(|(_, corners)| *corners));
             blocks.push(TriangleBlock::new(triangles));
             owners.push(instance);
-            members.push((instance, bounds));
             hull.push(bounds);
             wall_boxes.push(bounds);
         }
-        members.sort_unstable_by_key(|&(instance, _)| instance);
         Self {
             hull,
             owners,
@@ -167,7 +152,6 @@ impl TriangleTree {
                 .copied()
                 .fold(Bounds::EMPTY, Bounds::union),
             wall_boxes,
-            members,
         }
     }
 
@@ -182,17 +166,6 @@ impl TriangleTree {
     #[inline]
     pub(super) fn owner(&self, place: u32) -> Option<u32> {
         self.owners.get(place as usize / LANES).copied()
-    }
-
-    /// Of joined meshes, boxes around an instance.
-    pub(super) fn hull_of(&self, instance: u32) -> &[Bounds] {
-        match self
-            .members
-            .binary_search_by_key(&instance, |member| member.0)
-        {
-            Ok(place) => std::slice::from_ref(&self.members[place].1),
-            Err(_) => &self.hull,
-        }
     }
 
     pub(super) fn memory_bytes(&self) -> usize {

@@ -1,5 +1,6 @@
 //! Wavefront OBJ.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use glam::{Vec2, Vec3};
@@ -26,11 +27,19 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawMesh, ImportError> {
     let mut face = Vec::new();
 
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    for (line, text) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
+    let mut lines = (1..).zip(bytes.split(|&byte| byte == b'\n'));
+    while let Some((line, text)) = lines.next() {
         let wrong = |what: String| ImportError::Line { line, what };
-        // Comments and names may be in any encoding; statements that are read are ASCII.
-        let text = text.split(|&byte| byte == b'#').next().unwrap_or_default();
-        let text = String::from_utf8_lossy(text);
+        let mut text = statement(text);
+        // A statement goes on behind a backslash at the end of its line.
+        while text.ends_with('\\') && is_read(&text) {
+            text.to_mut().pop();
+            let Some((_, more)) = lines.next() else {
+                break;
+            };
+            let more = statement(more);
+            text.to_mut().extend([" ", &more]);
+        }
         let mut words = text.split_ascii_whitespace();
         match words.next() {
             Some("v") => {
@@ -67,7 +76,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawMesh, ImportError> {
                         face.len()
                     )));
                 }
-                raw.push_fan(&face);
+                raw.push_face(&face);
             }
             // Lines, points, groups, materials and free-form surfaces are ignored.
             Some(_) | None => {}
@@ -92,6 +101,19 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawMesh, ImportError> {
         raw.normals = Some(corners.iter().map(normal).collect());
     }
     Ok(raw)
+}
+
+/// A line without its comment and the space at its end. Comments and names may be in any encoding;
+/// statements that are read are ASCII.
+fn statement(line: &[u8]) -> Cow<'_, str> {
+    let text = line.split(|&byte| byte == b'#').next().unwrap_or_default();
+    String::from_utf8_lossy(text.trim_ascii_end())
+}
+
+/// Whether a line begins a statement that is read: others may end in a name with a backslash.
+fn is_read(text: &str) -> bool {
+    let word = text.split_ascii_whitespace().next();
+    matches!(word, Some("v" | "vn" | "vt" | "f"))
 }
 
 /// Three numbers, of which at least `least` must be given; missing ones are 0. Further ones (w,

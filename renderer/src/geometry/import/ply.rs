@@ -125,7 +125,7 @@ fn faces(element: &Element, values: &mut Values, raw: &mut RawMesh) -> Result<()
                             corners.len()
                         )));
                     }
-                    raw.push_fan(&corners);
+                    raw.push_face(&corners);
                 }
                 Kind::List { count, item } => values.list(count, item, |_| Ok(()))?,
                 Kind::Scalar(scalar) => {

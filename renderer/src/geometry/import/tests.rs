@@ -241,3 +241,72 @@ fn an_error_shows_no_more_of_a_file_than_a_line_has() {
         assert!(told.contains("xxx") || told.contains("header"), "{told}");
     }
 }
+
+/// The area that a mesh covers, seen from +z: of what faces there, and all of it.
+fn areas(text: &str) -> [f32; 2] {
+    let mesh = import(text.as_bytes(), "obj", 1.0).expect("it is a mesh");
+    let faces = mesh.triangles().iter().map(|face| {
+        let [a, b, c] = face.map(|corner| mesh.positions()[corner as usize]);
+        0.5 * (b - a).cross(c - a).z
+    });
+    faces.fold([0.0; 2], |[net, all], area| [net + area, all + area.abs()])
+}
+
+#[test]
+fn a_concave_face_covers_itself_and_nothing_else() {
+    let ell = "v 1 -1 0\nv 1 0 0\nv 0 0 0\nv 0 1 0\nv -1 1 0\nv -1 -1 0\n";
+    assert_eq!(areas(&format!("{ell}f 1 2 3 4 5 6\n")), [3.0, 3.0]);
+    assert_eq!(areas(&format!("{ell}f 6 5 4 3 2 1\n")), [-3.0, 3.0]);
+    // Between other faces, whose order stays.
+    let text = format!("{ell}f 6 1 2\nf 1 2 3 4 5 6\nf 4 5 6\n");
+    let mesh = import(text.as_bytes(), "obj", 1.0).expect("it is a mesh");
+    let corners = |face: usize| {
+        let corners = mesh.triangles()[face];
+        corners.map(|corner| mesh.positions()[corner as usize])
+    };
+    assert_eq!(corners(0)[1..], [Vec3::new(1.0, -1.0, 0.0), Vec3::X]);
+    let last = mesh.triangles().len() - 1;
+    assert_eq!(corners(last)[..2], [Vec3::Y, Vec3::new(-1.0, 1.0, 0.0)]);
+}
+
+#[test]
+fn a_face_that_begins_on_a_line_or_repeats_a_corner_is_whole() {
+    let text = "v -1 -1 0\nv 0 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4 5\n";
+    assert_eq!(areas(text), [4.0, 4.0]);
+    let mesh = import(text.as_bytes(), "obj", 1.0).expect("it is a mesh");
+    assert_eq!((mesh.triangles().len(), mesh.dropped().total()), (3, 0));
+    let repeated = text.replace("f 1 2 3 4 5", "f 1 1 3 4 4 5");
+    assert_eq!(areas(&repeated), [4.0, 4.0]);
+    let mesh = import(repeated.as_bytes(), "obj", 1.0).expect("it is a mesh");
+    assert_eq!(mesh.dropped().total(), 0);
+}
+
+#[test]
+fn poles_of_spheres_leave_their_faces_without_area_out() {
+    // A pole as quads of which two corners are one, or two vertices at one place.
+    let text =
+        "v 0 0 1\nv 0 0 1\nv 1 0 0\nv 0 1 0\nf 1 3 4\nf 1 2 3\nf 2 2 3\nf 1 3 4 1\nf 3 4 3\n";
+    let mesh = import(text.as_bytes(), "obj", 1.0);
+    // The quad is the triangle again.
+    let refused = mesh.map(|_| ()).expect_err("a fifth is duplicate");
+    assert!(
+        refused.to_string().contains("3 without area, 1 duplicate"),
+        "{refused}"
+    );
+    let mesh = import(text.replace("f 1 3 4 1\n", "").as_bytes(), "obj", 1.0);
+    let mesh = mesh.expect("faces without area do no harm");
+    assert_eq!((mesh.triangles().len(), mesh.dropped().degenerate), (1, 3));
+}
+
+#[test]
+fn statements_of_an_obj_go_on_behind_a_backslash() {
+    let plain = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    let broken = "v 0 \\\n0 0\r\nv 1 0 0 # C:\\\nv 1 1 0\nv 0 1 0\no C:\\\nf 1 2 \\\r\n3 \\\n4\n";
+    assert_eq!(areas(broken), areas(plain));
+    let wrong = import(b"v 0 0 \\\nx\nf 1 2 3", "obj", 1.0).map(|_| ());
+    assert_eq!(
+        wrong.expect_err("x is no number").to_string(),
+        "line 1: \"x\" is not a number"
+    );
+    assert!(import(b"v 0 0 0\nf 1 1 1 \\", "obj", 1.0).is_err());
+}

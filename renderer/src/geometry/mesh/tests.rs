@@ -81,12 +81,14 @@ fn attributes_must_be_one_a_vertex() {
 }
 
 #[test]
-fn more_than_a_hundredth_dropped_is_refused_and_a_hundredth_is_not() {
+fn more_than_a_hundredth_not_finite_is_refused_and_a_hundredth_is_not() {
     let mesh = blade(10, 10, 1.0, 1.0, Vec3::ZERO);
-    let (positions, good) = (mesh.positions().to_vec(), mesh.triangles().to_vec());
+    let (mut positions, good) = (mesh.positions().to_vec(), mesh.triangles().to_vec());
+    let nowhere = positions.len() as u32;
+    positions.push(Vec3::NAN);
     for (bad, accepted) in [(2, true), (3, false)] {
         let mut triangles = good.clone();
-        triangles.extend(vec![[5, 5, 7]; bad]);
+        triangles.extend(vec![[5, nowhere, 7]; bad]);
         let mesh = TriangleMesh::new(positions.clone(), None, None, triangles);
         assert_eq!(mesh.is_ok(), accepted, "{bad} bad faces");
         if let Err(error) = mesh {
@@ -96,6 +98,21 @@ fn more_than_a_hundredth_dropped_is_refused_and_a_hundredth_is_not() {
             );
         }
     }
+}
+
+#[test]
+fn faces_without_area_are_left_out_and_counted_whatever_their_fraction() {
+    let (positions, good) = square();
+    let mut triangles = vec![[0, 0, 1]; 50];
+    triangles.extend(&good);
+    let mesh = TriangleMesh::new(positions.clone(), None, None, triangles).expect("two are left");
+    assert_eq!(mesh.triangles(), good);
+    assert_eq!(
+        (mesh.dropped().degenerate, mesh.dropped().total()),
+        (50, 50)
+    );
+    let none = refused(positions, vec![[0, 0, 1]; 50]);
+    assert!(none.to_string().contains("50 without area"), "{none}");
 }
 
 #[test]

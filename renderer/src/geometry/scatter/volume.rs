@@ -5,7 +5,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-use super::{Inclination, MOST_THINGS, Strewn, from_z};
+use super::{Inclination, Most, Strewn, from_z};
 use crate::geometry::scramble::scramble;
 
 /// How many leaves float in a box, and how they are inclined.
@@ -60,12 +60,12 @@ pub enum Centres {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum VolumeError {
     /// More than there may be.
-    #[error("`lai`: this takes {wanted} leaves, more than the {most} that there may be")]
+    #[error("`lai`: this takes {wanted} leaves, more than {most}")]
     TooMany {
         /// How many it takes.
         wanted: f64,
         /// How many there may be.
-        most: usize,
+        most: Most,
     },
     /// Less than one leaf.
     #[error(
@@ -102,7 +102,7 @@ impl Volume {
     /// # Panics
     ///
     /// If there is no area.
-    pub fn places(&self, areas: &[f64]) -> Result<Vec<Strewn>, VolumeError> {
+    pub fn places(&self, areas: &[f64], at_most: Most) -> Result<Vec<Strewn>, VolumeError> {
         assert!(!areas.is_empty(), "something floats");
         let area = areas.iter().sum::<f64>() / areas.len() as f64;
         let [least, most] = self.within;
@@ -111,10 +111,10 @@ impl Volume {
         if wanted.round() < 1.0 {
             return Err(VolumeError::None { wanted, area });
         }
-        if wanted > MOST_THINGS as f64 {
+        if wanted > at_most.things() as f64 {
             return Err(VolumeError::TooMany {
                 wanted: wanted.round(),
-                most: MOST_THINGS,
+                most: at_most,
             });
         }
         let place = |number: u64| {

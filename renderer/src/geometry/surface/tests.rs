@@ -245,3 +245,39 @@ fn a_ray_to_a_target_stops_short_of_it() {
         "what is behind the upper blade is hidden"
     );
 }
+
+proptest! {
+    #![proptest_config(fixed(128))]
+
+    #[test]
+    fn a_ray_between_the_planes_starts_on_its_side_and_passes_over_the_triangle(seed in 0_u64..1 << 40) {
+        let mut numbers = Numbers::new(seed);
+        let normals = (0..3).map(|_| Vec3::Z + 0.8 * numbers.cube()).collect();
+        let to_world = numbers.affine(1.0);
+        let mesh = triangle(Some(normals), None);
+        let geometry = placed(vec![mesh.clone()], &[(0, to_world)]);
+        let point = seen(mesh, to_world);
+        for _ in 0..400 {
+            let direction = numbers.direction();
+            // The very edge of the plane is at the mercy of rounding.
+            let along = direction.dot(point.shading_normal);
+            if !point.is_between_planes(direction) || along.abs() < 1e-3 {
+                continue;
+            }
+            let height = (point.raised(direction) - point.position).dot(point.geometric_normal);
+            prop_assert!(height * along > 0.0, "{height} on the wrong side");
+            prop_assert!(!geometry.occluded(&point.way_up(direction)));
+            prop_assert!(!geometry.occluded(&Ray::new(point.raised(direction), direction)), "{point:?}");
+        }
+    }
+}
+
+#[test]
+fn a_point_of_a_mesh_without_normals_never_rises() {
+    let point = seen(triangle(None, None), Affine3A::IDENTITY);
+    assert_eq!(point.rise, [0.0, 0.0]);
+    let mut numbers = Numbers::new(3);
+    assert!((0..1000).all(|_| !point.is_between_planes(numbers.direction())));
+    // Even along the plane.
+    assert!(!point.is_between_planes(Vec3::X));
+}

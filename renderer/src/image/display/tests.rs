@@ -1,4 +1,4 @@
-use super::super::Layer;
+use super::super::{Attribute, Layer};
 use super::*;
 use crate::image::tone::from_srgb;
 use crate::spectrum::cie::{srgb_from_xyz, xyz_of};
@@ -171,8 +171,8 @@ fn bands_stand_for_what_lies_around_them_and_infrared_is_grey() {
 
 #[test]
 fn what_cannot_be_shown_is_refused() {
-    let grey = picture(1, &[("Y", &[0.5])]);
-    assert!(Display::default().pixels(&grey).is_err());
+    let depth = picture(1, &[("depth.Z", &[0.5])]);
+    assert!(Display::default().pixels(&depth).is_err());
     let mut colour = picture(1, &[("R", &[0.5]), ("G", &[0.5]), ("B", &[0.5])]);
     let with_alpha = Display {
         alpha: true,

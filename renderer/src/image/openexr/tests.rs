@@ -342,3 +342,100 @@ fn a_compression_that_is_not_read_is_told_with_what_to_do() {
         "{error}"
     );
 }
+
+/// A file of parts with these names, positions and sizes, in a display window; channels R, G and B
+/// hold 1, 2, 3, … row by row.
+fn parts(window: [i32; 4], parts: &[(&str, [i32; 2], [usize; 2])]) -> Vec<u8> {
+    use exr::prelude::*;
+
+    let [left, top, width, height] = window;
+    let layers = parts.iter().map(|(name, [x, y], [across, down])| {
+        let channel = |name: &str| {
+            let values = (1..=across * down).map(|value| value as f32);
+            AnyChannel::new(name, FlatSamples::F32(values.collect()))
+        };
+        let channels = ["R", "G", "B"].map(channel);
+        let attributes = LayerAttributes {
+            layer_position: Vec2(*x, *y),
+            ..LayerAttributes::named(*name)
+        };
+        let channels = AnyChannels::sort(channels.into_iter().collect());
+        exr::image::Layer::new(
+            (*across, *down),
+            attributes,
+            Encoding::UNCOMPRESSED,
+            channels,
+        )
+    });
+    let window = IntegerBounds::new((left, top), (width as usize, height as usize));
+    let image = Image::from_layers(ImageAttributes::new(window), layers.collect::<Vec<_>>());
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let written = image.write().to_buffered(&mut bytes);
+    written.expect("memory can be written");
+    bytes.into_inner()
+}
+
+#[test]
+fn a_picture_is_the_display_window_black_outside_of_the_data_window() {
+    let shown = |window, position, size| {
+        let picture = decode(&parts(window, &[("", position, size)])).expect("a picture");
+        let red = picture.layer("R").expect("colours").data.clone();
+        assert_eq!(picture.layer("B").expect("colours").data, red);
+        (picture.width, picture.height, red)
+    };
+    // Cropped.
+    assert_eq!(
+        shown([0, 0, 4, 3], [1, 1], [2, 1]),
+        (4, 3, vec![0., 0., 0., 0., 0., 1., 2., 0., 0., 0., 0., 0.])
+    );
+    // More than is shown on each side, and windows that do not begin at 0.
+    assert_eq!(shown([0, 0, 2, 1], [-1, -1], [4, 3]), (2, 1, vec![6., 7.]));
+    assert_eq!(
+        shown([10, 20, 2, 2], [9, 21], [2, 5]),
+        (2, 2, vec![0., 0., 2., 0.])
+    );
+    // Beside each other.
+    assert_eq!(shown([0, 0, 2, 1], [5, 5], [2, 2]), (2, 1, vec![0., 0.]));
+    assert_eq!(shown([0, 0, 2, 1], [-5, 0], [2, 2]), (2, 1, vec![0., 0.]));
+    let far = shown([0, 0, 2, 1], [1_000_000_000, -1_000_000_000], [2, 1]);
+    assert_eq!(far, (2, 1, vec![0., 0.]));
+}
+
+#[test]
+fn a_display_window_that_claims_too_much_is_refused_unread() {
+    let bytes = parts([0, 0, 60_000, 60_000], &[("", [0, 0], [1, 1])]);
+    let refused = decode(&bytes).map(|_| ()).expect_err("nobody wants that");
+    assert!(
+        matches!(refused, ImageError::TooLarge { width: 60_000, .. }),
+        "{refused}"
+    );
+    assert!(decode(&parts([0, 0, 2048, 1024], &[("", [0, 0], [1, 1])])).is_ok());
+    let bytes = parts([0, 0, 8192, 4096], &[("", [0, 0], [1, 1])]);
+    let refused = decode(&bytes).map(|_| ()).expect_err("a pixel of as many");
+    assert!(
+        refused
+            .to_string()
+            .contains("display window of 8192 × 4096"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn further_parts_are_layers_of_their_names() {
+    let bytes = parts(
+        [0, 0, 2, 1],
+        &[("beauty", [0, 0], [2, 1]), ("sky", [1, 0], [1, 1])],
+    );
+    let picture = decode(&bytes).expect("a picture");
+    let names: Vec<_> = picture
+        .layers
+        .iter()
+        .map(|layer| layer.name.as_str())
+        .collect();
+    assert_eq!(names, ["B", "G", "R", "sky.B", "sky.G", "sky.R"]);
+    assert_eq!(picture.layer("sky.R").expect("a part").data, [0.0, 1.0]);
+    for (part, green) in [("beauty", [1.0, 2.0]), ("sky", [0.0, 1.0])] {
+        let picture = super::super::colours::decode(&bytes, Some(part)).expect("a layer");
+        assert_eq!(picture.layer("G").expect("colours").data, green);
+    }
+}

@@ -4,8 +4,9 @@ use glam::{Vec2, Vec3};
 
 use super::super::LANES;
 use super::super::stage::Stage;
-use super::{Course, Event, Leg, MOST_EVENTS, Met, ROULETTE_BELOW, Walk, Witness};
+use super::{Course, Event, Leg, ROULETTE_BELOW, Walk, Witness};
 use crate::geometry::{Hit, Ray};
+use crate::integrator::facet::{Facet, Surroundings};
 use crate::medium::{BodyPlace, Coefficients, Inside};
 use crate::sampling::stream::Stream;
 use crate::spectrum::Lanes;
@@ -35,14 +36,19 @@ impl Passage {
     }
 
     /// Light leaves the surface that it has met, in a direction.
-    pub(super) fn leave(&mut self, stage: &Stage<'_>, met: &Met<'_>, ray: &mut Ray) {
-        let surface = &met.encounter.surface;
+    pub(super) fn leave(
+        &mut self,
+        stage: &Stage<'_>,
+        facet: Facet<'_, impl Surroundings>,
+        ray: &mut Ray,
+    ) {
+        let surface = facet.surface;
         if let Some(body) = stage.objects[surface.instance as usize].body {
             let place = stage.objects.body_place(surface.instance);
             let direction = ray.direction();
             self.inside
-                .leave_boundary(place, body, surface.geometric_normal, direction);
-            *ray = surface.spawn_whole(direction);
+                .leave_boundary(place, body, surface.shading_normal, direction);
+            *ray = facet.spawn_whole(direction);
         }
     }
 }
@@ -77,7 +83,7 @@ impl<'m, C: Course> Walk<'m, C> {
         let stage = self.stage;
         // How far the ray was moved, and from where on it is in what is around it now.
         let (mut moved, mut from) = (0.0, 0.0);
-        while leg.passage.flights < MOST_EVENTS {
+        while leg.passage.flights < stage.world.integrator.max_events {
             let around = self.around(&leg.passage);
             stream.seek(FLIGHT_SETS + 2 * leg.passage.flights);
             leg.passage.flights += 1;
@@ -156,6 +162,7 @@ impl<'m, C: Course> Walk<'m, C> {
             leg.ray = leg.ray.starting_at(from.next_up());
         }
         // What light that is caught still carries counts as absorbed where it is.
+        stage.cuts.add(leg.weight);
         if let Some((body, _)) = leg.passage.inside.innermost() {
             witness.event(&passing(
                 stage.objects.object_of(body),

@@ -14,10 +14,11 @@ use glam::Vec3;
 
 use super::{Leg, Paths};
 use crate::bsdf::fresnel::refracted_cosine;
-use crate::geometry::Hit;
 use crate::geometry::frame::Frame;
 use crate::geometry::surface::SurfacePoint;
+use crate::geometry::{Geometry, Hit};
 use crate::integrator::encounter::Encounter;
+use crate::integrator::facet::Facet;
 
 /// The drops in whose water a path is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,10 +34,10 @@ pub(in crate::integrator) struct Drops {
 pub(in crate::integrator) struct Cap {
     /// Refractive index of the water over that outside.
     pub(in crate::integrator) eta: f32,
-    /// Its normal, to the outside.
+    /// Its shading normal, to the outside.
     pub(in crate::integrator) normal: Vec3,
-    /// The way of the ray that met it.
-    pub(in crate::integrator) way: Vec3,
+    /// Whether the ray that met it came from the water.
+    pub(in crate::integrator) came_out: bool,
 }
 
 impl Cap {
@@ -44,13 +45,12 @@ impl Cap {
     /// other side, or under the rim. Nobody knew that there is water, so the ray goes straight on as if
     /// there were none.
     pub(super) fn is_unknown(&self, drops: Drops) -> bool {
-        drops.count == 0 && self.way.dot(self.normal) > 0.0
+        drops.count == 0 && self.came_out
     }
 
     /// The drops around a ray that leaves in a direction.
     pub(super) fn drops_towards(&self, mut drops: Drops, direction: Vec3) -> Drops {
-        let [came_out, goes_out] = [self.way, direction].map(|way| way.dot(self.normal) > 0.0);
-        match (came_out, goes_out) {
+        match (self.came_out, direction.dot(self.normal) > 0.0) {
             (false, false) => {
                 drops = Drops {
                     count: drops.count.saturating_add(1),
@@ -98,7 +98,7 @@ impl Film {
     /// `()` if the film reflects it totally.
     pub(super) fn enter<const N: usize>(
         self,
-        (surface, frame): (&SurfacePoint, &Frame),
+        (facet, frame): (Facet<'_, Geometry>, &Frame),
         wo: &mut Vec3,
         leg: &mut Leg<N>,
     ) -> Result<(), ()> {
@@ -109,7 +109,7 @@ impl Film {
             return Ok(());
         }
         let mirrored = Vec3::new(-wo.x, -wo.y, wo.z);
-        leg.ray = surface.spawn(frame.to_world(mirrored));
+        leg.ray = facet.spawn(facet.leaving(frame.to_world(mirrored)));
         leg.bounce.pdf = f32::INFINITY;
         Err(())
     }
@@ -119,7 +119,7 @@ impl Film {
     pub(in crate::integrator) fn leave<const N: usize>(
         self,
         drops: Drops,
-        (surface, frame, wo): (&SurfacePoint, &Frame, Vec3),
+        (facet, frame, wo): (Facet<'_, Geometry>, &Frame, Vec3),
         leg: &mut Leg<N>,
     ) -> Drops {
         let wi = frame.to_local(leg.ray.direction());
@@ -127,7 +127,7 @@ impl Film {
             return Drops::default();
         }
         if let Some(wi) = self.into_water(wi) {
-            leg.ray = surface.spawn(frame.to_world(wi));
+            leg.ray = facet.spawn(facet.leaving(frame.to_world(wi)));
         }
         leg.throughput *= 1.0 / (self.eta * self.eta);
         leg.bounce.pdf = f32::INFINITY;
@@ -141,8 +141,8 @@ impl<const N: usize> Paths<'_, N> {
         let eta = self.world.objects[surface.instance as usize].drop?;
         Some(Cap {
             eta,
-            normal: surface.geometric_normal,
-            way,
+            normal: surface.shading_normal,
+            came_out: way.dot(surface.geometric_normal) > 0.0,
         })
     }
 
@@ -175,8 +175,7 @@ impl<const N: usize> Paths<'_, N> {
         encounter: &mut Encounter<'_, N>,
         hit: &Hit,
     ) -> Result<Option<Film>, ()> {
-        let surface = &encounter.surface;
-        if let Some(cap) = self.cap_at(surface, leg.ray.direction()) {
+        if let Some(cap) = self.cap_at(&encounter.surface, leg.ray.direction()) {
             if cap.is_unknown(drops) {
                 // The same ray goes on behind the hit.
                 leg.ray = leg.ray.starting_at(hit.t.next_up());
@@ -191,8 +190,11 @@ impl<const N: usize> Paths<'_, N> {
         let Some(film) = film.filter(|_| is_tissue) else {
             return Ok(None);
         };
-        let place = (surface, &encounter.frame);
-        film.enter(place, &mut encounter.wo, leg)?;
+        let facet = Facet {
+            around: &self.world.geometry,
+            surface: &encounter.surface,
+        };
+        film.enter((facet, &encounter.frame), &mut encounter.wo, leg)?;
         Ok(Some(film))
     }
 }

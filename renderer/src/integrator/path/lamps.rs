@@ -90,7 +90,7 @@ fn direct<const N: usize>(
         }
     }
     let shadow = match sample.point {
-        Some(point) => vertex.scatterer.spawn_to(point),
+        Some(point) => vertex.scatterer.spawn_to(sample.wi, point),
         None => vertex.scatterer.spawn(sample.wi),
     };
     if world.media.are_present {

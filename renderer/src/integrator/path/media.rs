@@ -15,10 +15,6 @@ use crate::spectrum::{Lanes, Wavelengths};
 /// Number of the set of random numbers of a path's first flight; vertices have those below.
 const FLIGHT_SETS: u32 = 1 << 24;
 
-/// Most boundaries that light passes straight between two vertices, so that no error of rounding
-/// keeps a ray for ever.
-const MOST_CROSSINGS: u32 = 10_000;
-
 /// Where a path is.
 #[derive(Clone, Copy, Default)]
 pub(in crate::integrator) struct Passage {
@@ -75,7 +71,8 @@ impl<const N: usize> Paths<'_, N> {
         let world = self.world;
         // From where on the ray is in what is around it now.
         let mut from = 0.0;
-        for _ in 0..MOST_CROSSINGS {
+        // The ray begins behind each hit, so it passes no triangle twice.
+        loop {
             let around = passage.inside.innermost();
             let medium = around.and_then(|(place, body)| {
                 let medium = &world.media.media[body.medium? as usize];
@@ -145,8 +142,6 @@ impl<const N: usize> Paths<'_, N> {
             from = hit.t;
             leg.ray = leg.ray.starting_at(from.next_up());
         }
-        leg.throughput = Lanes::ZERO;
-        Met::Nothing
     }
 }
 
@@ -162,7 +157,9 @@ pub(super) fn transmittance<const N: usize>(
 ) -> (Lanes<N>, u32) {
     let mut left = Lanes::ONE;
     let mut from = 0.0;
-    for rays in 1..=MOST_CROSSINGS {
+    let mut rays = 0;
+    loop {
+        rays += 1;
         let hit = world.geometry.intersect(&ray);
         if let Some(number) = inside.medium() {
             // The direction to a point is as long as the way to it.
@@ -186,5 +183,4 @@ pub(super) fn transmittance<const N: usize>(
         from = hit.t;
         ray = ray.starting_at(from.next_up());
     }
-    (Lanes::ZERO, MOST_CROSSINGS)
 }

@@ -15,6 +15,10 @@ pub struct PathResult<const N: usize> {
     pub first: Option<FirstHit<N>>,
     /// Number of rays traced, shadow rays included.
     pub rays: u32,
+    /// Number of times that a limit cut the path.
+    pub cuts: u32,
+    /// Throughput of what was cut: factor on the radiance that might have been found there.
+    pub cut: Lanes<N>,
 }
 
 impl<const N: usize> PathResult<N> {
@@ -23,7 +27,26 @@ impl<const N: usize> PathResult<N> {
         radiance: Lanes::ZERO,
         first: None,
         rays: 0,
+        cuts: 0,
+        cut: Lanes::ZERO,
     };
+
+    /// Adds what another path found, which goes on from this one with a throughput.
+    pub(super) fn take(&mut self, throughput: Lanes<N>, found: &Self) {
+        self.radiance += throughput * found.radiance;
+        self.rays += found.rays;
+        self.cuts += found.cuts;
+        self.cut += throughput * found.cut;
+    }
+
+    /// Notes that a limit cuts a path of this throughput, if any light is left.
+    #[cold]
+    pub(super) fn end_early(&mut self, throughput: Lanes<N>) {
+        if !throughput.is_zero() {
+            self.cuts += 1;
+            self.cut += throughput;
+        }
+    }
 }
 
 /// The first hit of the camera ray.

@@ -3,9 +3,11 @@
 use glam::{Vec2, Vec3};
 
 use crate::bsdf::{Scattered, View};
+use crate::geometry::Geometry;
 use crate::geometry::frame::Frame;
 use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
+use crate::integrator::facet::Facet;
 use crate::medium::Phase;
 use crate::spectrum::Lanes;
 
@@ -13,7 +15,7 @@ use crate::spectrum::Lanes;
 pub(in crate::integrator) enum Scatterer<'a, const N: usize> {
     /// A surface.
     Surface {
-        surface: &'a SurfacePoint,
+        facet: Facet<'a, Geometry>,
         frame: &'a Frame,
         view: &'a View<'a, N>,
     },
@@ -41,9 +43,8 @@ impl<const N: usize> Scatterer<'_, N> {
     #[inline]
     pub(super) fn scatter(&self, wi_world: Vec3) -> Scattered<N> {
         match self {
-            Self::Surface { frame, view, .. } => {
-                let wi = frame.to_local(wi_world);
-                let Scattered { f, pdf } = view.scatter(wi);
+            Self::Surface { facet, frame, view } => {
+                let (wi, Scattered { f, pdf }) = facet.scatter((frame, view), wi_world);
                 Scattered {
                     f: f * wi.z.abs(),
                     pdf,
@@ -63,10 +64,10 @@ impl<const N: usize> Scatterer<'_, N> {
     #[inline]
     pub(super) fn sample(&self, lobe: f32, u: Vec2) -> Option<Drawn<N>> {
         match self {
-            Self::Surface { frame, view, .. } => {
-                let sample = view.sample(lobe, u)?;
+            Self::Surface { facet, frame, view } => {
+                let (wi_world, sample) = facet.sample((frame, view), lobe, u)?;
                 Some(Drawn {
-                    wi_world: frame.to_world(sample.wi),
+                    wi_world,
                     weight: sample.weight,
                     pdf: if sample.specular {
                         f32::INFINITY
@@ -90,16 +91,16 @@ impl<const N: usize> Scatterer<'_, N> {
     #[inline]
     pub(super) fn spawn(&self, direction: Vec3) -> Ray {
         match self {
-            Self::Surface { surface, .. } => surface.spawn(direction),
+            Self::Surface { facet, .. } => facet.spawn(direction),
             Self::Medium { position, .. } => Ray::new(*position, direction),
         }
     }
 
-    /// The ray to a point, as [`SurfacePoint::spawn_to`] gives it.
+    /// The ray to a point that lies in a direction, as [`SurfacePoint::spawn_to`] gives it.
     #[inline]
-    pub(super) fn spawn_to(&self, target: Vec3) -> Ray {
+    pub(super) fn spawn_to(&self, direction: Vec3, target: Vec3) -> Ray {
         match self {
-            Self::Surface { surface, .. } => surface.spawn_to(target),
+            Self::Surface { facet, .. } => facet.spawn_to(direction, target),
             Self::Medium { position, .. } => SurfacePoint::shadow(*position, target),
         }
     }

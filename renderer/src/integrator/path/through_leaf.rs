@@ -10,6 +10,7 @@ use crate::bsdf::View;
 use crate::geometry::Hit;
 use crate::geometry::frame::Frame;
 use crate::geometry::surface::SurfacePoint;
+use crate::integrator::facet::Facet;
 use crate::integrator::leaf_walk::LeafWalk;
 use crate::material::leaf::Inside;
 use crate::sampling::stream::Stream;
@@ -55,7 +56,7 @@ impl<const N: usize> Paths<'_, N> {
             entry.inside,
             entry.at,
             self.wavelengths,
-            numbers,
+            (numbers, world.integrator.max_events),
         );
         let [_, mut x, mut y, _] = numbers;
         for face in 0.. {
@@ -64,13 +65,19 @@ impl<const N: usize> Paths<'_, N> {
                 position: at.surface.position,
                 normal: at.surface.shading_normal,
             };
-            if let Some(view) = walk.view() {
+            let facet = Facet {
+                around: &world.geometry,
+                surface: &at.surface,
+            };
+            let seen = walk.view();
+            let view = seen.as_ref().map(View::Face);
+            if let Some(view) = &view {
                 let vertex = Vertex {
                     paths: self,
                     scatterer: Scatterer::Surface {
-                        surface: &at.surface,
+                        facet,
                         frame: &at.outward,
-                        view: &View::Face(view),
+                        view,
                     },
                     receiver,
                     is_lit: true,
@@ -100,18 +107,31 @@ impl<const N: usize> Paths<'_, N> {
                         }
                         throughput *= 1.0 / survival;
                     }
+                    let towards = facet.leaving(leaving.towards);
+                    // Light of one facet may have been mirrored into the same direction.
+                    let density = |own: f32| {
+                        let view = view.as_ref().filter(|_| facet.is_near_gap(towards));
+                        view.map_or(own, |view| {
+                            facet.scatter((&at.outward, view), towards).1.pdf
+                        })
+                    };
                     return Some(Leg {
-                        ray: leaving.surface.spawn(leaving.towards),
+                        ray: facet.spawn(towards),
                         cone: Cone::scattered(width),
                         throughput,
                         bounce: Bounce {
-                            pdf: leaving.pdf.unwrap_or(f32::INFINITY),
+                            pdf: leaving.pdf.map_or(f32::INFINITY, density),
                             from: receiver,
                             light_samples,
                         },
                     });
                 }
-                Err(heading) => walk.go_on(heading)?,
+                Err(headings) => {
+                    if walk.go_on(headings).is_none() {
+                        result.end_early(throughput * walk.cut());
+                        return None;
+                    }
+                }
             }
             result.rays += 1;
             let place = entry.depth.saturating_mul(FACES) + face.min(FACES - 1);

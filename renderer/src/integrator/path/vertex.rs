@@ -30,7 +30,8 @@ pub(in crate::integrator) struct Vertex<'a, const N: usize> {
     pub(in crate::integrator) gathered: Lanes<N>,
     /// The bodies from whose inside the ray came.
     pub(in crate::integrator) inside: &'a Inside,
-    /// The body on whose boundary the point lies, with its outward normal, in scenes with media.
+    /// The body on whose boundary the point lies, with its outward shading normal, in scenes with
+    /// media.
     pub(in crate::integrator) boundary: Option<(BodyPlace, Body, Vec3)>,
     /// The drop on whose surface the point lies.
     pub(in crate::integrator) cap: Option<Cap>,
@@ -66,7 +67,7 @@ impl<const N: usize> Vertex<'_, N> {
         }
         leg.throughput = throughput;
         leg.ray = match (&self.scatterer, self.boundary) {
-            (Scatterer::Surface { surface, .. }, Some(_)) => surface.spawn_whole(sample.wi_world),
+            (Scatterer::Surface { facet, .. }, Some(_)) => facet.spawn_whole(sample.wi_world),
             (scatterer, _) => scatterer.spawn(sample.wi_world),
         };
         leg.cone = Cone::scattered(self.width);
@@ -130,7 +131,7 @@ impl<const N: usize> Paths<'_, N> {
         Vertex {
             paths: self,
             scatterer: Scatterer::Surface {
-                surface,
+                facet: encounter.facet(&self.world.geometry),
                 frame: &encounter.frame,
                 view,
             },
@@ -146,7 +147,7 @@ impl<const N: usize> Paths<'_, N> {
             inside: &passage.inside,
             boundary: objects[surface.instance as usize].body.map(|body| {
                 let place = objects.body_place(surface.instance);
-                (place, body, surface.geometric_normal)
+                (place, body, surface.shading_normal)
             }),
             cap: if objects.have_drops() {
                 self.cap_at(surface, leg.ray.direction())

@@ -110,6 +110,16 @@ impl Samples<'_> {
                 self.layout.features(&sight)
             });
             pixel.add(sample, values, features.as_ref());
+            if found.cuts > 0 {
+                sampler.film_values(&wavelengths, &found.cut, values);
+                let most = values
+                    .iter()
+                    .fold(0.0_f32, |most, value| most.max(value.abs()));
+                pixel.add_cut(
+                    found.cuts,
+                    f64::from(most) * f64::from(self.world.brightest),
+                );
+            }
         }
         rays
     }

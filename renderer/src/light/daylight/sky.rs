@@ -12,7 +12,7 @@ use super::{Daylight, curve};
 use crate::light::radiance_table::RadianceTable;
 use crate::light::{LightSample, unevenness};
 use crate::sampling::distribution::Piecewise2d;
-use crate::spectrum::{Curve, Lanes, Table, WavelengthGrid, Wavelengths, cie};
+use crate::spectrum::{Curve, Lanes, Share, Table, WavelengthGrid, Wavelengths, cie};
 
 /// Columns of the sky's table, around the horizon.
 const WIDTH: usize = 128;
@@ -176,18 +176,31 @@ impl SkyLight {
 
     /// Evaluates its spectra at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
-        self.table = Some(Table::new(grid, |nm| self.spectra_at(nm)));
+        self.table = Some(Table::by_place(grid, |row, lane| {
+            self.spectra_at(&grid.share(row, lane))
+        }));
     }
 
-    fn spectra_at(&self, nm: f32) -> [f32; 4] {
+    fn spectra_at(&self, share: &Share) -> [f32; 4] {
         let [mean, first, second] = &self.basis;
-        [mean, first, second, &self.ground].map(|curve| curve.at(nm))
+        [mean, first, second, &self.ground].map(|curve| curve.over(share))
+    }
+
+    /// A radiance that it exceeds in no direction.
+    pub fn at_most(&self, share: &Share) -> f32 {
+        let spectra = self.spectra_at(share);
+        let sky = self.texels.iter().map(|weights| {
+            let parts = weights.iter().zip(spectra);
+            parts.map(|(weight, spectrum)| weight * spectrum).sum()
+        });
+        // Between texels it is linear.
+        sky.fold(spectra[3], f32::max)
     }
 
     fn radiance<const N: usize>(&self, uv: [f32; 2], wavelengths: &Wavelengths<N>) -> Lanes<N> {
         let table = self.table.as_ref().and_then(|table| table.row(wavelengths));
         let [mean, first, second, ground] = table.unwrap_or_else(|| {
-            let values = wavelengths.nm.map(|nm| self.spectra_at(nm));
+            let values = wavelengths.nm.map(|nm| self.spectra_at(&Share::only(nm)));
             std::array::from_fn(|i| Lanes::from_fn(|lane| values[lane][i]))
         });
         if uv[1] >= 0.5 {

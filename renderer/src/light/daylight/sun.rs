@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 
 use crate::geometry::frame::Frame;
 use crate::light::LightSample;
-use crate::spectrum::{Curve, Lanes, Table, WavelengthGrid, Wavelengths};
+use crate::spectrum::{Curve, Lanes, Share, Table, WavelengthGrid, Wavelengths};
 
 /// Half the angular diameter of the sun at its mean distance, 0.53° across, rad.
 pub const HALF_DIAMETER: f64 = 0.265 * PI / 180.0;
@@ -50,14 +50,16 @@ impl SunLight {
 
     /// Evaluates its radiance at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
-        self.limb = Some(Table::new(grid, |nm| self.limb_at(nm)));
+        self.limb = Some(Table::by_place(grid, |row, lane| {
+            self.limb_at(&grid.share(row, lane))
+        }));
     }
 
     /// Radiance in the middle, and the exponent of the darkening. The mean of `μ^α` over the disc
     /// is 2 / (α + 2).
-    fn limb_at(&self, nm: f32) -> [f32; 2] {
-        let exponent = -0.023 + 292.0 / nm.clamp(416.0, 1099.0);
-        let mean = f64::from(self.irradiance.at(nm)) / (PI * f64::from(self.sin_half).powi(2));
+    pub(in crate::light) fn limb_at(&self, share: &Share) -> [f32; 2] {
+        let exponent = -0.023 + 292.0 / share.nm.clamp(416.0, 1099.0);
+        let mean = f64::from(self.irradiance.over(share)) / (PI * f64::from(self.sin_half).powi(2));
         [mean as f32 * 0.5 * (exponent + 2.0), exponent]
     }
 
@@ -65,7 +67,7 @@ impl SunLight {
     fn radiance<const N: usize>(&self, mu2: f32, wavelengths: &Wavelengths<N>) -> Lanes<N> {
         let table = self.limb.as_ref().and_then(|table| table.row(wavelengths));
         let [middle, exponent] = table.unwrap_or_else(|| {
-            let values = wavelengths.nm.map(|nm| self.limb_at(nm));
+            let values = wavelengths.nm.map(|nm| self.limb_at(&Share::only(nm)));
             std::array::from_fn(|i| Lanes::from_fn(|lane| values[lane][i]))
         });
         Lanes::from_fn(|lane| middle.0[lane] * libm::powf(mu2, 0.5 * exponent.0[lane]))

@@ -142,7 +142,10 @@ fn even_directions_find_the_same_sky_as_its_samples_and_its_density_integrates_t
         let wi = Vec3::new(0.6, 0.0, 0.8);
         let free = sky.towards(wi, &drawn).0;
         sky.tabulate(sampler.grid());
-        assert_eq!(sky.towards(wi, &drawn).0, free);
+        // A table holds means, which differ where a row of the sky's spectrum lies within a share.
+        for (mean, free) in sky.towards(wi, &drawn).0.0.into_iter().zip(free.0) {
+            assert!((mean / free - 1.0).abs() < 1e-4, "{mean} {free}");
+        }
     }
 }
 

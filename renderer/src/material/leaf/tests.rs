@@ -110,7 +110,9 @@ fn tabulated_leaves_are_what_they_are_at_any_wavelength() {
             let mut leaf = LeafMaterial::new(
                 tissue,
                 known.of(pigments),
-                Some(Curve::from_points(&[(400.0, 1.7), (700.0, 1.0)])),
+                Some(Abaxial::Ratio(
+                    Curve::from_points(&[(400.0, 1.7), (700.0, 1.0)]).into(),
+                )),
                 [Coat::new(1.45, 0.3, 0.3), Coat::new(1.4, 0.4, 0.4)],
             );
             leaf.tabulate(sampler.grid());
@@ -140,7 +142,7 @@ fn whether_a_coat_reflects_too_much_is_a_matter_of_the_palette() {
         let leaf = LeafMaterial::new(
             LeafTissue::Held(Held::Uniform(red)),
             known.of(pigments),
-            Some(Curve::Constant(1.0)),
+            Some(Abaxial::Ratio(Curve::Constant(1.0).into())),
             [Coat::new(1.6, 0.3, 0.3), Coat::new(1.6, 0.3, 0.3)],
         );
         leaf.coat_exceeds_reflectance([655.0, 660.0]).is_some()
@@ -231,4 +233,24 @@ fn the_albedo_is_that_of_the_face_seen() {
     let [above, below] = [Vec3::Z, -Vec3::Z].map(|wo| bsdf.albedo(wo).0[0]);
     assert!((above - 0.2).abs() < 1e-6, "{above}");
     assert!((below - 0.26272).abs() < 1e-5, "{below}");
+}
+
+#[test]
+fn a_measured_abaxial_face_reflects_what_was_measured_even_where_the_other_is_black() {
+    let line = |points: &[(f64, f64)]| Curve::from_points(points);
+    let abaxial = line(&[(400.0, 0.3), (700.0, 0.3)]);
+    let leaf = LeafMaterial::new(
+        LeafTissue::Measured {
+            reflectance: line(&[(400.0, 0.0), (500.0, 0.0), (501.0, 0.5), (700.0, 0.5)]),
+            transmittance: Curve::Constant(0.1),
+        },
+        Palette::default(),
+        Some(Abaxial::Reflectance(abaxial.into())),
+        [Coat::new(1.0, 0.3, 0.3), Coat::new(1.0, 0.3, 0.3)],
+    );
+    for nm in [450.0, 500.0, 500.3, 500.5, 500.9, 600.0] {
+        let bsdf = leaf.bsdf_at(&Site::of(Vec2::ZERO), &at(nm));
+        let below = bsdf.albedo(-Vec3::Z).0[0];
+        assert!((below - 0.4).abs() < 1e-6, "{nm} nm: {below}");
+    }
 }

@@ -5,7 +5,7 @@ use leafmodel::optics::{Constituent, Texel};
 
 use super::{LAYERS, LeafLayers};
 use crate::bsdf::fresnel;
-use crate::bsdf::leaf_face::LeafFace;
+use crate::bsdf::leaf_face::{Crossed, FaceView, LeafFace, Likelihood};
 use crate::material::held::Held;
 use crate::material::palette::Palette;
 use crate::spectrum::{Lanes, Wavelengths};
@@ -13,9 +13,8 @@ use crate::spectrum::{Lanes, Wavelengths};
 /// Weight, in the lane where it is greatest, below which chance decides whether light goes on with
 /// that much, or ends.
 const ROULETTE_BELOW: f32 = 0.05;
-/// Most events of a walk: light may be caught in a layer whose neighbours have a lower index, if
-/// nothing scatters or absorbs it there.
-const MOST_EVENTS: u32 = 100_000;
+/// Cosine to the normal below which light counts as if it had this one.
+const LEAST_COSINE: f32 = 1e-7;
 /// Most texels of a map that light crosses between two looks at the contents.
 const TEXELS: f32 = 1.0;
 
@@ -61,23 +60,26 @@ pub struct Place {
 
 /// Light that meets a face from inside.
 #[derive(Clone, Copy, Debug)]
-pub struct Arrival {
+pub struct Arrival<const N: usize> {
     /// The face: 0 adaxial, 1 abaxial.
     pub face: usize,
-    /// Direction in which the light goes, in the frame of the surface, unit.
-    pub heading: Vec3,
+    /// Direction in which light of each wavelength goes, in the frame of the surface, unit.
+    pub headings: [Vec3; N],
 }
 
 /// Light inside a leaf; the frame is that of the surface, +z adaxial.
+///
+/// All wavelengths go one way: through the same layers, scattered at the same depths into the same
+/// directions. Between two scatterings each has the directions of its own indices.
 #[derive(Clone, Debug)]
 pub struct Walk<'a, const N: usize> {
     layers: &'a LeafLayers,
     held: &'a Held,
     place: Place,
     /// Indices, and coefficients of scattering with the greatest amount that the leaf has, 1/m.
-    index: [f32; LAYERS],
-    scattering: [f32; LAYERS],
-    g: f32,
+    index: [Lanes<N>; LAYERS],
+    scattering: [Lanes<N>; LAYERS],
+    g: Lanes<N>,
     /// What one unit of each constituent absorbs.
     specific: [Lanes<N>; Constituent::COUNT],
     /// Absorption of each layer, if the leaf is uniform, 1/m.
@@ -88,23 +90,25 @@ pub struct Walk<'a, const N: usize> {
     layer: usize,
     depth: f32,
     offset: Vec2,
-    /// Share of the light that is left.
-    weight: Lanes<N>,
+    /// Share of the light that is not absorbed.
+    left: Lanes<N>,
+    likelihood: Likelihood<N>,
+    /// Events until the walk is cut: light may be caught in a layer whose neighbours have a lower
+    /// index, if nothing scatters or absorbs it there.
     events: u32,
 }
 
 impl<'a, const N: usize> Walk<'a, N> {
-    /// Light of a path's wavelengths at a place, about to enter by a face (0 adaxial, 1 abaxial).
-    /// The refractive index is that of the mean wavelength.
+    /// Light of a path's wavelengths at a place, about to enter by a face (0 adaxial, 1 abaxial),
+    /// and the number of events after which it is cut.
     pub fn new(
         layers: &'a LeafLayers,
         (held, palette): (&'a Held, &Palette),
         place: Place,
         wavelengths: &Wavelengths<N>,
-        face: usize,
+        (face, events, chance): (usize, u32, &mut Chance),
     ) -> Self {
-        let nm = wavelengths.nm.iter().sum::<f32>() / N as f32;
-        let row = layers.row(nm);
+        let rows = wavelengths.nm.map(|nm| layers.row(nm));
         let coefficients = wavelengths.nm.map(|nm| palette.coefficients(f64::from(nm)));
         let specific = Constituent::ALL.map(|constituent| {
             Lanes::from_fn(|lane| match constituent {
@@ -132,19 +136,21 @@ impl<'a, const N: usize> Walk<'a, N> {
             layers,
             held,
             place,
-            index: row.index,
+            index: std::array::from_fn(|layer| Lanes(rows.map(|row| row.index[layer]))),
             scattering: std::array::from_fn(|layer| {
-                row.scattering[layer] * layers.most / layers.thickness_m[layer]
+                let most = layers.most / layers.thickness_m[layer];
+                Lanes(rows.map(|row| row.scattering[layer] * most))
             }),
-            g: row.g,
+            g: Lanes(rows.map(|row| row.g)),
             specific,
             uniform: None,
             stride,
             layer: 0,
             depth: 0.0,
             offset: Vec2::ZERO,
-            weight: Lanes::ONE,
-            events: 0,
+            left: Lanes::ONE,
+            likelihood: Likelihood::new(chance.number()),
+            events,
         };
         walk.stand_at(face);
         if let Held::Uniform(contents) = held {
@@ -160,9 +166,25 @@ impl<'a, const N: usize> Walk<'a, N> {
     }
 
     /// A face of the leaf.
-    pub fn face(&self, face: usize) -> LeafFace {
-        let index = self.index[face * (LAYERS - 1)];
-        self.layers.face(face, index)
+    fn face(&self, face: usize) -> LeafFace<N> {
+        LeafFace::new(self.index[face * (LAYERS - 1)], self.layers.alpha[face])
+    }
+
+    /// What becomes of light that comes from `wo` at a face, in the face's frame.
+    pub fn cross(&mut self, face: usize, wo: &[Vec3; N], chance: &mut Chance) -> Crossed<N> {
+        let face = self.face(face);
+        face.cross(wo, &mut self.likelihood, || chance.number())
+    }
+
+    /// What a sampled light sees of a face that light from `wo` meets; `None` if it is smooth.
+    pub fn view(&self, face: usize, wo: &[Vec3; N]) -> Option<FaceView<N>> {
+        let face = self.face(face);
+        (!face.is_smooth()).then(|| face.seen_from(*wo, self.likelihood))
+    }
+
+    /// Whether the walk was cut when it ended.
+    pub fn is_cut(&self) -> bool {
+        self.events == 0
     }
 
     /// How far beside its entry the light is, m along x and y.
@@ -172,7 +194,7 @@ impl<'a, const N: usize> Walk<'a, N> {
 
     /// The share of the light that is left.
     pub fn weight(&self) -> Lanes<N> {
-        self.weight
+        self.left * self.likelihood.weight()
     }
 
     /// Absorption of a layer with these contents, 1/m.
@@ -191,57 +213,68 @@ impl<'a, const N: usize> Walk<'a, N> {
             .at(self.place.uv + x * self.offset.x + y * self.offset.y)
     }
 
-    /// Goes straight on for a distance, m, and leaves behind what is absorbed.
-    fn advance(&mut self, heading: Vec3, distance: f32) {
+    /// Goes straight on through a part of the layer's thickness, m, and leaves behind what is
+    /// absorbed; the distance is that of each wavelength.
+    fn advance(&mut self, heading: Vec3, deep: f32, distance: Lanes<N>) {
+        let along = deep / heading.z.abs().max(LEAST_COSINE);
         let beside = Vec2::new(heading.x, heading.y);
         if let Some(uniform) = &self.uniform {
             self.absorb(uniform[self.layer], distance);
-            self.offset += beside * distance;
+            self.offset += beside * along;
         } else {
-            let steps = (distance * beside.length() / self.stride)
+            let steps = (along * beside.length() / self.stride)
                 .ceil()
                 .clamp(1.0, 1000.0);
-            let step = distance / steps;
+            let (step, distance) = (along / steps, distance * (1.0 / steps));
             for _ in 0..steps as u32 {
                 self.offset += beside * (0.5 * step);
                 let absorption = self.absorption(self.layer, &self.contents());
-                self.absorb(absorption, step);
+                self.absorb(absorption, distance);
                 self.offset += beside * (0.5 * step);
             }
         }
-        self.depth -= heading.z * distance;
+        self.depth += deep * if heading.z < 0.0 { 1.0 } else { -1.0 };
     }
 
-    fn absorb(&mut self, absorption: Lanes<N>, distance: f32) {
-        self.weight *= Lanes::from_fn(|lane| libm::expf(-absorption.0[lane] * distance));
+    fn absorb(&mut self, absorption: Lanes<N>, distance: Lanes<N>) {
+        self.left *= unmet(absorption, distance);
     }
 
     /// Follows light from the face at which it is until it meets a face again; `None` if it ends.
-    pub fn to_face(&mut self, mut heading: Vec3, chance: &mut Chance) -> Option<Arrival> {
+    pub fn to_face(&mut self, mut headings: [Vec3; N], chance: &mut Chance) -> Option<Arrival<N>> {
+        let drawn = self.likelihood.drawn();
         loop {
-            self.events += 1;
-            let greatest = self.weight.max_lane();
-            if greatest <= 0.0 || self.events > MOST_EVENTS {
+            let greatest = self.weight().max_lane();
+            if greatest <= 0.0 || self.events == 0 {
                 return None;
             }
+            self.events -= 1;
             if greatest < ROULETTE_BELOW {
                 if chance.number() * ROULETTE_BELOW >= greatest {
                     return None;
                 }
-                self.weight *= ROULETTE_BELOW / greatest;
+                self.left *= ROULETTE_BELOW / greatest;
             }
             let layer = self.layer;
             let thickness = self.layers.thickness_m[layer];
-            let down = heading.z < 0.0;
-            let left = if down {
+            let down = headings[drawn].z < 0.0;
+            let deep = if down {
                 thickness - self.depth
             } else {
                 self.depth
             };
-            let to_side = left.max(0.0) / heading.z.abs().max(1e-7);
-            let free = -libm::logf(1.0 - chance.number()) / self.scattering[layer];
-            if free < to_side {
-                self.advance(heading, free);
+            let deep = deep.max(0.0);
+            let scattering = self.scattering[layer];
+            // Distance for each metre of depth.
+            let slant = Lanes(headings.map(|heading| 1.0 / heading.z.abs().max(LEAST_COSINE)));
+            let free = -libm::logf(1.0 - chance.number()) / scattering.0[drawn];
+            let met = free / slant.0[drawn];
+            if met < deep {
+                let distance = slant * met;
+                self.advance(headings[drawn], met, distance);
+                // Density over depth.
+                let chances = scattering * slant * unmet(scattering, distance);
+                self.likelihood.happens(chances);
                 if self.uniform.is_none() {
                     // Chance leaves out what scatters less here than where it does most.
                     let structure = self.contents()[Constituent::Structure];
@@ -250,10 +283,12 @@ impl<'a, const N: usize> Walk<'a, N> {
                         continue;
                     }
                 }
-                heading = self.scattered(heading, chance);
+                headings = self.scattered(&headings, chance);
                 continue;
             }
-            self.advance(heading, to_side);
+            let distance = slant * deep;
+            self.advance(headings[drawn], deep, distance);
+            self.likelihood.happens(unmet(scattering, distance));
             self.depth = if down { thickness } else { 0.0 };
             let next = if down {
                 layer + 1
@@ -262,32 +297,52 @@ impl<'a, const N: usize> Walk<'a, N> {
             };
             if next >= LAYERS {
                 let face = usize::from(down);
-                return Some(Arrival { face, heading });
+                return Some(Arrival { face, headings });
             }
-            let relative = self.index[next] / self.index[layer];
-            let cosine = heading.z.abs();
-            let refracted = fresnel::refracted_cosine(cosine, relative).filter(|_| {
-                relative == 1.0 || chance.number() >= fresnel::dielectric(cosine, relative)
-            });
-            if let Some(refracted) = refracted {
-                let refracted = refracted.copysign(heading.z);
-                heading = Vec3::new(heading.x / relative, heading.y / relative, refracted);
-                heading = heading.normalize();
+            if self.refracts(&mut headings, [layer, next], chance) {
                 self.layer = next;
                 self.depth = if down {
                     0.0
                 } else {
                     self.layers.thickness_m[next]
                 };
-            } else {
-                heading.z = -heading.z;
             }
         }
     }
 
-    /// A direction after scattering, by Henyey and Greenstein.
-    fn scattered(&self, heading: Vec3, chance: &mut Chance) -> Vec3 {
-        let (g, x) = (self.g, 2.0 * chance.number() - 1.0);
+    /// Whether light goes on into the next layer, with its directions there; else it is reflected.
+    fn refracts(
+        &mut self,
+        headings: &mut [Vec3; N],
+        [layer, next]: [usize; 2],
+        chance: &mut Chance,
+    ) -> bool {
+        let relative = self.index[next] / self.index[layer];
+        let drawn = self.likelihood.drawn();
+        let [own, cosine] = [relative.0[drawn], headings[drawn].z.abs()];
+        let refracts = fresnel::refracted_cosine(cosine, own).is_some()
+            && (own == 1.0 || chance.number() >= fresnel::dielectric(cosine, own));
+        let mut chances = Lanes::ZERO;
+        for (lane, heading) in headings.iter_mut().enumerate() {
+            let (relative, cosine) = (relative.0[lane], heading.z.abs());
+            let reflected = fresnel::dielectric(cosine, relative);
+            chances.0[lane] = if refracts { 1.0 - reflected } else { reflected };
+            if !refracts {
+                heading.z = -heading.z;
+            } else if let Some(refracted) = fresnel::refracted_cosine(cosine, relative) {
+                let refracted = refracted.copysign(heading.z);
+                let on = Vec3::new(heading.x / relative, heading.y / relative, refracted);
+                *heading = on.normalize();
+            }
+        }
+        self.likelihood.happens(chances);
+        refracts
+    }
+
+    /// The direction after scattering, by Henyey and Greenstein, which is that of all wavelengths.
+    fn scattered(&mut self, headings: &[Vec3; N], chance: &mut Chance) -> [Vec3; N] {
+        let drawn = self.likelihood.drawn();
+        let (g, x) = (self.g.0[drawn], 2.0 * chance.number() - 1.0);
         let cosine = if g.abs() < 1e-3 {
             x
         } else {
@@ -296,7 +351,21 @@ impl<'a, const N: usize> Walk<'a, N> {
         };
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
         let (turn_sine, turn_cosine) = libm::sincosf(std::f32::consts::TAU * chance.number());
+        let heading = headings[drawn];
         let (across, along) = heading.any_orthonormal_pair();
-        (across * (sine * turn_cosine) + along * (sine * turn_sine) + heading * cosine).normalize()
+        let to = across * (sine * turn_cosine) + along * (sine * turn_sine) + heading * cosine;
+        let to = to.normalize();
+        self.likelihood.happens(Lanes::from_fn(|lane| {
+            let g = self.g.0[lane];
+            let spread = 1.0 + g * g - 2.0 * g * headings[lane].dot(to);
+            (1.0 - g * g) / (spread * spread.sqrt())
+        }));
+        [to; N]
     }
+}
+
+/// What of light meets nothing over a distance.
+#[inline]
+fn unmet<const N: usize>(coefficient: Lanes<N>, distance: Lanes<N>) -> Lanes<N> {
+    Lanes::from_fn(|lane| libm::expf(-coefficient.0[lane] * distance.0[lane]))
 }

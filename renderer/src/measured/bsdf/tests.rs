@@ -46,7 +46,9 @@ fn ggx(alpha: f64, i: Direction, o: Direction) -> f64 {
 #[test]
 fn a_lambertian_table_has_no_error_and_its_own_reflectance_at_every_angle() {
     let text = table(&every(15), |_, _| 0.4 / PI);
-    let check = read(&text).expect("a good table").check();
+    let check = read(&text, &Known::default())
+        .expect("a good table")
+        .check();
     assert!(check.is_isotropic);
     let [band] = check.bands[..] else {
         panic!("one wavelength");
@@ -71,7 +73,9 @@ fn a_btdf_is_lambertian_on_the_far_side_and_paired_with_light_from_there() {
             _ = writeln!(text, "{theta_i},0,{theta_o},{phi},550,{value}");
         }
     }
-    let check = read(&text).expect("a good table").check();
+    let check = read(&text, &Known::default())
+        .expect("a good table")
+        .check();
     assert_eq!((check.bands[0].paired, check.bands[0].error_rms), (16, 0.0));
     for energy in check.energy {
         let transmitted = energy.transmitted.expect("rings are full");
@@ -84,7 +88,9 @@ fn a_btdf_is_lambertian_on_the_far_side_and_paired_with_light_from_there() {
 fn ggx_is_reciprocal_and_its_albedo_is_that_of_a_fine_integral() {
     let alpha = 0.5;
     let text = table(&every(5), |i, o| ggx(alpha, i, o));
-    let check = read(&text).expect("a good table").check();
+    let check = read(&text, &Known::default())
+        .expect("a good table")
+        .check();
     let band = check.bands[0];
     assert_eq!(band.paired, band.rows);
     assert!(band.error_rms < 1e-14 * band.rms, "{band:?}");
@@ -118,7 +124,9 @@ fn what_breaks_reciprocity_is_found_in_size_and_place() {
     let value = 0.5 / PI;
     let sine = |direction: Direction| libm::sin(direction.theta.to_radians());
     let text = table(&thetas, |i, _| value * (1.0 + 0.1 * sine(i)));
-    let check = read(&text).expect("a good table").check();
+    let check = read(&text, &Known::default())
+        .expect("a good table")
+        .check();
     let sines = thetas.iter().map(|theta| libm::sin(theta.to_radians()));
     let sines: Vec<f64> = sines.collect();
     let errors = sines
@@ -145,11 +153,15 @@ fn azimuths_count_where_light_comes_from_several_and_from_the_light_where_not() 
     let text = table(&[30.0, 60.0], |_, o| {
         0.1 * (1.0 + 0.5 * libm::sin(o.phi.to_radians()))
     });
-    let check = read(&text).expect("a good table").check();
+    let check = read(&text, &Known::default())
+        .expect("a good table")
+        .check();
     assert!((check.bands[0].error_rms - 0.05 * 0.5_f64.sqrt()).abs() < 1e-12);
     let anisotropic =
         format!("{HEAD}30,0,60,90,550,0.1\n60,90,30,0,550,0.3\n30,10,60,90,550,0.2\n");
-    let check = read(&anisotropic).expect("a good table").check();
+    let check = read(&anisotropic, &Known::default())
+        .expect("a good table")
+        .check();
     assert!(!check.is_isotropic);
     let errors: Vec<Option<f64>> = check.rows.iter().map(|row| row.error).collect();
     assert!((errors[0].expect("a pair") + 0.1).abs() < 1e-12);
@@ -161,8 +173,17 @@ fn azimuths_count_where_light_comes_from_several_and_from_the_light_where_not() 
 #[test]
 fn radians_and_micrometres_are_recognised_and_told() {
     let text = format!("{HEAD}0.5,0,1.0,3.14,0.55,0.1\n1.0,0,0.5,3.14,0.55,0.1\n");
-    let table = read(&text).expect("a good table");
-    assert_eq!(table.notes, [RADIANS, MICROMETRES]);
+    let table = read(&text, &Known::default()).expect("a good table");
+    let notes: Vec<String> = table.notes.iter().map(ToString::to_string).collect();
+    assert_eq!(notes.len(), 2, "{notes:?}");
+    assert!(
+        notes[0].ends_with("taken for radians (if not, say --angles degrees)"),
+        "{notes:?}"
+    );
+    assert!(
+        notes[1].ends_with("taken for µm (if not, say --wavelengths nm)"),
+        "{notes:?}"
+    );
     assert!((table.samples[0].scattered.theta - 1.0_f64.to_degrees()).abs() < 1e-12);
     assert!(table.samples[0].scattered.theta < FRAC_PI_2.to_degrees());
     assert_eq!(table.samples[0].nm, 550.0);
@@ -199,8 +220,67 @@ fn broken_tables_are_refused_with_line_and_value() {
             "line 5: value is -1",
         ),
     ] {
-        let fault = read(&text).expect_err(&text);
+        let fault = read(&text, &Known::default()).expect_err(&text);
         let shown = fault.shown(Path::new("x.csv"), &text);
         assert!(shown.contains(part), "{text:?}: {shown}");
     }
+}
+
+#[test]
+fn small_angles_are_degrees_if_they_are_whole_or_a_person_or_a_name_says_so() {
+    let rows = "0,0,1,0,550,0.3\n1,0,0,0,550,0.3\n3,0,2,0,550,0.3\n2,0,3,0,550,0.3\n";
+    let read = |text: &str, angles: Option<AngleUnit>| {
+        let known = Known {
+            angles,
+            ..Known::default()
+        };
+        let table = read(text, &known).expect("a good table");
+        let notes: Vec<String> = table.notes.iter().map(ToString::to_string).collect();
+        (table.samples[2].incident.theta, notes)
+    };
+    let whole = format!("{HEAD}{rows}");
+    let (theta, notes) = read(&whole, None);
+    assert_eq!(theta, 3.0);
+    assert!(
+        notes[0].contains("taken for degrees (if not, say --angles radians)"),
+        "{notes:?}"
+    );
+    let three = 3.0_f64.to_degrees();
+    assert_eq!(read(&whole, Some(AngleUnit::Radians)), (three, vec![]));
+    assert_eq!(read(&whole, Some(AngleUnit::Degrees)), (3.0, vec![]));
+    let decimal = whole.replace("3,0,2", "3,0,1.5");
+    assert_eq!(read(&decimal, None).0, three);
+    assert_eq!(read(&decimal, Some(AngleUnit::Degrees)), (3.0, vec![]));
+    let named = decimal.replace("theta_i,", "theta_i_deg,");
+    assert_eq!(read(&named, None), (3.0, vec![]));
+    let named = whole.replace("theta_i,", "theta_i_rad,");
+    assert_eq!(read(&named, None), (three, vec![]));
+    // Each in its own unit.
+    let mixed = named.replace("theta_o", "theta_o_deg");
+    let table = super::read(&mixed, &Known::default()).expect("a good table");
+    assert_eq!(table.samples[2].incident.theta, three);
+    assert_eq!(table.samples[2].scattered.theta, 2.0);
+}
+
+#[test]
+fn tables_with_semicolons_and_decimal_commas_are_the_same_and_other_columns_are_named() {
+    let text = table(&every(30), |_, _| 0.125);
+    let plain = super::read(&text, &Known::default()).expect("a good table");
+    let german = text.replace(',', ";").replace('.', ",");
+    let mut found = super::read(&german, &Known::default()).expect("a good table");
+    assert_eq!(found.samples, plain.samples);
+    assert!(
+        found.notes[0].to_string().contains("--decimal point"),
+        "{:?}",
+        found.notes
+    );
+    let more = text
+        .replace("550,", "550,x,")
+        .replace("wavelength,", "wavelength,remark,");
+    found = super::read(&more, &Known::default()).expect("a good table");
+    assert_eq!(found.samples, plain.samples);
+    assert_eq!(
+        found.notes[0].to_string(),
+        "columns that are not read: remark"
+    );
 }

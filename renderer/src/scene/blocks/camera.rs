@@ -9,7 +9,7 @@ use leafmodel::document::value_kind::{Degrees, Integer, Number, Numbers, Vector}
 
 use super::report;
 use crate::camera::thin_lens::{ANGLES_DEG, Field, Focus, Iris, Lens, LensError, Opening};
-use crate::camera::view::{Projection, View};
+use crate::camera::view::{Near, Projection, View};
 use crate::scene::description::{Camera, FocusObject};
 
 /// Limits of world coordinates, m. Beyond them single precision does not resolve a leaf.
@@ -333,6 +333,7 @@ impl Camera {
                 look_at: DVec3::ZERO,
                 up: DVec3::Z,
                 projection: Projection::Perspective(lens),
+                near: Near::default(),
             },
             focus_object: None,
         }

@@ -2,7 +2,7 @@
 //!
 //! - **In**: text with a header ([`text`]) or a structured `NumPy` array ([`npy`]); both have the
 //!   same column names ([`columns`]).
-//! - **Out**: places in the world, 52 bytes each, in the file's order; or errors, each with row,
+//! - **Out**: places in the world, 64 bytes each, in the file's order; or errors, each with row,
 //!   column, value and allowed range.
 //! - **Always true**: numbers are finite and in range, shapes are among the object's.
 //! - **Left out**: relations between rows. Instances may overlap.

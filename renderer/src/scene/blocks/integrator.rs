@@ -10,8 +10,13 @@ use crate::scene::description::Integrator;
 pub(super) fn integrator(integrator: &mut Integrator, keys: &mut Keys<'_>) {
     let count = Integer::within(1, 100_000);
     let about = "Most scattering events of a path. A limit darkens the picture: in the infrared, \
-        where leaves hardly absorb, a limit of 8 loses some 2 %.";
+        where leaves hardly absorb, a limit of 8 loses some 2 %. How many paths it cuts is reported.";
     keys.optional("max_depth", &mut integrator.max_depth, count, about);
+    let count = Integer::within(1, 1_000_000);
+    let about = "Events after which a path is cut, in pictures and in instruments: scatterings, \
+        flights through media, and ways between scatterings in a leaf of layers. It is for light \
+        that is caught. How many paths were cut is reported, and how much light that may lose.";
+    keys.key("max_events", &mut integrator.max_events, count, about);
     let limits = Number(Limits::closed(0.0, 1.0));
     let about = "Paths of whose light less than this share can reach the film may end by Russian \
         roulette, without bias; 0 switches it off. On a film of colour the share is what the eye \

@@ -49,6 +49,7 @@ impl LeafFaces {
         Self {
             optics: LeafOptics::Plates,
             abaxial_ratio: None,
+            abaxial_reflectance: None,
             coats: COAT_ALPHA.map(|alpha| Coat {
                 eta: COAT_ETA,
                 alpha_across: alpha,

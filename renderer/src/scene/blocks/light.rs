@@ -86,6 +86,7 @@ const KINDS: [Variant<Light>; 8] = [
         about: "A latitude–longitude picture at infinity, up is +z.",
         new: || Light::Environment {
             file: std::path::PathBuf::new(),
+            layer: None,
             scale: 1.0,
             rotation: 0.0,
             white: Spectrum::D65 { scale: 1.0 },
@@ -94,12 +95,14 @@ const KINDS: [Variant<Light>; 8] = [
         declare: |light, keys| {
             if let Light::Environment {
                 file,
+                layer,
                 scale,
                 rotation,
                 white,
             } = light
             {
                 super::file(keys, "path", file, PICTURE, "The picture.");
+                super::picture_layer(layer, keys);
                 let limits = Number(Limits::above(0.0, 1e12));
                 keys.key("scale", scale, limits, "Factor on the picture.");
                 let limits = Degrees(Limits::closed(-360.0, 360.0));
@@ -247,6 +250,12 @@ fn area_pattern(pattern: &mut Option<AreaPattern>, keys: &mut Keys<'_>) {
         radiance: what RGB 1 1 1 stands for is `radiance_w_m2_sr_nm`.";
     keys.optional("picture", &mut picture, PICTURE, about);
     let picture = picture.map(|named| named.file);
+    let mut layer = None;
+    super::picture_layer(&mut layer, keys);
+    if layer.is_some() && picture.is_none() && keys.reader().is_some() {
+        let problem = "there is no picture that could have layers".to_owned();
+        keys.refuse(&["layer"], problem, "write `picture` too, or leave it out");
+    }
     if picture.is_some()
         && let Some(block) = keys.reader()
     {
@@ -254,7 +263,11 @@ fn area_pattern(pattern: &mut Option<AreaPattern>, keys: &mut Keys<'_>) {
         require_coverage(block.cx, at, "a picture's colour", rgb::RANGE_NM);
     }
     if edge < 1.0 || picture.is_some() {
-        *pattern = Some(AreaPattern { edge, picture });
+        *pattern = Some(AreaPattern {
+            edge,
+            picture,
+            layer,
+        });
     }
 }
 

@@ -11,7 +11,7 @@ use leafmodel::plan_file::{self, held_contents, require_prospect};
 
 use super::fluorescence::fluorescence;
 use super::leaf::{DARK_LAYERS, faces, impossible};
-use super::measured::{measured, set_ratio};
+use super::measured::{measured, set_abaxial};
 use super::reflectance::reflectance;
 use super::solid::optics;
 use crate::scene::description::{
@@ -89,11 +89,11 @@ const KINDS: [Variant<Material>; 5] = [
                 fluorescence: emission,
             } = material
             {
-                let ratio = leaf_tissue(tissue, keys);
+                let abaxial = leaf_tissue(tissue, keys);
                 keys.exclude("measured", "pigments");
                 pigments_block(pigments, keys);
                 faces(both, keys);
-                set_ratio(both, ratio, keys);
+                set_abaxial(both, abaxial, keys);
                 keys.exclude("measured", "fluorescence");
                 fluorescence(emission, keys);
                 if both.optics == LeafOptics::Layers && emission.is_some() {

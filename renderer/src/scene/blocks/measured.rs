@@ -4,22 +4,20 @@ use leafmodel::document::coverage::require_coverage;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::reader::Block;
-use leafmodel::document::value_kind::{FilePath, NamedFile, Text};
+use leafmodel::document::source::quoted;
+use leafmodel::document::value_kind::{FilePath, NamedFile, Text, Word};
 use leafmodel::document::values::listed;
 
 use super::spectrum::{SpectrumOf, TABLE_WAVELENGTHS_NM};
 use super::table_file::{bad_file, bytes, gap, report, tell, text};
 use crate::measured::Slack;
+use crate::measured::known::{Known, ValueUnit, WavelengthUnit};
 use crate::measured::spectra::{self, Leaf};
 use crate::measured::units;
 use crate::scene::description::{LeafFaces, LeafTissue, Spectrum};
 
 /// Largest table of leaves, bytes.
 const MOST_BYTES: u64 = 64 << 20;
-/// Longest step between two values of the ratio of the faces, nm: between them it is linear, while
-/// reflectances are.
-const RATIO_STEP_NM: f64 = 1.0;
-
 /// The spectra of a leaf.
 #[derive(Clone, Debug)]
 pub(super) struct Measured {
@@ -29,15 +27,13 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// The tissue, and the ratio of the faces if both were measured.
+    /// The tissue, and the reflectance of the abaxial face if it was measured.
     pub(super) fn into_parts(self) -> (LeafTissue, Option<Spectrum>) {
-        let ratio = self.abaxial.as_ref();
-        let ratio = ratio.map(|abaxial| ratio_of(abaxial, &self.reflectance));
         let tissue = LeafTissue::Measured {
             reflectance: self.reflectance,
             transmittance: self.transmittance,
         };
-        (tissue, ratio)
+        (tissue, self.abaxial)
     }
 }
 
@@ -89,14 +85,22 @@ fn of_table(keys: &mut Keys<'_>) -> Option<Measured> {
     let kind = Text("the name of a leaf of the table");
     let about = "Which of the table's leaves, if it has several.";
     keys.optional("leaf", &mut leaf, kind, about);
+    let mut known = Known::default();
+    let about = "Unit of its wavelengths, instead of a guess.";
+    let units = Word(&WavelengthUnit::ALL);
+    keys.optional("wavelengths", &mut known.wavelengths, units, about);
+    let about = "Unit of its values, instead of a guess.";
+    keys.optional("values", &mut known.values, Word(&ValueUnit::ALL), about);
     let block = keys.reader().filter(|_| keys.is_sound())?;
     let at = &block.node("file")?.at;
     let bytes = bytes(block.cx, &file.file, &file.written, at)?;
     let text = text(block.cx, &file.written, at, &bytes)?;
     let refuse = |fault| report(block.cx, &file.written, at, text, &fault);
-    let found = spectra::read(text).map_err(refuse).ok()?;
+    let found = spectra::read(text, &known).map_err(refuse).ok()?;
+    let help =
+        "if that is wrong, write `wavelengths = \"nm\"` or `values = \"fraction\"` beside the file";
     for note in &found.notes {
-        tell(block.cx, &file.written, at, note);
+        tell(block.cx, &file.written, at, note, help);
     }
     let leaf = chosen(block, &file.written, &found.leaves, leaf.as_deref())?;
     leaf.check(text, Slack::NONE).map_err(refuse).ok()?;
@@ -116,11 +120,16 @@ fn chosen<'l>(
         (Some(name), _) => leaves.iter().find(|leaf| leaf.name == name),
     };
     if found.is_none() {
-        let names = listed(leaves.iter().take(12).map(|leaf| leaf.name.as_str()));
+        let names: Vec<String> = leaves
+            .iter()
+            .take(12)
+            .map(|leaf| quoted(&leaf.name))
+            .collect();
+        let names = listed(names.iter().map(String::as_str));
         let key = if name.is_some() { "leaf" } else { "file" };
         let at = block.node(key).map_or(&block.at, |node| &node.at);
         let problem = match name {
-            Some(name) => format!("has no leaf `{}`", name.escape_debug()),
+            Some(name) => format!("has no leaf `{}`", quoted(name)),
             None => format!("has {} leaves", leaves.len()),
         };
         let help = format!("write `leaf` with one of its names: {names}");
@@ -150,7 +159,8 @@ fn spectra_of(block: &Block<'_>, file: &str, leaf: &Leaf) -> Option<Measured> {
         cx.error(at, bad_file(file, problem, help));
         return None;
     }
-    let hole = units::gap(&leaf.nm).and_then(|i| gap(cx, file, [leaf.nm[i - 1], leaf.nm[i]]));
+    let mut holes = units::gaps(&leaf.nm, units::WIDE_GAP);
+    let hole = holes.find_map(|i| gap(cx, file, [leaf.nm[i - 1], leaf.nm[i]]));
     if let Some(error) = hole {
         cx.error(at, error);
         return None;
@@ -173,58 +183,15 @@ fn spectra_of(block: &Block<'_>, file: &str, leaf: &Leaf) -> Option<Measured> {
     })
 }
 
-/// Takes the ratio of the faces that a measurement gives; both ways to say it exclude each other.
-pub(super) fn set_ratio(faces: &mut LeafFaces, ratio: Option<Spectrum>, keys: &Keys<'_>) {
-    if ratio.is_none() {
-        return;
-    }
-    if faces.abaxial_ratio.is_some() {
+/// Takes the reflectance of the abaxial face that a measurement gives; a ratio of the faces excludes
+/// it.
+pub(super) fn set_abaxial(faces: &mut LeafFaces, reflectance: Option<Spectrum>, keys: &Keys<'_>) {
+    if reflectance.is_some() && faces.abaxial_ratio.is_some() {
         let problem = "both faces were measured".to_owned();
         let help = "leave `abaxial_ratio` out, or the abaxial reflectance";
         keys.refuse(&["abaxial_ratio"], problem, help);
     }
-    faces.abaxial_ratio = ratio;
-}
-
-/// One reflectance over another, at the wavelengths of both and often enough between them.
-fn ratio_of(abaxial: &Spectrum, adaxial: &Spectrum) -> Spectrum {
-    // A face that reflects nothing has no ratio.
-    const LEAST: f64 = 1e-6;
-    let ratio = |nm: f64| {
-        let ratio = share_at(abaxial, nm).max(LEAST) / share_at(adaxial, nm).max(LEAST);
-        ratio.clamp(1e-3, 1e3)
-    };
-    let mut nm: Vec<f64> = Vec::new();
-    let mut extrapolates = false;
-    for spectrum in [abaxial, adaxial] {
-        if let Spectrum::Table {
-            points,
-            extrapolate,
-        } = spectrum
-        {
-            nm.extend(points.iter().map(|point| point.0));
-            extrapolates |= extrapolate;
-        }
-    }
-    nm.sort_by(f64::total_cmp);
-    nm.dedup();
-    let Some(&last) = nm.last() else {
-        return Spectrum::Constant(ratio(550.0));
-    };
-    let mut points = Vec::new();
-    for pair in nm.windows(2) {
-        let steps = ((pair[1] - pair[0]) / RATIO_STEP_NM)
-            .ceil()
-            .clamp(1.0, 1000.0);
-        let between =
-            (0..steps as u32).map(|i| pair[0] + (pair[1] - pair[0]) * f64::from(i) / steps);
-        points.extend(between.map(|nm| (nm, ratio(nm))));
-    }
-    points.push((last, ratio(last)));
-    Spectrum::Table {
-        points,
-        extrapolate: extrapolates,
-    }
+    faces.abaxial_reflectance = reflectance;
 }
 
 /// Reports R + T > 1. The sum is linear between the rows of both tables, so it is greatest at one
@@ -271,29 +238,5 @@ fn share_at(spectrum: &Spectrum, nm: f64) -> f64 {
         }
         // These forms are not used for shares of light.
         Spectrum::D65 { .. } | Spectrum::Blackbody { .. } => 0.0,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_ratio_gives_back_the_abaxial_face_between_coarse_points_too() {
-        let table = |points: &[(f64, f64)]| Spectrum::Table {
-            points: points.to_vec(),
-            extrapolate: false,
-        };
-        let adaxial = table(&[(400.0, 0.05), (700.0, 0.05), (800.0, 0.5)]);
-        let abaxial = table(&[(400.0, 0.09), (750.0, 0.25), (800.0, 0.48)]);
-        let ratio = ratio_of(&abaxial, &adaxial);
-        for nm in 400..=800 {
-            let nm = f64::from(nm);
-            let found = share_at(&ratio, nm) * share_at(&adaxial, nm);
-            let off = (found - share_at(&abaxial, nm)).abs();
-            assert!(off < 1e-3, "{nm}: {off}");
-        }
-        let even = ratio_of(&Spectrum::Constant(0.3), &Spectrum::Constant(0.2));
-        assert!((share_at(&even, 550.0) - 1.5).abs() < 1e-12);
     }
 }

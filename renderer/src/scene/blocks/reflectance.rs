@@ -60,9 +60,11 @@ fn picture(keys: &mut Keys<'_>) -> Reflectance {
     );
     let (mut file, mut wrap) = (PathBuf::new(), Wrap::default());
     let (mut repeats, mut scale) = ([1.0, 1.0], 1.0);
-    let about = "Its lowest row is v = 0. PNG and JPEG hold sRGB values, an EXR linear ones of 0 to \
-        1 in R, G and B.";
+    let about = "Its lowest row is v = 0. PNG and JPEG hold sRGB values unless they say otherwise, an EXR \
+        linear ones of 0 to 1.";
     super::file(keys, "file", &mut file, PATH, about);
+    let mut layer = None;
+    super::picture_layer(&mut layer, keys);
     let about = "What lies beside it: the same again, its mirror image, or its border.";
     keys.key("wrap", &mut wrap, Word(&Wrap::WORDS), about);
     let limits = Numbers::<2>(Limits::above(0.0, 1e6));
@@ -73,6 +75,7 @@ fn picture(keys: &mut Keys<'_>) -> Reflectance {
     require_colours("file", keys);
     Reflectance::Picture {
         file,
+        layer,
         wrap,
         repeats,
         scale,

@@ -342,9 +342,12 @@ fn checked_table(
         && let Some(file) = &rows.file
     {
         let nm: Vec<f64> = points.iter().map(|point| point.0).collect();
-        if let Some(at) = units::gap(&nm)
-            && let Some(error) = table_file::gap(cx, file, [nm[at - 1], nm[at]])
-        {
+        let mut gaps = units::gaps(&nm, units::WIDE_GAP);
+        let found = gaps.find_map(|at| {
+            let error = table_file::gap(cx, file, [nm[at - 1], nm[at]])?;
+            Some((at, error))
+        });
+        if let Some((at, error)) = found {
             cx.error(&rows.places[at][0], error);
             return None;
         }

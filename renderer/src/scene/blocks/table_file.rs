@@ -5,8 +5,10 @@ use std::fs;
 use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::path::{Wanted, resolve};
+use leafmodel::document::rows::Guess;
 use leafmodel::document::source::{Place, escaped, line_of_byte};
 
+use crate::measured::known::Known;
 use crate::measured::{Fault, What, series};
 
 /// Most bytes of a table.
@@ -53,17 +55,21 @@ pub(super) fn bytes(
 
 fn rows_of(cx: &Context, path: &str, at: &Place, bytes: &[u8], guess: bool) -> Option<Rows> {
     let text = text(cx, path, at, bytes)?;
-    let mut found = match series::series(text) {
+    let mut found = match series::series(text, &Known::default()) {
         Ok(found) => found,
         Err(fault) => {
             report(cx, path, at, text, &fault);
             return None;
         }
     };
-    if guess {
-        for note in found.to_nm_and_shares() {
-            tell(cx, path, at, &note);
-        }
+    let notes = if guess {
+        found.to_nm_and_fractions(&Known::default())
+    } else {
+        found.notes.clone()
+    };
+    let help = "if that is wrong, write `scale` beside the file, and wavelengths in nm";
+    for note in notes {
+        tell(cx, path, at, &note, help);
     }
     let name = escaped(path, 2 * QUOTED);
     let source = cx.sources.borrow_mut().add(name.clone(), text);
@@ -132,11 +138,16 @@ pub(super) fn report(cx: &Context, path: &str, at: &Place, text: &str, fault: &F
     }
 }
 
-/// Says what was taken for granted about a file.
-pub(super) fn tell(cx: &Context, path: &str, at: &Place, note: &str) {
+/// Says what was guessed about a file; `help` says what to do if that is wrong.
+pub(super) fn tell(cx: &Context, path: &str, at: &Place, note: &Guess, help: &str) {
     let name = escaped(path, 2 * QUOTED);
-    let message = format!("\"{name}\": {note}");
-    let help = "if that is wrong, write `scale` beside the file, and wavelengths in nm";
+    let message = format!("\"{name}\": {}", note.what);
+    let is_guess = note.otherwise.is_some();
+    let help = if is_guess {
+        help
+    } else {
+        "change the file if that is not meant"
+    };
     cx.warn(at, "scene::units", message, help);
 }
 
@@ -185,7 +196,7 @@ mod tests {
     fn faults_become_errors_of_the_scene() {
         assert_eq!(read(b"nm,R\nnm,R\n", false).1, ["scene::bad_file"]);
         assert_eq!(read(b"400,0.1,3\n", false).1, ["scene::bad_file"]);
-        assert_eq!(read(b"400,nan\n", false).1, ["scene::not_finite"]);
+        assert_eq!(read(b"400,inf\n", false).1, ["scene::not_finite"]);
         assert_eq!(read(b"400,\xff\n", false).1, ["scene::not_utf8"]);
         assert_eq!(read(b"as7\0\xff", false).1, ["scene::bad_file"]);
     }

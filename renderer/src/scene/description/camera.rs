@@ -41,12 +41,4 @@ impl Camera {
             ..self.view.clone()
         })
     }
-
-    /// This camera, moved by an offset.
-    pub fn moved(&self, by: DVec3) -> Self {
-        Self {
-            view: self.view.moved(by),
-            ..self.clone()
-        }
-    }
 }

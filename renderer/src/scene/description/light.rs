@@ -1,6 +1,6 @@
 //! Lights and rigs of lights.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 
@@ -27,6 +27,8 @@ pub enum Light {
     Environment {
         /// EXR, Radiance HDR, PNG or JPEG with RGB, resolved and inside the scene's folder.
         file: PathBuf,
+        /// The layer of an EXR; `None` is that without a name.
+        layer: Option<String>,
         /// Factor on the picture.
         scale: f64,
         /// Rotation about +z, rad.
@@ -86,11 +88,11 @@ impl Light {
         }
     }
 
-    /// The picture that it shines by.
-    pub fn picture(&self) -> Option<&PathBuf> {
+    /// The picture that it shines by, and the layer of it.
+    pub fn picture(&self) -> Option<(&Path, Option<&str>)> {
         match self {
-            Self::Environment { file, .. } => Some(file),
-            Self::Area { pattern, .. } => pattern.as_ref()?.picture.as_ref(),
+            Self::Environment { file, layer, .. } => Some((file, layer.as_deref())),
+            Self::Area { pattern, .. } => pattern.as_ref()?.picture(),
             Self::Distant { .. }
             | Self::Constant { .. }
             | Self::Daylight(_)
@@ -109,6 +111,15 @@ pub struct AreaPattern {
     pub edge: f64,
     /// EXR, Radiance HDR, PNG or JPEG with RGB, resolved and inside the scene's folder.
     pub picture: Option<PathBuf>,
+    /// The layer of an EXR; `None` is that without a name.
+    pub layer: Option<String>,
+}
+
+impl AreaPattern {
+    /// Its picture, and the layer of it.
+    pub fn picture(&self) -> Option<(&Path, Option<&str>)> {
+        Some((self.picture.as_deref()?, self.layer.as_deref()))
+    }
 }
 
 /// Lights as photographers set them up.

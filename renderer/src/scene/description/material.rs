@@ -100,6 +100,8 @@ pub struct LeafFaces {
     pub optics: LeafOptics,
     /// Abaxial over adaxial reflectance; none if it follows what the leaf absorbs.
     pub abaxial_ratio: Option<Spectrum>,
+    /// Reflectance of the abaxial face, if it was measured; then there is no ratio.
+    pub abaxial_reflectance: Option<Spectrum>,
     /// Adaxial and abaxial coat.
     pub coats: [Coat; 2],
 }

@@ -1,6 +1,6 @@
 //! What stands in a scene, and where.
 
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec3, Mat3};
 
 use crate::geometry::scatter::{Scatter, Volume};
 
@@ -48,51 +48,32 @@ pub struct StrewnOn {
 
 /// The place and shape of one instance of an object.
 ///
-/// It takes 52 bytes, since a scene may have millions.
+/// It takes 64 bytes, since a scene may have millions. Directions and sizes are in single precision,
+/// the place itself in double precision, so that it is exact anywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InstancePlace {
     /// Index into [`Object::shapes`].
     pub shape: u32,
-    /// Local to world, metres, [`Object::to_world`] included: the three columns of the linear part,
-    /// then the translation.
-    pub to_world: [f32; 12],
+    /// Linear part of the transform from the shape's frame to the scene's, [`Object::to_world`]
+    /// included.
+    pub linear: Mat3,
+    /// Where the origin of the shape's frame lies in the scene, m.
+    pub translation: DVec3,
 }
 
 impl InstancePlace {
-    /// A shape in the world, in single precision.
+    /// A shape in the scene.
     pub fn new(shape: u32, to_world: DMat4) -> Self {
-        let columns = [
-            to_world.x_axis,
-            to_world.y_axis,
-            to_world.z_axis,
-            to_world.w_axis,
-        ];
         Self {
             shape,
-            to_world: std::array::from_fn(|i| columns[i / 3][i % 3] as f32),
+            linear: Mat3::from_mat4(to_world.as_mat4()),
+            translation: to_world.w_axis.truncate(),
         }
-    }
-
-    /// This place, moved by an offset.
-    #[must_use]
-    pub fn moved(mut self, by: DVec3) -> Self {
-        for (own, by) in self.to_world[9..].iter_mut().zip(by.to_array()) {
-            *own = (f64::from(*own) + by) as f32;
-        }
-        self
     }
 
     /// Local to world.
     pub fn matrix(&self) -> DMat4 {
-        let column = |at: usize| {
-            DVec3::from_array(std::array::from_fn(|i| f64::from(self.to_world[at + i])))
-        };
-        DMat4::from_cols(
-            column(0).extend(0.0),
-            column(3).extend(0.0),
-            column(6).extend(0.0),
-            column(9).extend(1.0),
-        )
+        DMat4::from_mat3_translation(self.linear.as_dmat3(), self.translation)
     }
 }
 

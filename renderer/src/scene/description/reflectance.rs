@@ -13,6 +13,8 @@ pub enum Reflectance {
     Picture {
         /// EXR, PNG or JPEG with RGB, resolved and inside the scene's folder.
         file: PathBuf,
+        /// The layer of an EXR; `None` is that without a name.
+        layer: Option<String>,
         /// What lies beside it.
         wrap: Wrap,
         /// How often it lies along u and v in what is 1 wide.

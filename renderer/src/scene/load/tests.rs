@@ -248,3 +248,21 @@ fn raised_tissue_is_of_types_that_the_mosaic_has() {
     let without = refused(body.to_owned() + SCENE);
     assert!(without.contains("give the body a `mosaic`"), "{without}");
 }
+
+#[test]
+fn a_scene_has_the_name_of_its_file_in_every_script() {
+    for (file, name) in [
+        ("Blätter.toml", "Blätter"),
+        ("Bla\u{308}tter.toml", "Bla\u{308}tter"),
+        ("my leaf (2).toml", "my-leaf--2-"),
+        ("葉.toml", "葉"),
+        ("a.b.toml", "a-b"),
+    ] {
+        assert_eq!(default_name(Path::new(file)), name);
+    }
+    let long = default_name(Path::new(&format!("{}.toml", "葉".repeat(80))));
+    assert!(
+        long.len() <= 200 && long.chars().all(|letter| letter == '葉'),
+        "{long}"
+    );
+}

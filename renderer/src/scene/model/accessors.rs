@@ -92,6 +92,32 @@ impl<'a> Accessors<'a> {
         Ok(used.map(|i| vector(elements.at(*i as usize))).collect())
     }
 
+    /// Colours, of the elements that are `used`; alpha is left out, and what is no number is white.
+    pub(super) fn colours(
+        &self,
+        index: Index<Accessor>,
+        used: &[u32],
+    ) -> Result<Vec<[f32; 3]>, ModelError> {
+        let colours = match self.root.accessors[index.value()].type_ {
+            Checked::Valid(Type::Vec4) => {
+                let colours = self.vectors::<4>(index, used)?.into_iter();
+                colours.map(|[r, g, b, _]| [r, g, b]).collect()
+            }
+            Checked::Valid(_) | Checked::Invalid => self.vectors::<3>(index, used)?,
+        };
+        let within = |value: f32| {
+            if value.is_nan() {
+                1.0
+            } else {
+                value.clamp(0.0, 1.0)
+            }
+        };
+        Ok(colours
+            .into_iter()
+            .map(|colour| colour.map(within))
+            .collect())
+    }
+
     /// Indices of vertices.
     pub(super) fn indices(&self, index: Index<Accessor>) -> Result<Vec<u32>, ModelError> {
         let elements = self.elements(index, 1)?;

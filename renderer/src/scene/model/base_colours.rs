@@ -7,13 +7,10 @@ use std::sync::Arc;
 
 use glam::Vec2;
 use gltf_json::Root;
-use gltf_json::texture::WrappingMode;
-use gltf_json::validation::Checked;
 
-use super::accessors::view;
-use super::container::resource;
+use super::pictures::picture;
 use super::surfaces::Patch;
-use super::textures::texture;
+use super::textures::{source, texture};
 use super::{Files, ModelError};
 use crate::image::{ImageError, Picture, jpeg, portable_network};
 use crate::material::colour_map::{ColourMap, ColourTexture, Slot, Wrap};
@@ -21,6 +18,9 @@ use crate::material::colour_map::{ColourMap, ColourTexture, Slot, Wrap};
 /// Width of all pictures beyond which their places in single precision are coarser than a
 /// thousandth of a picture's width.
 const WIDE: f32 = 8192.0;
+
+/// Which picture a part has: that of its material, or its own by its number.
+type Key = (Option<usize>, Option<usize>);
 
 /// Where a material's picture lies.
 #[derive(Debug)]
@@ -30,6 +30,8 @@ pub(super) struct Stand {
     shift: f32,
     /// Whether all that has it has texture coordinates too.
     has_uvs: bool,
+    /// The colours of vertices, of a part that has them.
+    painted: Option<Arc<ColourTexture>>,
 }
 
 /// Lays the pictures of all materials that are used side by side, and moves the texture coordinates
@@ -39,9 +41,14 @@ pub(super) fn side_by_side(
     patches: &mut [Patch],
     left_out: &mut BTreeSet<String>,
 ) -> Vec<Stand> {
-    let mut ranges: BTreeMap<Option<usize>, (f32, f32, bool)> = BTreeMap::new();
-    for patch in patches.iter() {
-        let range = ranges.entry(patch.material).or_insert((0.0, 1.0, true));
+    // A part with colours of its vertices has a picture of its own.
+    let key = |number: usize, patch: &Patch| -> Key {
+        let own = patch.painted.is_some().then_some(number);
+        (patch.material, own)
+    };
+    let mut ranges: BTreeMap<Key, (f32, f32, bool)> = BTreeMap::new();
+    for (number, patch) in patches.iter().enumerate() {
+        let range = ranges.entry(key(number, patch)).or_insert((0.0, 1.0, true));
         match &patch.uvs {
             Some(uvs) => {
                 for u in uvs.iter().map(|uv| uv.x).filter(|u| u.is_finite()) {
@@ -54,8 +61,9 @@ pub(super) fn side_by_side(
     }
     let is_alone = ranges.len() == 1;
     let mut stands = Vec::new();
+    let mut shifts = BTreeMap::new();
     let mut at = 0.0_f32;
-    for (material, (least, most, has_uvs)) in ranges {
+    for ((material, own), (least, most, has_uvs)) in ranges {
         if !has_uvs && texture(root, material).is_some() {
             left_out.insert("pictures of parts without texture coordinates".to_owned());
         }
@@ -64,7 +72,9 @@ pub(super) fn side_by_side(
             begins: if is_alone { f32::MIN } else { at - 0.5 },
             shift: if is_alone { 0.0 } else { at - least },
             has_uvs,
+            painted: own.and_then(|number| patches[number].painted.clone()),
         });
+        shifts.insert((material, own), at - least);
         at += most - least + 1.0;
     }
     if at > WIDE && !is_alone {
@@ -72,13 +82,12 @@ pub(super) fn side_by_side(
             "detail of pictures (texture coordinates reach over {at} widths of them in all)"
         ));
     }
-    for patch in patches {
-        let stand = stands.iter().find(|stand| stand.material == patch.material);
-        let shift = stand.map_or(0.0, |stand| stand.shift);
+    if is_alone {
+        return stands;
+    }
+    for (number, patch) in patches.iter_mut().enumerate() {
+        let shift = shifts[&key(number, patch)];
         let count = patch.vertices();
-        if is_alone {
-            continue;
-        }
         let uvs = patch.uvs.get_or_insert_with(|| vec![Vec2::ZERO; count]);
         for uv in uvs {
             uv.x += shift;
@@ -111,20 +120,13 @@ pub(super) fn colours(
             return Err(ModelError::invalid(place, what));
         }
         let info = texture(root, stand.material).filter(|_| stand.has_uvs);
-        let texture = match info.map(|info| &root.textures[info.index.value()]) {
+        let texture = match info.map(|info| source(root, info)) {
+            _ if stand.painted.is_some() => stand.painted.clone(),
             None => None,
-            Some(texture) => {
-                let wrap = match texture.sampler {
-                    Some(sampler) => {
-                        let sampler = &root.samplers[sampler.value()];
-                        [beside(sampler.wrap_s), beside(sampler.wrap_t)]
-                    }
-                    None => [Wrap::Repeat; 2],
-                };
-                let number = texture.source.value();
+            Some((wrap, number)) => {
                 let key = (number, wrap.map(Wrap::word));
                 if let Entry::Vacant(entry) = known.entry(key) {
-                    let picture = picture(root, number, buffers, files)?;
+                    let picture = picture(root, number, buffers, files, decoded)?;
                     entry.insert(Arc::new(texture_of(&picture, wrap)));
                 }
                 known.get(&key).cloned()
@@ -140,14 +142,6 @@ pub(super) fn colours(
     Ok(ColourMap::new(slots, Vec2::ONE))
 }
 
-fn beside(mode: Checked<WrappingMode>) -> Wrap {
-    match mode {
-        Checked::Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
-        Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
-        Checked::Valid(WrappingMode::Repeat) | Checked::Invalid => Wrap::Repeat,
-    }
-}
-
 fn texture_of(picture: &Picture, wrap: [Wrap; 2]) -> ColourTexture {
     let channel = |name| picture.layer(name).expect("what is decoded has R, G and B");
     let [r, g, b] = ["R", "G", "B"].map(|name| channel(name).data.iter().copied());
@@ -155,30 +149,16 @@ fn texture_of(picture: &Picture, wrap: [Wrap; 2]) -> ColourTexture {
     ColourTexture::new(picture.width as usize, texels, wrap)
 }
 
-/// A picture of the file, decoded; its first bytes tell what it is.
-fn picture(
-    root: &Root,
-    number: usize,
-    buffers: &[Cow<'_, [u8]>],
-    files: Files<'_>,
-) -> Result<Picture, ModelError> {
-    let image = &root.images[number];
-    let bytes = match (&image.uri, image.buffer_view) {
-        (Some(uri), _) => resource(uri, files, &|| format!("images[{number}]"))?,
-        (None, Some(of)) => Cow::Borrowed(view(root, buffers, of.value())?),
-        (None, None) => {
-            let what = "has neither a uri nor a view of a buffer";
-            return Err(ModelError::invalid(format!("images[{number}]"), what));
-        }
-    };
-    let decoded = if bytes.starts_with(b"\x89PNG") {
-        portable_network::decode(&bytes)
+/// The colours of a picture; its first bytes say which format it has. The format of models demands
+/// that what a picture says of its colours is ignored.
+fn decoded(bytes: &[u8]) -> Result<Picture, ImageError> {
+    if bytes.starts_with(b"\x89PNG") {
+        portable_network::decode_as_srgb(bytes)
     } else if bytes.starts_with(b"\xff\xd8") {
-        jpeg::decode(&bytes)
+        jpeg::decode_as_srgb(bytes)
     } else {
         Err(ImageError::Malformed {
             what: "it is neither PNG nor JPEG".to_owned(),
         })
-    };
-    decoded.map_err(|source| ModelError::Picture { number, source })
+    }
 }

@@ -16,8 +16,24 @@ const MAGIC: &[u8] = b"glTF";
 const JSON_CHUNK: &[u8] = b"JSON";
 const BINARY_CHUNK: &[u8] = b"BIN\0";
 
-/// Extensions that may be required: what they change is read.
+/// Extensions that may be required: what they change of shapes and pictures is read.
 const KNOWN: [&str; 2] = ["KHR_texture_transform", "KHR_mesh_quantization"];
+
+/// What the names of extensions begin with that change neither shapes nor pictures, so that a file
+/// may require them though they are not read: they are left out, and named.
+const HARMLESS: [&str; 6] = [
+    "KHR_materials_",
+    "KHR_lights_",
+    "EXT_lights_",
+    "KHR_animation_",
+    "KHR_xmp",
+    "KHR_audio",
+];
+
+/// Whether a file that requires an extension can be used.
+fn is_usable(extension: &str) -> bool {
+    KNOWN.contains(&extension) || HARMLESS.iter().any(|start| extension.starts_with(start))
+}
 
 /// Parts of a document that are not read, so that it does not matter what is wrong with them.
 const UNREAD: [&str; 3] = ["animations", "cameras", "skins"];
@@ -51,7 +67,7 @@ impl<'a> Container<'a> {
             return Err(ModelError::invalid("asset.version", what));
         }
         let mut required = root.extensions_required.iter();
-        if let Some(unknown) = required.find(|name| !KNOWN.contains(&name.as_str())) {
+        if let Some(unknown) = required.find(|name| !is_usable(name)) {
             return Err(ModelError::Extension(shown(unknown)));
         }
         check(&root)?;

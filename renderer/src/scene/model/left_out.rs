@@ -2,19 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use gltf_json::Root;
+use gltf_json::accessor::Type;
 use gltf_json::material::{AlphaMode, Material};
 use gltf_json::mesh::Semantic;
 use gltf_json::validation::Checked;
+use gltf_json::{Accessor, Index, Root};
 
 use super::shown;
 
+/// Most extensions that are named.
+const MOST_NAMED: usize = 10;
+
 /// Extensions that are read, or change nothing of what is.
-const HARMLESS: [&str; 3] = [
-    "KHR_texture_transform",
-    "KHR_mesh_quantization",
-    "KHR_materials_unlit",
-];
+const HARMLESS: [&str; 2] = ["KHR_texture_transform", "KHR_mesh_quantization"];
 
 /// What is left out, in words.
 pub(super) fn of_document(root: &Root) -> BTreeSet<String> {
@@ -34,16 +34,35 @@ pub(super) fn of_document(root: &Root) -> BTreeSet<String> {
             "morph targets",
         );
         let mut attributes = primitive.attributes.keys();
-        let has_colours = attributes.any(|key| matches!(key, Checked::Valid(Semantic::Colors(_))));
-        add(has_colours, "colours of vertices");
+        let is_further =
+            |key: &Checked<Semantic>| matches!(key, Checked::Valid(Semantic::Colors(1..)));
+        add(attributes.any(is_further), "further colours of vertices");
+        let material = primitive
+            .material
+            .map(|material| &root.materials[material.value()]);
+        let is_masked = material.is_some_and(|of| of.alpha_mode == Checked::Valid(AlphaMode::Mask));
+        let colours = primitive
+            .attributes
+            .get(&Checked::Valid(Semantic::Colors(0)));
+        let has_alpha =
+            |of: &Index<Accessor>| root.accessors[of.value()].type_ == Checked::Valid(Type::Vec4);
+        add(
+            is_masked && colours.is_some_and(has_alpha),
+            "alpha of vertices in masks",
+        );
     }
     for material in &root.materials {
         of_material(material, &mut add);
     }
-    let extensions = root.extensions_used.iter().map(String::as_str);
+    let extensions = root.extensions_used.iter().chain(&root.extensions_required);
+    let extensions = extensions.map(String::as_str);
     let extensions: BTreeSet<&str> = extensions.filter(|name| !HARMLESS.contains(name)).collect();
-    for name in extensions.into_iter().take(10) {
+    let count = extensions.len();
+    for name in extensions.into_iter().take(MOST_NAMED) {
         left_out.insert(format!("extension {}", shown(name)));
+    }
+    if count > MOST_NAMED {
+        left_out.insert(format!("{} extensions more", count - MOST_NAMED));
     }
     left_out
 }
@@ -56,10 +75,13 @@ fn of_material(material: &Material, add: &mut impl FnMut(bool, &str)) {
         is_metal,
         "metal (its base colour is taken as that of paint)",
     );
+    let is_rough = colour.roughness_factor.0 == 1.0 && colour.metallic_roughness_texture.is_none();
+    add(!is_rough, "roughness (that of the scene's material holds)");
     add(
-        material.alpha_mode != Checked::Valid(AlphaMode::Opaque),
-        "transparency",
+        material.alpha_mode == Checked::Valid(AlphaMode::Blend),
+        "partial transparency (alpha mode BLEND is taken as opaque)",
     );
+    add(material.occlusion_texture.is_some(), "maps of occlusion");
     add(material.normal_texture.is_some(), "maps of normals");
     let glows = material.emissive_factor.0.iter().any(|part| *part > 0.0);
     add(glows, "emitted light");

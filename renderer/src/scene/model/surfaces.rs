@@ -1,6 +1,7 @@
 //! The triangles of a glTF file's scene, where its nodes place them.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DQuat, DVec3, Vec2, Vec3};
 use gltf_json::mesh::{Mode, Primitive, Semantic};
@@ -12,6 +13,7 @@ use super::ModelError;
 use super::accessors::Accessors;
 use super::textures::Place;
 use crate::geometry::TriangleMesh;
+use crate::material::colour_map::ColourTexture;
 
 /// Greatest number of triangles of a model.
 const MOST_TRIANGLES: u64 = 1 << 27;
@@ -21,12 +23,16 @@ const MOST_TRIANGLES: u64 = 1 << 27;
 pub(super) struct Patch {
     /// Number of its material; `None` is the one that glTF gives to what has none.
     pub(super) material: Option<usize>,
-    positions: Vec<Vec3>,
+    pub(super) positions: Vec<Vec3>,
     /// Zero where the file has none.
-    normals: Vec<Vec3>,
+    pub(super) normals: Vec<Vec3>,
     /// Where its base colour's picture is looked up, v upwards.
     pub(super) uvs: Option<Vec<Vec2>>,
-    triangles: Vec<[u32; 3]>,
+    /// Factors on the base colour, each in [0, 1].
+    pub(super) colours: Option<Vec<[f32; 3]>>,
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Those factors as a picture over `uvs`.
+    pub(super) painted: Option<Arc<ColourTexture>>,
 }
 
 impl Patch {
@@ -233,6 +239,10 @@ fn patch(
         }
         None => None,
     };
+    let colours = match attribute(primitive, Semantic::Colors(0)) {
+        Some(colours) => Some(accessors.colours(colours, &used)?),
+        None => None,
+    };
     let triangles = corners.iter().map(|corners| {
         let [a, b, c] = corners.map(own);
         if mirrors { [a, c, b] } else { [a, b, c] }
@@ -242,7 +252,9 @@ fn patch(
         positions: positions.into_iter().map(at).collect(),
         normals,
         uvs,
+        colours,
         triangles: triangles.collect(),
+        painted: None,
     })
 }
 

@@ -331,20 +331,130 @@ fn pictures_may_be_files_beside_and_names_may_be_written_in_percent() {
 fn what_is_left_out_is_told_by_name() {
     let mut made = square();
     made.json["animations"] = json!([{ "channels": [], "samplers": [] }]);
-    made.json["materials"] = json!([{ "alphaMode": "MASK", "emissiveFactor": [1, 0, 0] }]);
+    made.json["materials"] = json!([{
+        "alphaMode": "BLEND", "emissiveFactor": [1, 0, 0], "occlusionTexture": { "index": 0 },
+        "pbrMetallicRoughness": { "roughnessFactor": 0.5 },
+    }]);
+    made.texture(10497);
     made.json["extensionsUsed"] = json!(["KHR_texture_transform", "KHR_materials_sheen"]);
+    // Lights and materials may be required: shapes and pictures are there without them.
+    made.json["extensionsRequired"] = json!(["KHR_lights_punctual", "KHR_materials_sheen"]);
     let line = json!({ "attributes": { "POSITION": 0 }, "mode": 1 });
     let list = made.json["meshes"][0]["primitives"].as_array_mut();
     list.expect("a list").push(line);
     let expected = [
         "animations",
         "emitted light",
+        "extension \"KHR_lights_punctual\"",
         "extension \"KHR_materials_sheen\"",
         "lines and points",
+        "maps of occlusion",
         "metal (its base colour is taken as that of paint)",
-        "transparency",
+        "partial transparency (alpha mode BLEND is taken as opaque)",
+        "roughness (that of the scene's material holds)",
     ];
     assert_eq!(made.model().expect("a good model").left_out, expected);
+}
+
+/// Area of a model's triangles.
+fn area(model: &Model) -> f32 {
+    let faces = model.mesh.triangles().iter();
+    let doubled = faces.map(|face| {
+        let [a, b, c] = face.map(|corner| model.mesh.positions()[corner as usize]);
+        (b - a).cross(c - a).length()
+    });
+    0.5 * doubled.sum::<f32>()
+}
+
+#[test]
+fn an_alpha_mask_cuts_its_material_out_of_the_mesh() {
+    use crate::image::pixels::{Depth, Pixels};
+    // Two pixels side by side, the left one clear.
+    let pixels = Pixels {
+        width: 2,
+        height: 1,
+        depth: Depth::Eight,
+        channels: 4,
+        values: vec![255, 0, 0, 0, 0, 255, 0, 255],
+    };
+    let png = portable_network::encoded_pixels(&pixels).expect("two pixels");
+    let model = |mode: &str, factor: f32, cutoff: Option<f32>| {
+        let mut made = Made::empty();
+        let texture = made.texture(33071);
+        let view = made.view(&png);
+        made.json["images"][0]["bufferView"] = json!(view);
+        let paint = made.paint([1.0, 1.0, 1.0, factor], Some(json!({ "index": texture })));
+        made.json["materials"][paint]["alphaMode"] = json!(mode);
+        if let Some(cutoff) = cutoff {
+            made.json["materials"][paint]["alphaCutoff"] = json!(cutoff);
+        }
+        made.square(0.0, Some(paint));
+        made.model()
+    };
+    let whole = model("OPAQUE", 1.0, None).expect("a good model");
+    assert_eq!((area(&whole), whole.mesh.triangles().len()), (1.0, 2));
+    // Between the middles of the pixels, at 1/4 and 3/4, alpha is linear.
+    let half = model("MASK", 1.0, None).expect("a good model");
+    assert!((area(&half) - 0.5).abs() < 1e-5, "{}", area(&half));
+    let least = |a: Vec3, b: Vec3| a.min(b);
+    let left = half.mesh.positions().iter().skip(4).copied().reduce(least);
+    assert!(
+        left.expect("it has corners").x.abs() < 1e-6,
+        "the right half is left"
+    );
+    assert!(
+        half.mesh
+            .normals()
+            .expect("it has them")
+            .iter()
+            .all(|normal| *normal == -Vec3::Y)
+    );
+    let later = model("MASK", 1.0, Some(0.75)).expect("a good model");
+    assert!((area(&later) - 0.375).abs() < 1e-5, "{}", area(&later));
+    let faint = model("MASK", 0.4, None)
+        .map(|_| ())
+        .expect_err("nothing is left");
+    assert!(faint.to_string().contains("alpha masks"), "{faint}");
+}
+
+#[test]
+fn colours_of_vertices_are_linear_over_each_triangle() {
+    let mut made = Made::empty();
+    let factor = made.paint([0.5, 1.0, 1.0, 1.0], None);
+    made.square(0.0, Some(factor));
+    made.square(1.0, Some(factor));
+    let corners = [
+        [1.0, 0.0, 0.0, 1.0],
+        [0.0, 1.0, 0.0, 1.0],
+        [0.0, 0.0, 1.0, 1.0],
+        [1.0; 4],
+    ];
+    let colours = made.floats(&corners);
+    made.json["meshes"][0]["primitives"][1]["attributes"]["COLOR_0"] = json!(colours);
+    let model = made.model().expect("a good model");
+    assert_eq!(model.left_out, Vec::<String>::new());
+    let map = model.colours.as_ref().expect("they were asked for");
+    let uvs = model.mesh.uvs().expect("it has them");
+    let at = |face: usize, weights: [f32; 3]| {
+        let corners = model.mesh.triangles()[face].map(|corner| uvs[corner as usize]);
+        let uv: Vec2 = corners
+            .into_iter()
+            .zip(weights)
+            .map(|(uv, weight)| uv * weight)
+            .sum();
+        map.colour(uv)
+    };
+    let close = |found: [f32; 3], expected: [f32; 3]| {
+        let mut pairs = found.into_iter().zip(expected);
+        assert!(
+            pairs.all(|(a, b)| (a - b).abs() < 1e-5),
+            "{found:?}, not {expected:?}"
+        );
+    };
+    close(at(0, [0.2, 0.3, 0.5]), [0.5, 1.0, 1.0]);
+    close(at(2, [0.2, 0.3, 0.5]), [0.1, 0.3, 0.5]);
+    // The second triangle has the first, third and fourth corner.
+    close(at(3, [0.25, 0.5, 0.25]), [0.25, 0.25, 0.75]);
 }
 
 #[test]

@@ -4,7 +4,10 @@ use std::collections::BTreeSet;
 
 use glam::Vec2;
 use gltf_json::Root;
-use gltf_json::texture::Info;
+use gltf_json::texture::{Info, WrappingMode};
+use gltf_json::validation::Checked;
+
+use crate::material::colour_map::Wrap;
 
 /// Where a material looks up its base colour.
 pub(super) struct Place {
@@ -57,4 +60,22 @@ pub(super) fn images(root: &Root) -> BTreeSet<usize> {
     let textures = materials.filter_map(|material| texture(root, Some(material)));
     let images = textures.map(|info| root.textures[info.index.value()].source.value());
     images.collect()
+}
+
+/// What lies beside the picture of a texture, across and down, and the picture's number.
+pub(super) fn source(root: &Root, info: &Info) -> ([Wrap; 2], usize) {
+    let texture = &root.textures[info.index.value()];
+    let wrap = texture.sampler.map_or([Wrap::Repeat; 2], |sampler| {
+        let sampler = &root.samplers[sampler.value()];
+        [sampler.wrap_s, sampler.wrap_t].map(beside)
+    });
+    (wrap, texture.source.value())
+}
+
+fn beside(mode: Checked<WrappingMode>) -> Wrap {
+    match mode {
+        Checked::Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
+        Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
+        Checked::Valid(WrappingMode::Repeat) | Checked::Invalid => Wrap::Repeat,
+    }
 }

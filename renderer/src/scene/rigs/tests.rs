@@ -65,7 +65,7 @@ fn open_share(world: &World, from: Vec3) -> f64 {
 /// Irradiance of a level sheet at the subject at 560 nm, by samples of every light.
 fn on_paper(world: &World) -> f64 {
     let receiver = Receiver {
-        position: (DVec3::new(0.1, 0.2, 0.0) - world.origin).as_vec3(),
+        position: (DVec3::new(0.1, 0.2, 0.0) - world.geometry.origin()).as_vec3(),
         normal: Vec3::Z,
     };
     let wavelengths = Wavelengths::<1>::new([LEVEL_NM]);

@@ -5,10 +5,14 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::camera::thin_lens::LensError;
+use crate::film::MOST_RADIANCE;
 use crate::geometry::scatter::{ScatterError, VolumeError};
 use crate::geometry::{GeometryError, ImportError, MeshError};
 use crate::scene::assets::AssetError;
 use crate::scene::plants::{PlantError, SolidError};
+
+/// Bytes of a GiB.
+const GIB: f64 = 1024.0 * 1024.0 * 1024.0;
 
 /// Why a described scene cannot be built.
 #[derive(Debug, Error)]
@@ -76,6 +80,20 @@ pub enum WorldError {
         /// Name of its material.
         material: String,
     },
+    /// The meshes take more memory than is allowed.
+    #[error(
+        "the meshes of this scene have {triangles} triangles, which need about {:.1} GiB of memory while their trees are built, more \
+         than the {:.1} GiB that are allowed: make them coarser, or allow it with --memory {}",
+        .needed / GIB, .allowed / GIB, (.needed / GIB).ceil()
+    )]
+    Memory {
+        /// How many there are.
+        triangles: usize,
+        /// Memory that they need, bytes.
+        needed: f64,
+        /// Memory that is allowed, bytes.
+        allowed: f64,
+    },
     /// There is no room for what is strewn.
     #[error("objects.{name}.scatter: {source}")]
     Scatter {
@@ -102,6 +120,21 @@ pub enum WorldError {
         name: String,
         /// Why not.
         why: &'static str,
+    },
+    /// A light is brighter than a film can record.
+    #[error(
+        "lights.{name}: at {nm:.0} nm it shows {radiance:.1e} W m^-2 sr^-1 nm^-1 or more, and a film \
+         records at most {:.1e}: scale all lights down, which scales the picture alike; `d65` and \
+         `blackbody_k` have the value of `scale` at 560 nm",
+        MOST_RADIANCE
+    )]
+    TooBright {
+        /// Name of the light.
+        name: String,
+        /// A wavelength at which it is, nm.
+        nm: f32,
+        /// Its radiance there, or that of white paper in its light.
+        radiance: f32,
     },
     /// The camera cannot be focused on its object.
     #[error("camera.perspective.focus_object: {0}")]

@@ -4,19 +4,24 @@
 //! - **Out**: the colour of the mean spectrum of each, as the film records it: with the same
 //!   wavelengths and the same weights, so that a grey surface that one light illuminates is neutral
 //!   when that light is.
+//!   Lights that the film cannot record are refused.
 //! - **Left out**: from where light comes. The mean of a picture is that over the sphere or the
 //!   shining surface, daylight is that on level ground in the open.
 
 use std::collections::BTreeSet;
 
+use leafmodel::optics::fluorescence::EXCITED_NM;
+use rayon::prelude::*;
+
 use super::WorldError;
+use crate::film::MOST_RADIANCE;
 use crate::image::display::recorded_colour;
 use crate::image::light_colour::LightColour;
 use crate::light::Light;
 use crate::scene::description::{self, Description};
 use crate::scene::rigs;
 use crate::spectrum::rgb::basis_at;
-use crate::spectrum::{Curve, WavelengthSampler};
+use crate::spectrum::{Curve, Share, WavelengthSampler};
 
 /// The colours of the scene's lights, in its order. Daylight comes with its parts `NAME.sun` and
 /// `NAME.sky`; the lights of a rig, which have one spectrum, are together called as it is.
@@ -27,7 +32,7 @@ pub(super) fn light_colours(
 ) -> Vec<LightColour> {
     let mut rest = built;
     let mut colours: Vec<LightColour> = Vec::new();
-    let mut add = |name: &str, spectrum: &dyn Fn(f32) -> f64| {
+    let mut add = |name: &str, spectrum: &dyn Fn(&Share) -> f64| {
         let colour = recorded_colour(wavelengths, spectrum);
         colours.push(LightColour::new(name.to_owned(), colour));
     };
@@ -43,9 +48,9 @@ pub(super) fn light_colours(
         match (&named.value, own) {
             (description::Light::Daylight(day), [Light::Sun(sun), Light::Sky(sky)]) => {
                 let up = libm::sin(day.elevation);
-                let direct = |nm: f32| up * f64::from(sun.irradiance().at(nm));
-                let diffuse = |nm: f32| f64::from(sky.diffuse().at(nm));
-                add(name, &|nm| direct(nm) + diffuse(nm));
+                let direct = |share: &Share| up * f64::from(sun.irradiance().over(share));
+                let diffuse = |share: &Share| f64::from(sky.diffuse().over(share));
+                add(name, &|share| direct(share) + diffuse(share));
                 if rig.is_none() {
                     add(&format!("{name}.sun"), &direct);
                     add(&format!("{name}.sky"), &diffuse);
@@ -76,11 +81,57 @@ pub(super) fn check_white(scene: &Description, colours: &[LightColour]) -> Resul
     })
 }
 
-/// What a light sends out by wavelength in nm, relative to other wavelengths.
-fn mean_spectrum(light: &Light) -> Box<dyn Fn(f32) -> f64 + '_> {
-    let of_curve = |curve| -> Box<dyn Fn(f32) -> f64 + '_> {
+/// Refuses lights that are brighter than a film can record.
+pub(super) fn check_brightness(
+    scene: &Description,
+    lights: &[Light],
+    wavelengths: &WavelengthSampler,
+) -> Result<(), WorldError> {
+    let mut rest = lights;
+    for named in &scene.lights {
+        let (own, others) = rest.split_at(named.value.parts());
+        rest = others;
+        for share in wavelengths.grid().shares() {
+            // What a spotlight shows depends on how far it is.
+            let rest = own.iter().filter(|light| !matches!(light, Light::Spot(_)));
+            let shown = rest.map(|light| light.shows(&share));
+            let radiance = shown.fold(0.0, f32::max);
+            if radiance > MOST_RADIANCE {
+                return Err(WorldError::TooBright {
+                    name: rigs::of_part(&named.name).unwrap_or(&named.name).to_owned(),
+                    nm: share.nm,
+                    // What single precision does not hold is at least its greatest number.
+                    radiance: radiance.min(f32::MAX),
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A radiance that lights exceed nowhere at the wavelengths of paths, W m⁻² sr⁻¹ nm⁻¹; infinite if
+/// one has no extent. What excites fluorescence counts too.
+pub(super) fn brightest(
+    lights: &[Light],
+    wavelengths: &WavelengthSampler,
+    fluoresces: bool,
+) -> f32 {
+    let [first, last] = EXCITED_NM.map(|nm| nm as u32);
+    let excited = (first..=last).filter(|_| fluoresces);
+    let excited = excited.map(|nm| Share::around(f64::from(nm), 1.0));
+    let shares: Vec<Share> = wavelengths.grid().shares().chain(excited).collect();
+    let of_light = |light: &Light| {
+        let all = shares.iter().map(|share| light.at_most(share));
+        all.fold(0.0, f32::max)
+    };
+    lights.par_iter().map(of_light).reduce(|| 0.0, f32::max)
+}
+
+/// What a light sends out in a share of the range, relative to others.
+fn mean_spectrum(light: &Light) -> Box<dyn Fn(&Share) -> f64 + '_> {
+    let of_curve = |curve| -> Box<dyn Fn(&Share) -> f64 + '_> {
         let curve: &Curve = curve;
-        Box::new(|nm| curve.at(nm).into())
+        Box::new(|share| curve.over(share).into())
     };
     match light {
         Light::Distant(light) => of_curve(light.radiance()),
@@ -97,10 +148,10 @@ fn mean_spectrum(light: &Light) -> Box<dyn Fn(f32) -> f64 + '_> {
 }
 
 /// The spectrum of linear sRGB where 1 1 1 is `white`.
-fn coloured(mean: [f64; 3], white: &Curve) -> Box<dyn Fn(f32) -> f64 + '_> {
-    Box::new(move |nm| {
-        let basis = mean.into_iter().zip(basis_at(nm));
-        let share: f64 = basis.map(|(mean, basis)| mean * f64::from(basis)).sum();
-        share * f64::from(white.at(nm))
+fn coloured(mean: [f64; 3], white: &Curve) -> Box<dyn Fn(&Share) -> f64 + '_> {
+    Box::new(move |share| {
+        let basis = mean.into_iter().zip(basis_at(share.nm));
+        let part: f64 = basis.map(|(mean, basis)| mean * f64::from(basis)).sum();
+        part * f64::from(white.over(share))
     })
 }

@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use super::WorldError;
+use glam::DVec3;
+
 use crate::geometry::{Instance, TriangleMesh};
 use crate::light::Light;
 use crate::light::area::AreaLight;
@@ -16,13 +18,14 @@ use crate::scene::assets::{self, RgbPicture};
 use crate::scene::description;
 use crate::spectrum::Curve;
 
-/// The lights of a block of the scene; `instance_of` gives the only instance of an emitting object.
-/// What was changed of its picture is noted.
+/// The lights of a block of the scene, for rays around `origin`; `instance_of` gives the only instance
+/// of an emitting object. What was changed of its picture is noted.
 pub(super) fn build_lights<'i>(
     name: &str,
     light: &description::Light,
     meshes: &[TriangleMesh],
     instance_of: impl Fn(usize) -> &'i Instance,
+    origin: DVec3,
     notes: &mut Vec<String>,
 ) -> Result<Vec<Light>, WorldError> {
     Ok(vec![match light {
@@ -40,11 +43,12 @@ pub(super) fn build_lights<'i>(
         }
         description::Light::Environment {
             file,
+            layer,
             scale,
             rotation,
             white,
         } => {
-            let picture = picture(name, file, notes)?;
+            let picture = picture(name, (file, layer.as_deref()), notes)?;
             let (width, height) = (picture.width, picture.texels.len() / picture.width);
             if width != 2 * height {
                 notes.push(format!(
@@ -73,9 +77,10 @@ pub(super) fn build_lights<'i>(
             let instance = instance_of(*object);
             let mesh = &meshes[instance.mesh as usize];
             let radiance = Curve::from_description(radiance);
-            let mirrored = instance.to_world.matrix3.determinant() < 0.0;
+            let to_world = instance.around(origin);
+            let mirrored = to_world.matrix3.determinant() < 0.0;
             let triangles = corners(mesh, mirrored, |vertex| {
-                instance.to_world.transform_point3(mesh.positions()[vertex])
+                to_world.transform_point3(mesh.positions()[vertex])
             });
             Light::Area(match pattern {
                 None => AreaLight::new(&triangles, radiance),
@@ -98,7 +103,7 @@ pub(super) fn build_lights<'i>(
             penumbra_angle,
             intensity,
         } => Light::Spot(SpotLight::new(
-            position.as_vec3(),
+            (position - origin).as_vec3(),
             (look_at - position).normalize().as_vec3(),
             *cone_angle,
             *penumbra_angle,
@@ -120,9 +125,13 @@ pub(super) fn build_lights<'i>(
     }])
 }
 
-/// The picture of a light.
-fn picture(light: &str, file: &Path, notes: &mut Vec<String>) -> Result<RgbPicture, WorldError> {
-    let picture = assets::shining(file).map_err(|source| WorldError::Asset {
+/// The picture of a light, and the layer of it.
+fn picture(
+    light: &str,
+    (file, layer): (&Path, Option<&str>),
+    notes: &mut Vec<String>,
+) -> Result<RgbPicture, WorldError> {
+    let picture = assets::shining(file, layer).map_err(|source| WorldError::Asset {
         place: format!("lights.{light}"),
         source,
     })?;
@@ -133,6 +142,14 @@ fn picture(light: &str, file: &Path, notes: &mut Vec<String>) -> Result<RgbPictu
             100.0 * picture.below
         ));
     }
+    if picture.outside > 0.0 {
+        notes.push(format!(
+            "lights.{light}: {}: {:.2} % of its pixels have colours outside of Rec. 709, whose spectra are \
+             below 0 at some wavelengths: as a part of the light of a whole scene they are right",
+            file.display(),
+            100.0 * picture.outside
+        ));
+    }
     Ok(picture)
 }
 
@@ -141,7 +158,7 @@ fn build_pattern(
     pattern: &description::AreaPattern,
     notes: &mut Vec<String>,
 ) -> Result<Pattern, WorldError> {
-    let picture = match &pattern.picture {
+    let picture = match pattern.picture() {
         None => None,
         Some(file) => {
             let picture = picture(light, file, notes)?;
@@ -166,7 +183,7 @@ fn corners<T>(mesh: &TriangleMesh, mirrored: bool, of: impl Fn(usize) -> T) -> V
 mod tests {
     use std::sync::atomic::AtomicBool;
 
-    use crate::image::{Layer, Picture, openexr};
+    use crate::image::{Attribute, Layer, Picture, openexr};
     use crate::integrator::caption::Caption;
     use crate::integrator::develop::develop;
     use crate::integrator::render::{Job, render};
@@ -180,9 +197,36 @@ mod tests {
         [meshes.dot.sphere]\nradius_m = 0.001\n[materials.black.diffuse]\nreflectance = 0\n\
         [objects.behind]\nmesh = \"dot\"\nmaterial = \"black\"\nposition_m = [1, 0, 0]\n";
 
+    /// What is seen of a sky, with the notes on it.
+    fn seen(sky: &Picture) -> (Picture, Vec<String>) {
+        let folder = tempfile::tempdir().expect("a place for temporary files");
+        openexr::write(sky, &folder.path().join("sky.exr")).expect("it can be written");
+        let loaded = parse(SCENE, "scene.toml", folder.path(), &[]);
+        let scene = loaded
+            .unwrap_or_else(|errors| panic!("{errors}"))
+            .description;
+        let world = World::build(&scene).expect("it can be built");
+        let job = Job {
+            width: 2,
+            height: 2,
+            spp: 256,
+            seed: 1,
+        };
+        let go = AtomicBool::new(false);
+        let rendered = render(&world, &job, &go, &|_| ()).expect("a small film");
+        let caption = Caption::of(&scene, &world.view, &world.light_colours);
+        let mut notes = world.notes;
+        // The dot is behind the camera.
+        assert!(
+            notes
+                .remove(0)
+                .starts_with("camera: no object is in the picture")
+        );
+        (develop(&caption, &job, &rendered), notes)
+    }
+
     #[test]
     fn what_is_left_and_above_in_a_picture_of_the_surroundings_is_seen_there() {
-        let folder = tempfile::tempdir().expect("a place for temporary files");
         let (width, height) = (16, 8);
         // Left is red, right is green, what is above is twice as bright.
         let layers = ["R", "G", "B"].map(|name| {
@@ -200,29 +244,13 @@ mod tests {
                 data: (0..width * height).map(value).collect(),
             }
         });
-        let sky = Picture {
+        let (seen, notes) = seen(&Picture {
             width: width as u32,
             height: height as u32,
             layers: layers.into(),
             attributes: Vec::new(),
-        };
-        openexr::write(&sky, &folder.path().join("sky.exr")).expect("it can be written");
-        let loaded = parse(SCENE, "scene.toml", folder.path(), &[]);
-        let scene = loaded
-            .unwrap_or_else(|errors| panic!("{errors}"))
-            .description;
-        let world = World::build(&scene).expect("it can be built");
-        assert!(world.notes.is_empty(), "{:?}", world.notes);
-        let job = Job {
-            width: 2,
-            height: 2,
-            spp: 256,
-            seed: 1,
-        };
-        let go = AtomicBool::new(false);
-        let rendered = render(&world, &job, &go, &|_| ()).expect("a small film");
-        let caption = Caption::of(&scene, &world.view, &world.light_colours);
-        let seen = develop(&caption, &job, &rendered);
+        });
+        assert!(notes.is_empty(), "{notes:?}");
         let [red, green] = ["R", "G"].map(|name| &seen.layer(name).expect("it is there").data);
         for row in 0..2 {
             let [left, right] = [2 * row, 2 * row + 1];
@@ -232,6 +260,43 @@ mod tests {
         assert!(
             red[0] > 1.2 * red[2] && green[1] > 1.2 * green[3],
             "{red:?} {green:?}"
+        );
+    }
+
+    #[test]
+    fn a_sky_of_other_primaries_is_seen_in_those_of_rec_709() {
+        let layers = [("R", 1.0), ("G", 0.0), ("B", 0.0)].map(|(name, value)| Layer {
+            name: name.to_owned(),
+            data: vec![value; 16 * 8],
+        });
+        let rec2020 = [
+            [0.708, 0.292],
+            [0.170, 0.797],
+            [0.131, 0.046],
+            [0.3127, 0.3290],
+        ];
+        let (seen, notes) = seen(&Picture {
+            width: 16,
+            height: 8,
+            layers: layers.into(),
+            attributes: vec![(
+                "chromaticities".to_owned(),
+                Attribute::Chromaticities(rec2020),
+            )],
+        });
+        for (name, expected) in [("R", 1.6605), ("G", -0.1246), ("B", -0.0182)] {
+            for value in &seen.layer(name).expect("it is there").data {
+                // 256 samples of stratified wavelengths, and the colours of the basis.
+                assert!(
+                    (value - expected).abs() < 0.02,
+                    "{name}: {value}, not {expected}"
+                );
+            }
+        }
+        assert_eq!(notes.len(), 1, "{notes:?}");
+        assert!(
+            notes[0].contains("100.00 % of its pixels have colours outside"),
+            "{notes:?}"
         );
     }
 }

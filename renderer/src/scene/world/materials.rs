@@ -57,9 +57,11 @@ pub(super) fn build_materials(
     scene: &Description,
     colours: &[Option<ColourMap>],
     known: &mut Known,
+    notes: &mut Vec<String>,
 ) -> Result<Vec<Material>, WorldError> {
     let written = scene.materials.iter();
-    let built = written.map(|named| build_material(&named.name, &named.value, colours, known));
+    let built =
+        written.map(|named| build_material(&named.name, &named.value, colours, known, notes));
     built.collect()
 }
 
@@ -68,6 +70,7 @@ fn build_material(
     material: &description::Material,
     colours: &[Option<ColourMap>],
     known: &mut Known,
+    notes: &mut Vec<String>,
 ) -> Result<Material, WorldError> {
     let read = |held: &description::Held| match held {
         description::Held::Contents { contents, .. } => Ok(Held::Uniform(*contents)),
@@ -81,7 +84,7 @@ fn build_material(
     };
     Ok(match material {
         description::Material::Diffuse { reflectance } => {
-            Material::Diffuse(build_reflectance(name, reflectance, colours)?)
+            Material::Diffuse(build_reflectance(name, reflectance, colours, notes)?)
         }
         description::Material::Dielectric { eta, roughness, .. } => {
             Material::Dielectric(Dielectric {
@@ -96,7 +99,7 @@ fn build_material(
         } => {
             let alpha = *roughness as f32;
             let coat = Coat::new(*eta as f32, alpha, alpha);
-            let reflectance = build_reflectance(name, reflectance, colours)?;
+            let reflectance = build_reflectance(name, reflectance, colours, notes)?;
             Material::Plastic(Box::new(PlasticMaterial::new(reflectance, coat)))
         }
         description::Material::Leaf {
@@ -134,6 +137,7 @@ fn build_reflectance(
     name: &str,
     reflectance: &description::Reflectance,
     colours: &[Option<ColourMap>],
+    notes: &mut Vec<String>,
 ) -> Result<Reflectance, WorldError> {
     match reflectance {
         description::Reflectance::Even(spectrum) => Ok(Curve::from_description(spectrum).into()),
@@ -144,14 +148,24 @@ fn build_reflectance(
         }
         description::Reflectance::Picture {
             file,
+            layer,
             wrap,
             repeats,
             scale,
         } => {
-            let picture = assets::reflectances(file).map_err(|source| WorldError::Asset {
+            let picture = assets::reflectances(file, layer.as_deref());
+            let picture = picture.map_err(|source| WorldError::Asset {
                 place: format!("materials.{name}"),
                 source,
             })?;
+            if picture.outside > 0.0 {
+                notes.push(format!(
+                    "materials.{name}: {}: {:.2} % of its pixels have colours outside of Rec. 709; they come \
+                     to its border",
+                    file.display(),
+                    100.0 * picture.outside
+                ));
+            }
             let texture = ColourTexture::new(picture.width, picture.texels, [*wrap; 2]);
             let repeats = repeats.map(|count| count as f32).into();
             let map = ColourMap::of(texture, *scale as f32, repeats);

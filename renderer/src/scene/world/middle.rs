@@ -1,11 +1,12 @@
 //! Where an object is, for a camera that focuses on it.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use super::placing::WorldObjects;
+use super::seen::corners_of;
 use crate::geometry::{Instance, TriangleMesh};
 
-/// The middle of the box, along the axes of the world, around all parts of an object in all its
+/// The middle of the box, along the axes of the scene, around all parts of an object in all its
 /// places, m.
 ///
 /// Each part counts with its box in its own frame, so that an object with a million places costs
@@ -21,19 +22,9 @@ pub(super) fn of_object(
         if objects[number].object != object {
             continue;
         }
-        let (low, high) = meshes[instance.mesh as usize].bounds();
-        for corner in 0..8 {
-            let side = |axis: usize| {
-                if corner >> axis & 1 == 0 {
-                    low[axis]
-                } else {
-                    high[axis]
-                }
-            };
-            let corner = Vec3::new(side(0), side(1), side(2));
-            let point = instance.to_world.transform_point3(corner).as_dvec3();
-            least = least.min(point);
-            most = most.max(point);
+        for corner in corners_of(instance, meshes) {
+            least = least.min(corner);
+            most = most.max(corner);
         }
     }
     0.5 * (least + most)

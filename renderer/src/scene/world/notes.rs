@@ -1,15 +1,20 @@
 //! Notes about a scene's materials that can be given only after files are read and leaves are
 //! grown.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::{DVec3, Vec3};
 
 use super::MaterialOwner;
+use super::placing::Pieces;
+use super::seen::corners_between;
 use leafmodel::optics::Contents;
 
 use crate::geometry::TriangleMesh;
 use crate::material::colour_map::ColourMap;
 use crate::material::{ExceedingCoat, Material};
-use crate::scene::description::{Description, ObjectShape};
+use crate::scene::description::{Description, InstancePlace, Named, ObjectShape};
+use crate::scene::plants::Piece;
 
 /// Notes on leaves and solid tissue whose coat alone reflects more than the whole should, one for
 /// each.
@@ -41,6 +46,16 @@ pub(super) fn on_coats(
         }
     }
     notes.into_iter().map(|(_, note)| note).collect()
+}
+
+/// Notes on a mesh of this name: faces that were dropped, and what was left out of its file.
+pub fn on_mesh(name: &str, mesh: &TriangleMesh, left_out: &[String]) -> Vec<String> {
+    let dropped = mesh.dropped();
+    let dropped = (dropped.total() > 0).then(|| format!("meshes.{name}: {dropped}"));
+    let parts = left_out.join(", ");
+    let left_out =
+        (!parts.is_empty()).then(|| format!("meshes.{name}: left out of its file: {parts}"));
+    dropped.into_iter().chain(left_out).collect()
 }
 
 /// Notes on maps with both betalains and anthocyanins in any texels, since no plant has both.
@@ -91,6 +106,82 @@ pub(super) fn on_missing_uvs(
         )
     });
     told.collect()
+}
+
+/// Length of the longest undivided leaves and of the longest compound ones, m, with room for what is
+/// a little longer.
+const LONGEST: [f64; 2] = [4.0, 25.0];
+
+/// Length below which nothing is a whole leaf, m.
+const SHORTEST: f64 = 2e-4;
+
+/// Notes on objects whose scale makes of a leaf what no plant has.
+pub(super) fn on_sizes(
+    scene: &Description,
+    meshes: &[TriangleMesh],
+    pieces: &Pieces,
+    strewn: &BTreeMap<usize, Vec<InstancePlace>>,
+) -> Vec<String> {
+    let mut notes = Vec::new();
+    for (
+        number,
+        Named {
+            name,
+            value: object,
+        },
+    ) in scene.objects.iter().enumerate()
+    {
+        let lengths = object.shapes.iter().map(|shape| match shape {
+            ObjectShape::Leaf { leaf } => {
+                let is_compound = scene.leaves[*leaf].value.plan.compound.is_some();
+                let longest = LONGEST[usize::from(is_compound)];
+                Some((longest, length_of(&pieces.of(*shape), meshes)))
+            }
+            ObjectShape::Mesh { .. } | ObjectShape::Solid { .. } => None,
+        });
+        let lengths: Vec<_> = lengths.collect();
+        let places = strewn.get(&number).or(object.instances.as_ref());
+        let alone = InstancePlace::new(0, object.to_world);
+        let alone = places.is_none().then_some(&alone);
+        let unlikely = places
+            .into_iter()
+            .flatten()
+            .chain(alone)
+            .filter_map(|place| {
+                let (longest, length) = lengths[place.shape as usize]?;
+                let scale = (0..3).map(|axis| place.linear.col(axis).length());
+                let length = length * f64::from(scale.fold(0.0, f32::max));
+                (!(SHORTEST..=longest).contains(&length)).then_some((longest, length))
+            });
+        if let Some((longest, length)) = unlikely.max_by(|a, b| a.1.total_cmp(&b.1)) {
+            notes.push(if length > longest {
+                format!(
+                    "objects.{name}: a leaf is {length:.1} m long, and the longest in nature have \
+                     {longest} m: check `scale` and `length_mm`"
+                )
+            } else {
+                format!(
+                    "objects.{name}: a leaf is {:.1e} mm long, and no plant has such short ones: \
+                     check `scale` and `length_mm`",
+                    1e3 * length
+                )
+            });
+        }
+    }
+    notes
+}
+
+/// Length of a shape along the longest side of its box, m.
+fn length_of(pieces: &[Piece], meshes: &[TriangleMesh]) -> f64 {
+    let corners = pieces.iter().flat_map(|piece| {
+        let (least, most) = meshes[piece.mesh].bounds();
+        corners_between([least, most].map(Vec3::as_dvec3), &piece.to_leaf)
+    });
+    let nowhere = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    let [least, most] = corners.fold(nowhere, |[least, most], corner| {
+        [least.min(corner), most.max(corner)]
+    });
+    (most - least).max_element()
 }
 
 #[cfg(test)]

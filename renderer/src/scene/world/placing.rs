@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Index;
 
-use glam::{Affine3A, DAffine3, DMat4};
+use glam::{DAffine3, DMat4};
 
 use crate::geometry::Instance;
 use crate::medium::{Body, BodyPlace};
@@ -185,18 +185,15 @@ pub(super) struct Placed {
 }
 
 impl Placed {
-    fn put(&mut self, part: u32, place: u32, mesh: usize, to_world: Affine3A) {
-        self.instances.push(Instance {
-            mesh: mesh as u32,
-            to_world,
-        });
+    fn put(&mut self, part: u32, place: u32, mesh: usize, to_world: &DAffine3) {
+        self.instances.push(Instance::new(mesh as u32, to_world));
         self.objects.instances.push(Standing { part, place });
     }
 
     /// Places a part of an object with one place.
     fn put_alone(&mut self, object: usize, piece: &Piece, to_world: DMat4) {
         let part = self.objects.add_part(object, piece.material);
-        self.put(part, 0, piece.mesh, carried(to_world, piece));
+        self.put(part, 0, piece.mesh, &carried(to_world, piece));
     }
 }
 
@@ -255,14 +252,14 @@ pub(super) fn place(
         for (place, at) in places.iter().enumerate() {
             let to_world = at.matrix();
             for (part, piece) in &shapes[at.shape as usize] {
-                placed.put(*part, place as u32, piece.mesh, carried(to_world, piece));
+                placed.put(*part, place as u32, piece.mesh, &carried(to_world, piece));
             }
         }
     }
     placed
 }
 
-/// The transform from a part's mesh to the world, given that of its shape.
-fn carried(to_world: DMat4, piece: &Piece) -> Affine3A {
-    Affine3A::from_mat4((to_world * DMat4::from(piece.to_leaf)).as_mat4())
+/// The transform from a part's mesh to the scene, given that of its shape.
+fn carried(to_world: DMat4, piece: &Piece) -> DAffine3 {
+    DAffine3::from_mat4(to_world * DMat4::from(piece.to_leaf))
 }

@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use glam::{DAffine3, DMat4, DVec3};
+use glam::{DAffine3, DMat4};
 
 use super::WorldError;
+use super::memory::Memory;
 use super::placing::Pieces;
 use crate::geometry::TriangleMesh;
 use crate::geometry::scatter::{
-    Amount, Body, Ground, MOST_THINGS, Rest, ScatterError, Strewn, Volume, VolumeError, triangles,
+    Amount, Body, Ground, Most, Rest, ScatterError, Strewn, Volume, VolumeError, triangles,
 };
 use crate::scene::description::{InstancePlace, Named, Object, ObjectShape, StrewnOn};
 
@@ -19,24 +20,23 @@ type Copies = Vec<(u32, DMat4)>;
 /// The copies of each object, by its number.
 pub type Places = BTreeMap<usize, Copies>;
 
-/// Places in single precision, with the origin at `origin` in the scene.
-pub(super) fn around(places: &Places, origin: DVec3) -> BTreeMap<usize, Vec<InstancePlace>> {
-    let to_origin = DMat4::from_translation(-origin);
+/// The same places as those of files.
+pub(super) fn as_places(places: &Places) -> BTreeMap<usize, Vec<InstancePlace>> {
     let all = places.iter().map(|(object, places)| {
         let places = places.iter();
-        let places = places.map(|(shape, place)| InstancePlace::new(*shape, to_origin * *place));
+        let places = places.map(|(shape, place)| InstancePlace::new(*shape, *place));
         (*object, places.collect())
     });
     all.collect()
 }
 
-/// What the places of strewn objects depend on. It works in the scene's frame as written, in double
-/// precision, so that places do not depend on where the camera stands.
+/// What the places of strewn objects depend on, in double precision.
 #[derive(Debug)]
 pub(super) struct Strewing<'a> {
     meshes: &'a [TriangleMesh],
     pieces: &'a Pieces,
     objects: &'a [Named<Object>],
+    memory: Memory,
     /// Counts what has come to rest.
     at_rest: Option<&'a AtomicUsize>,
     /// Places found so far.
@@ -52,24 +52,26 @@ impl<'a> Strewing<'a> {
         meshes: &'a [TriangleMesh],
         pieces: &'a Pieces,
         objects: &'a [Named<Object>],
-        at_rest: Option<&'a AtomicUsize>,
-    ) -> Self {
-        Self {
+        (most_bytes, at_rest): (Option<f64>, Option<&'a AtomicUsize>),
+    ) -> Result<Self, WorldError> {
+        let mut memory = Memory::new(most_bytes);
+        memory.take_meshes(meshes)?;
+        Ok(Self {
             meshes,
             pieces,
             objects,
+            memory,
             at_rest,
             found: BTreeMap::new(),
-        }
+        })
     }
 
     /// The places of each object that is strewn or floats, by its number, and notes on them.
-    pub(super) fn all(mut self) -> Result<(Places, Vec<String>), WorldError> {
+    pub(super) fn all(mut self, notes: &mut Vec<String>) -> Result<Places, WorldError> {
         let named = |name: &str| {
             let name = name.to_owned();
             |source| WorldError::Scatter { name, source }
         };
-        let mut notes = Vec::new();
         // Things take long to come to rest; what cannot be strewn on them is told before.
         for object in self.objects {
             if let Some(strewn) = &object.value.strewn {
@@ -88,7 +90,7 @@ impl<'a> Strewing<'a> {
                         object.name
                     )
                 }));
-                self.found.insert(number, places);
+                self.keep(number, places);
             }
             if let Some(volume) = &object.value.volume {
                 let places = self.fill(&object.value, volume);
@@ -96,10 +98,23 @@ impl<'a> Strewing<'a> {
                     name: object.name.clone(),
                     source,
                 })?;
-                self.found.insert(number, places);
+                self.keep(number, places);
             }
         }
-        Ok((self.found, notes))
+        Ok(self.found)
+    }
+
+    /// Keeps the places of an object.
+    fn keep(&mut self, number: usize, places: Copies) {
+        let parts = self.most_parts(&self.objects[number].value);
+        self.memory.take_instances(places.len() * parts);
+        self.found.insert(number, places);
+    }
+
+    /// How many instances a place of an object takes at most.
+    fn most_parts(&self, object: &Object) -> usize {
+        let parts = |shape: &ObjectShape| self.pieces.of(*shape).len();
+        object.shapes.iter().map(parts).max().unwrap_or(1)
     }
 
     /// Refuses to strew on things that will be too many for their triangles, whichever are drawn.
@@ -151,13 +166,15 @@ impl<'a> Strewing<'a> {
                 at_rest.fetch_add(1, Ordering::Relaxed);
             }
         };
-        let places = strewn.plan.places_told(&ground, others, &bodies, &tell)?;
         let parts = group.map_or(1, <[_]>::len);
-        if places.len() * parts > MOST_THINGS {
-            return Err(ScatterError::TooMany {
-                wanted: (places.len() * parts) as f64,
-                most: MOST_THINGS,
-            });
+        let most = self.memory.most(parts * self.most_parts(object));
+        let places = strewn
+            .plan
+            .places_told(&ground, others, &bodies, most, &tell)?;
+        let most = Most::UNBOUND;
+        if places.len() * parts > most.things() {
+            let wanted = (places.len() * parts) as f64;
+            return Err(ScatterError::TooMany { wanted, most });
         }
         let heap = heap(strewn, &ground, &bodies, &places);
         let found = places.iter().flat_map(|place| {
@@ -178,7 +195,8 @@ impl<'a> Strewing<'a> {
                 .sum()
         };
         let areas: Vec<f64> = object.shapes.iter().map(area).collect();
-        let places = volume.places(&areas)?.into_iter();
+        let most = self.memory.most(self.most_parts(object));
+        let places = volume.places(&areas, most)?.into_iter();
         let places = places.map(|place| {
             let to_world = DMat4::from(place.to_world) * object.to_world;
             (place.body, to_world)

@@ -125,8 +125,7 @@ fn instances_stand_where_their_object_and_their_row_say() {
     // then the object's: twice as large, x to −z, one up.
     let point = world
         .geometry
-        .instance(1)
-        .to_world
+        .to_world(1)
         .transform_point3(glam::Vec3::new(0.1, 0.0, 0.0));
     let expected = glam::Vec3::new(0.0, 0.6, 1.0 - 1.0);
     assert!(point.distance(expected) < 1e-6, "{point} is not {expected}");
@@ -366,4 +365,130 @@ fn a_sky_with_few_values_below_0_shines_and_one_with_many_does_not() {
     }
     let error = below_a_sky(5, f32::NEG_INFINITY).expect_err("it is refused");
     assert!(error.contains("pixel (7, 0)"), "{error}");
+}
+
+/// The notes on a ball at a place, seen along +y from 1 m before the origin.
+fn notes_on_ball(overrides: &[&str]) -> Vec<String> {
+    const BALL: &str = r#"
+format = 1
+[film.rgb]
+size = [8, 8]
+spp = 1
+[camera.perspective]
+position_m = [0, -1, 0]
+look_at_m = [0, 0, 0]
+vertical_fov_deg = 40
+[materials.grey.diffuse]
+reflectance = 0.5
+[meshes.ball.sphere]
+radius_m = 0.1
+[objects.ball]
+mesh = "ball"
+material = "grey"
+[objects.other]
+mesh = "ball"
+material = "grey"
+[lights.sky.constant]
+radiance_w_m2_sr_nm = 1
+"#;
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    let loaded = parse(BALL, "scene.toml", Path::new("."), &overrides);
+    let scene = loaded
+        .unwrap_or_else(|errors| panic!("{errors}"))
+        .description;
+    World::build(&scene).expect("it can be built").notes
+}
+
+#[test]
+fn a_picture_that_shows_no_object_is_noted() {
+    assert_eq!(notes_on_ball(&[]), [""; 0]);
+    let away = ["camera.perspective.look_at_m=[0, -2, 0]"];
+    let [note] = &notes_on_ball(&away)[..] else {
+        panic!("one note is wanted");
+    };
+    assert!(
+        note.starts_with("camera: no object is in the picture") && note.contains("[0, 0, 0] m"),
+        "{note}"
+    );
+    // Of one of two objects nothing is said.
+    assert_eq!(
+        notes_on_ball(&["objects.ball.position_m=[0, -2, 0]"]),
+        [""; 0]
+    );
+    let tiny = ["objects.ball.scale=1e-4", "objects.other.scale=1e-4"];
+    let [note] = &notes_on_ball(&tiny)[..] else {
+        panic!("one note is wanted");
+    };
+    assert!(note.contains("are 2.2e-4 pixels large"), "{note}");
+}
+
+#[test]
+fn what_is_too_far_from_the_picture_for_its_size_is_noted() {
+    assert_eq!(
+        notes_on_ball(&["objects.other.position_m=[0, 900, 0]"]),
+        [""; 0]
+    );
+    let [note] = &notes_on_ball(&["objects.other.position_m=[0, 900000, 0]"])[..] else {
+        panic!("one note is wanted");
+    };
+    assert!(
+        note.starts_with("objects.other: 1 of its parts") && note.contains("by up to 5.4e-2 m"),
+        "{note}"
+    );
+}
+
+#[test]
+fn a_scale_that_makes_a_leaf_longer_than_any_is_noted() {
+    const LEAF: &str = r#"
+format = 1
+[film.rgb]
+size = [8, 8]
+spp = 1
+[camera.perspective]
+position_m = [0, 0.1, 1]
+look_at_m = [0, 0.1, 0]
+up = [0, 1, 0]
+vertical_fov_deg = 40
+[leaves.leaf]
+length_mm = 118
+map_size = 16
+[leaves.leaf.outline.growth_algorithm]
+rate_ratio = 1.2
+widest_at = 0.4
+falloff = 2.5
+[leaves.leaf.venation.arcuate]
+[leaves.leaf.contents]
+structure = 1.5
+chlorophyll_ug_per_cm2 = 35
+carotenoids_ug_per_cm2 = 9
+water_cm = 0.008
+dry_matter_g_per_cm2 = 0.005
+[objects.leaf]
+leaf = "leaf"
+scale = SCALE
+[lights.sky.constant]
+radiance_w_m2_sr_nm = 1
+"#;
+    let notes = |scale: &str| {
+        let text = LEAF.replace("SCALE", scale);
+        let loaded = parse(&text, "scene.toml", Path::new("."), &[]);
+        let scene = loaded
+            .unwrap_or_else(|errors| panic!("{errors}"))
+            .description;
+        let notes = World::build(&scene).expect("it can be built").notes;
+        let of_leaf = notes.into_iter().filter(|note| note.contains("a leaf is"));
+        of_leaf.collect::<Vec<_>>()
+    };
+    assert_eq!(notes("1"), [""; 0]);
+    let [long] = &notes("100")[..] else {
+        panic!("one note is wanted");
+    };
+    assert!(
+        long.starts_with("objects.leaf: a leaf is 11.8 m long") && long.contains("`scale`"),
+        "{long}"
+    );
+    let [short] = &notes("1e-3")[..] else {
+        panic!("one note is wanted");
+    };
+    assert!(short.contains("1.2e-1 mm long"), "{short}");
 }

@@ -16,7 +16,8 @@ fn chosen(words: &[&str]) -> Chosen {
 }
 
 fn read_with(words: &[&str], text: &str) -> Result<Leaves, String> {
-    read(&chosen(words), Path::new("t.csv"), text).map_err(|errors| errors.to_string())
+    read(&chosen(words), Form::default(), Path::new("t.csv"), text)
+        .map_err(|errors| errors.to_string())
 }
 
 fn refused(words: &[&str], text: &str) -> String {

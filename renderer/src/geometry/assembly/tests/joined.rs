@@ -55,9 +55,9 @@ fn joined_meshes_are_found_as_every_triangle_is() {
                 let off = (point.position - ray.at(hit.t)).dot(point.geometric_normal);
                 assert!(off.abs() < 1e-4 * scale, "{off} m off the plane");
                 let (least, most) = geometry.bounds_of(hit.instance);
-                let room = Vec3::splat(1e-4 * scale);
-                assert!(point.position.cmpge(least - room).all());
-                assert!(point.position.cmple(most + room).all());
+                let (position, room) = (point.position.as_dvec3(), f64::from(1e-4 * scale));
+                assert!(position.cmpge(least - room).all());
+                assert!(position.cmple(most + room).all());
                 // From there on, away from the floor as often as not; the same as far as what it
                 // meets, and half as far.
                 let mut next = point.spawn(numbers.direction());
@@ -93,8 +93,8 @@ fn a_joined_surface_is_that_of_the_mesh_alone() {
             let Some(hit) = both.intersect(&ray) else {
                 continue;
             };
-            let of = both.instance(hit.instance);
-            let own = placed(meshes.clone(), &[(of.mesh, of.to_world)]);
+            let mesh = both.instance(hit.instance).mesh;
+            let own = placed(meshes.clone(), &[(mesh, both.to_world(hit.instance))]);
             let Some(mut same) = own
                 .intersect(&ray)
                 .filter(|own| own.triangle == hit.triangle)

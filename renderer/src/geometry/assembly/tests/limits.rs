@@ -66,8 +66,8 @@ fn rays_that_are_none_hit_nothing() {
 
 #[test]
 fn bad_instances_are_refused() {
-    let build = |mesh, to_world| {
-        let instance = Instance { mesh, to_world };
+    let build = |mesh, to_world: Affine3A| {
+        let instance = Instance::new(mesh, &to_world.as_daffine3());
         Geometry::build(vec![blade(1, 1, 1.0, 1.0, Vec3::ZERO)], vec![instance])
     };
     let refused = build(3, Affine3A::IDENTITY).expect_err("there is no mesh 3");

@@ -43,7 +43,9 @@ fn leaves_of_a_spherical_volume_cast_half_their_area_whatever_the_sun() {
         arrangement: Arrangement::Even,
         seed: 3,
     };
-    let places = volume.places(&[2e-4]).expect("there is room");
+    let places = volume
+        .places(&[2e-4], Most::UNBOUND)
+        .expect("there is room");
     assert_eq!(places.len(), 100_000);
     for sun in [DVec3::Z, DVec3::X, DVec3::new(0.0, 0.6, 0.8)] {
         let cast = places.iter().map(|place| {
@@ -73,7 +75,7 @@ fn shapes_of_a_list_take_turns_and_give_the_leaf_area_index() {
         arrangement: Arrangement::Even,
         seed: 8,
     };
-    let places = volume.places(&areas).expect("there is room");
+    let places = volume.places(&areas, Most::UNBOUND).expect("there is room");
     assert_eq!(places.len(), 100);
     let lai: f64 = places.iter().map(|place| areas[place.body as usize]).sum();
     assert!((lai - 1.2).abs() <= 3e-2, "{lai}");
@@ -90,9 +92,9 @@ fn less_than_a_leaf_and_too_many_are_refused() {
         arrangement: Arrangement::Even,
         seed: 1,
     };
-    let none = volume(0.001).places(&[1.0]);
+    let none = volume(0.001).places(&[1.0], Most::UNBOUND);
     assert!(matches!(none, Err(VolumeError::None { .. })), "{none:?}");
-    let many = volume(10.0).places(&[1e-8]);
+    let many = volume(10.0).places(&[1e-8], Most::UNBOUND);
     assert!(matches!(many, Err(VolumeError::TooMany { .. })), "{many:?}");
 }
 
@@ -141,7 +143,9 @@ fn of(inclination: Inclination, lai: f64) -> Volume {
 fn inclinations_are_drawn_as_their_densities_say() {
     // χ² of 18 classes of 5° against the integrals of the density.
     for kind in all() {
-        let places = of(kind, 1.0).places(&[1e-5]).expect("there is room");
+        let places = of(kind, 1.0)
+            .places(&[1e-5], Most::UNBOUND)
+            .expect("there is room");
         let count = places.len() as f64;
         let mut classes = [0.0; 18];
         for place in &places {
@@ -196,7 +200,9 @@ fn projection(theta_leaf: f64, theta_sun: f64) -> f64 {
 #[test]
 fn leaves_cast_the_shade_of_their_projection_function_whatever_the_sun() {
     for kind in all() {
-        let places = of(kind, 1.0).places(&[1e-5]).expect("there is room");
+        let places = of(kind, 1.0)
+            .places(&[1e-5], Most::UNBOUND)
+            .expect("there is room");
         for degrees in [0.0_f64, 20.0, 45.0, 57.5, 80.0] {
             let theta = degrees.to_radians();
             let sun = DVec3::new(libm::sin(theta), 0.0, libm::cos(theta));
@@ -229,7 +235,9 @@ fn rows_keep_their_distance_and_fill_their_width() {
         within: [DVec3::new(-1.0, 0.0, 0.0), DVec3::new(1.0, 3.0, 0.5)],
         ..of(Inclination::Spherical, 1.0)
     };
-    let places = volume.places(&[2e-4]).expect("there is room");
+    let places = volume
+        .places(&[2e-4], Most::UNBOUND)
+        .expect("there is room");
     let mut rows = [0; 8];
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     for place in &places {
@@ -260,7 +268,9 @@ fn crowns_are_balls_of_even_density_and_have_as_many_leaves_each() {
         },
         ..of(Inclination::Spherical, 2.0)
     };
-    let places = volume.places(&[1e-4]).expect("there is room");
+    let places = volume
+        .places(&[1e-4], Most::UNBOUND)
+        .expect("there is room");
     let (mut of_first, mut inner, mut wrapped) = (0, 0, 0);
     for place in &places {
         let at = place.to_world.translation;
@@ -305,7 +315,8 @@ fn random_crowns_fit_into_the_height_of_the_box_and_differ_by_seed() {
         seed,
         ..of(Inclination::Spherical, 1.0)
     };
-    let [a, b] = [crowns(1), crowns(2)].map(|volume| volume.places(&[1e-3]).expect("room"));
+    let [a, b] =
+        [crowns(1), crowns(2)].map(|volume| volume.places(&[1e-3], Most::UNBOUND).expect("room"));
     let heights = a.iter().map(|place| place.to_world.translation.z);
     let (least, most) = heights.fold((1.0_f64, 0.0_f64), |(l, m), z| (l.min(z), m.max(z)));
     assert!(least >= 0.0 && most <= 1.0, "{least} {most}");

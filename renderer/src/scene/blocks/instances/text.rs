@@ -1,7 +1,7 @@
 //! Tables of instances as text: a header with the columns' names, then one row per line.
 //!
 //! Fields are separated by comma, semicolon, tab or spaces; `#` begins a comment; empty lines are
-//! ignored.
+//! ignored. Where anything but commas separates them, commas are decimal marks.
 
 use rayon::prelude::*;
 
@@ -12,10 +12,11 @@ use super::{Rows, Table, WrongRow};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::error::DocumentError;
+use leafmodel::document::rows::{Separator, number};
 use leafmodel::document::source::{Place, escaped, line_of_byte};
 
-/// Separators of the fields of a line.
-const SEPARATORS: [char; 5] = [',', ';', ' ', '\t', '\r'];
+/// Separators of the fields of a line; the comma comes last.
+const SEPARATORS: [char; 5] = [';', ' ', '\t', '\r', ','];
 
 /// Size of the piece that one thread reads at a time, bytes.
 const PIECE: usize = 1 << 20;
@@ -38,12 +39,13 @@ pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) ->
             return None;
         }
     };
+    let commas = Commas::of(text);
     let mut rest = text;
     let mut line_number = 0;
     let line = loop {
         let (line, below) = rest.split_once('\n').unwrap_or((rest, ""));
         line_number += 1;
-        if fields(line).next().is_some() {
+        if fields(line, commas).next().is_some() {
             rest = below;
             break line;
         }
@@ -58,7 +60,7 @@ pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) ->
         table.refuse(cx, at, problem, "end header and rows with line feeds");
         return None;
     }
-    let header = read_header(cx, table, line, line_number)?;
+    let header = read_header(cx, table, line, line_number, commas)?;
     // Counts lines, including comments and empty ones, which is accurate enough for a bound.
     let lines = rest.bytes().filter(|byte| *byte == b'\n').count();
     if !table.bear(cx, at, lines.max(1)) {
@@ -66,7 +68,7 @@ pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) ->
     }
     let pieces: Vec<(Rows, usize)> = pieces(rest)
         .into_par_iter()
-        .map(|piece| read_piece(table, &header, piece))
+        .map(|piece| read_piece(table, &header, piece, commas))
         .collect();
     let mut above = line_number;
     let mut rows = Vec::with_capacity(pieces.len());
@@ -95,10 +97,41 @@ fn pieces(text: &str) -> Vec<&str> {
     pieces
 }
 
+/// What commas are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Commas {
+    Separate,
+    AreDecimal,
+}
+
+impl Commas {
+    /// Decimal marks if something else separates the names, and every field with one is a number.
+    fn of(text: &str) -> Self {
+        const SAMPLE: usize = 64;
+        let mut fields = text
+            .lines()
+            .take(SAMPLE)
+            .flat_map(|line| fields(line, Self::AreDecimal));
+        let is_decimal = Separator::of(text) != Separator::Comma
+            && fields.all(|field| !field.contains(',') || number(field).is_some());
+        if is_decimal {
+            Self::AreDecimal
+        } else {
+            Self::Separate
+        }
+    }
+}
+
 /// The fields of a line before its comment, without the quotes that spreadsheets write.
-fn fields(line: &str) -> impl Iterator<Item = &str> {
+fn fields(line: &str, commas: Commas) -> impl Iterator<Item = &str> {
     let line = line.split_once('#').map_or(line, |(fields, _)| fields);
-    let fields = line.split(SEPARATORS).filter(|field| !field.is_empty());
+    let count = match commas {
+        Commas::Separate => SEPARATORS.len(),
+        Commas::AreDecimal => SEPARATORS.len() - 1,
+    };
+    let fields = line
+        .split(&SEPARATORS[..count])
+        .filter(|field| !field.is_empty());
     fields.map(|field| {
         let inner = field
             .strip_prefix('"')
@@ -107,8 +140,14 @@ fn fields(line: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-fn read_header(cx: &Context, table: &Table<'_>, line: &str, number: usize) -> Option<Header> {
-    let names: Vec<&str> = fields(line).collect();
+fn read_header(
+    cx: &Context,
+    table: &Table<'_>,
+    line: &str,
+    number: usize,
+    commas: Commas,
+) -> Option<Header> {
+    let names: Vec<&str> = fields(line, commas).collect();
     let errors = if names[0].parse::<f64>().is_ok() {
         vec![HeaderError {
             field: Some(0),
@@ -142,7 +181,7 @@ fn read_header(cx: &Context, table: &Table<'_>, line: &str, number: usize) -> Op
 }
 
 /// The rows of a piece, with lines counted from 1, and the number of its lines.
-fn read_piece(table: &Table<'_>, header: &Header, piece: &str) -> (Rows, usize) {
+fn read_piece(table: &Table<'_>, header: &Header, piece: &str, commas: Commas) -> (Rows, usize) {
     let mut rows = Rows::default();
     let mut lines = 0;
     for line in piece.lines() {
@@ -151,9 +190,9 @@ fn read_piece(table: &Table<'_>, header: &Header, piece: &str) -> (Rows, usize) 
             let bytes = line.len();
             let error = RowError::TooLong { bytes };
             rows.push(Err(vec![error]), |errors| too_long(line, lines, errors));
-        } else if fields(line).next().is_some() {
-            rows.push(read_row(table, header, line), |errors| {
-                wrong_row(header, line, lines, errors)
+        } else if fields(line, commas).next().is_some() {
+            rows.push(read_row(table, header, line, commas), |errors| {
+                wrong_row(header, line, lines, errors, commas)
             });
         }
     }
@@ -164,10 +203,11 @@ fn read_row(
     table: &Table<'_>,
     header: &Header,
     line: &str,
+    commas: Commas,
 ) -> Result<InstancePlace, Vec<RowError>> {
     let mut row = Row::of(header);
     let mut found = 0;
-    for field in fields(line) {
+    for field in fields(line, commas) {
         found += 1;
         let Some(&column) = header.columns.get(found - 1) else {
             continue;
@@ -176,9 +216,9 @@ fn read_row(
             read_shape(table, &mut row, field);
             continue;
         }
-        match field.parse() {
-            Ok(value) => row.number(column, value, || shown(field)),
-            Err(_) => row.fail(RowError::NotANumber {
+        match number(field) {
+            Some(value) => row.number(column, value, || shown(field)),
+            None => row.fail(RowError::NotANumber {
                 column,
                 field: shown(field),
             }),
@@ -230,8 +270,14 @@ fn too_long(line: &str, number: usize, errors: Vec<RowError>) -> WrongRow {
     }
 }
 
-fn wrong_row(header: &Header, line: &str, number: usize, errors: Vec<RowError>) -> WrongRow {
-    let all: Vec<&str> = fields(line).collect();
+fn wrong_row(
+    header: &Header,
+    line: &str,
+    number: usize,
+    errors: Vec<RowError>,
+    commas: Commas,
+) -> WrongRow {
+    let all: Vec<&str> = fields(line, commas).collect();
     let whole = span(line, all[0]).start..span(line, all[all.len() - 1]).end;
     let place = |error: &RowError| {
         let column = error.column()?;
@@ -286,10 +332,31 @@ mod tests {
                     1, 2, 3, 90, 2, 3, 4, b # a leaf\r\n\n0,0,0,0,1,1,1,0";
         let places = read_all(text).expect("two good rows");
         // x = (2, 0, 0) turns to y, y = (0, 3, 0) to −x.
-        let expected = [0.0, 2.0, 0.0, -3.0, 0.0, 0.0, 0.0, 0.0, 4.0, 1.0, 2.0, 4.0];
-        assert_eq!(places[0].to_world, expected);
+        let linear = [0.0, 2.0, 0.0, -3.0, 0.0, 0.0, 0.0, 0.0, 4.0];
+        let turned = places[0].linear.to_cols_array();
+        assert_eq!(turned, linear);
+        assert_eq!(places[0].translation, DVec3::new(1.0, 2.0, 4.0));
         assert_eq!((places[0].shape, places[1].shape), (1, 0));
         assert_eq!(places.len(), 2);
+    }
+
+    #[test]
+    fn decimal_commas_give_the_same_places_as_points() {
+        let plain = "x_m,y_m,z_m,shape\n0.5,1.25,-2,a\n1,2,3,b # 1,5\n";
+        let places = read_all(plain).expect("good rows");
+        let german = |separator: &str| plain.replace(',', separator).replace('.', ",");
+        for text in [german(";"), german("; "), german("\t"), german("  ")] {
+            let found = read_all(&text).unwrap_or_else(|errors| panic!("{text:?}: {errors:?}"));
+            assert!(found == places, "{text:?}");
+        }
+        // Commas between blanks, or in rows alone, separate.
+        for text in [
+            "x_m y_m z_m shape\n1, 2, 3, a\n",
+            "x_m y_m z_m shape\n1,2,3,a\n",
+            "x_m;y_m;z_m;shape\n1, 2;3;a\n",
+        ] {
+            assert_eq!(read_all(text).map(|places| places.len()), Ok(1), "{text}");
+        }
     }
 
     #[test]
@@ -299,13 +366,9 @@ mod tests {
         let text = "x_m y_m z_m quaternion_w quaternion_x quaternion_y quaternion_z shape\n\
                     0 0 0 0.8660254037844387 0.5 0 0 a\n";
         let quaternion = read_all(text).expect("a rotation");
-        for (a, b) in angles.expect("a turn")[0]
-            .to_world
-            .iter()
-            .zip(quaternion[0].to_world)
-        {
-            assert!((a - b).abs() < 1e-6, "{a} is not {b}");
-        }
+        let [turned, by_quaternion] =
+            [&angles.expect("a turn"), &quaternion].map(|places| places[0].linear);
+        assert!(turned.abs_diff_eq(by_quaternion, 1e-6), "{turned}");
         let long = text.replace("0.866", "1.0");
         assert_eq!(
             read_all(&long).expect_err("no rotation")[0].1.code(),
@@ -323,7 +386,7 @@ mod tests {
         let places = read_all(&text).expect("good rows");
         assert!(text.len() > 3 * PIECE && places.len() == count);
         for (row, place) in places.iter().enumerate() {
-            assert_eq!(place.to_world[9], row as f32);
+            assert_eq!(place.translation.x, row as f64);
         }
         // Line numbers include the header and continue across pieces.
         let broken = text.replace(&format!("{:>30} 0 0 a", count - 2), "x 0 0 a");

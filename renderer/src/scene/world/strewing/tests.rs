@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use crate::scene::load::parse;
-use crate::scene::world::World;
+use crate::scene::world::{BuildOptions, World};
 
 const STREWN: &str = r#"
 format = 1
@@ -9,8 +9,8 @@ format = 1
 size = [16, 16]
 spp = 1
 [camera.perspective]
-position_m = [0, -1, 1]
-look_at_m = [0, 0, 0]
+position_m = [2, -1, 1]
+look_at_m = [2, 0, 0.5]
 vertical_fov_deg = 40
 [lights.sky.constant]
 radiance_w_m2_sr_nm = 1
@@ -72,15 +72,11 @@ fn what_is_strewn_lies_the_same_wherever_the_camera_stands() {
     let near = strewn(&[]).expect("there is room");
     let far = ["camera.perspective.position_m=[1000,-1,1]".to_owned()];
     let far = strewn(&far).expect("there is room");
-    assert_ne!(far.origin, glam::DVec3::ZERO);
+    assert_ne!(far.view.near, near.view.near);
     assert_eq!(near.strewn, far.strewn);
     for instance in 0..near.objects.len() as u32 {
-        let [near_at, far_at] = [&near, &far].map(|world| {
-            let own = world.geometry.instance(instance).to_world.translation;
-            own.as_dvec3() + world.origin
-        });
-        // Single precision at a kilometre.
-        assert!(near_at.distance(far_at) < 1e-4, "{near_at} {far_at}");
+        let [near_at, far_at] = [&near, &far].map(|world| *world.geometry.instance(instance));
+        assert_eq!(near_at, far_at);
     }
 }
 
@@ -97,14 +93,21 @@ fn a_floor_that_is_full_is_told() {
 #[test]
 fn a_heap_is_told_and_a_litter_is_not() {
     let notes = strewn(&[]).expect("there is room").notes;
-    assert!(notes.is_empty(), "{notes:?}");
+    // The camera looks elsewhere.
+    let mut of_objects = notes.iter().filter(|note| !note.starts_with("camera: "));
+    assert_eq!(of_objects.next(), None);
     let narrow = [
         "objects.crumbs.scatter.within_m=[1.998,-0.002,2.002,0.002]".to_owned(),
         "objects.crumbs.scatter.count=12".to_owned(),
     ];
     let heaped = strewn(&narrow).expect("there is room");
-    let [note] = &heaped.notes[..] else {
-        panic!("one note: {:?}", heaped.notes);
+    let of_objects = heaped
+        .notes
+        .iter()
+        .filter(|note| !note.starts_with("camera: "));
+    let of_objects: Vec<&String> = of_objects.collect();
+    let [note] = of_objects[..] else {
+        panic!("one note: {of_objects:?}");
     };
     let tallest = heaped.strewn[&1]
         .iter()
@@ -126,4 +129,44 @@ fn what_is_too_fine_to_strew_on_is_told_before_anything_falls() {
         error.starts_with("objects.cards.scatter: `on`: the surface has over 20000000 triangles"),
         "{error}"
     );
+}
+
+#[test]
+fn places_and_meshes_that_need_more_memory_than_is_allowed_are_refused_before_they_are_made() {
+    let text = STREWN.replace(
+        "scatter = ",
+        "volume = { within_m = [0, 0, 0, 1, 1, 1], lai = 100 }\n#",
+    );
+    let built = |text: &str, overrides: &[String], most_bytes: f64| {
+        let loaded = parse(text, "scene.toml", Path::new("."), overrides);
+        let scene = loaded
+            .unwrap_or_else(|errors| panic!("{errors}"))
+            .description;
+        let options = BuildOptions {
+            most_bytes: Some(most_bytes),
+            ..BuildOptions::default()
+        };
+        let world = World::build_with(&scene, &options);
+        world.map(|_| ()).map_err(|error| error.to_string())
+    };
+    // A lump of 4 mm has some 2 cm²: half a million of them float in the box.
+    let error = built(&text, &[], 1e8).expect_err("more than there is memory for");
+    assert!(
+        error.starts_with("objects.crumbs.volume: `lai`: this takes ")
+            && error.contains("for which there is memory")
+            && error.contains("--memory"),
+        "{error}"
+    );
+    let fine = "meshes.crumb.lump={ radius_m=0.004, segments=256 }".to_owned();
+    let error = built(STREWN, &[fine], 1e7).expect_err("more than there is memory for");
+    assert!(
+        error.contains("triangles") && error.contains("--memory 1"),
+        "{error}"
+    );
+    let loose = STREWN
+        .replace("settle = true, ", "")
+        .replace("over = \"crumbs\", ", "");
+    built(&loose, &[], 2e6).expect("318 things fit");
+    let error = built(&loose, &[], 5e5).expect_err("more than there is memory for");
+    assert!(error.contains("objects.crumbs.scatter: `count`"), "{error}");
 }

@@ -10,7 +10,7 @@ use crate::shape::cubic::Cubic;
 /// # Errors
 ///
 /// The parser's message, if the data are malformed.
-pub(crate) fn parts(data: &str) -> Result<Vec<Vec<Cubic>>, String> {
+pub(super) fn parts(data: &str) -> Result<Vec<Vec<Cubic>>, String> {
     let mut pen = Pen::default();
     for segment in PathParser::from(data) {
         pen.follow(segment.map_err(|error| error.to_string())?);

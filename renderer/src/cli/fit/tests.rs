@@ -1,0 +1,77 @@
+use leafmodel::optics::ProspectD;
+
+use serde_json::{Value as Json, json};
+
+use super::*;
+
+/// R of a leaf at wavelengths in nm.
+fn leaf(nm: impl Iterator<Item = f64>) -> Leaf {
+    let contents = Contents::prospect_d([1.6, 42.0, 9.0, 1.0, 0.1, 0.012, 0.006]);
+    let nm: Vec<f64> = nm.collect();
+    let at = |nm: &f64| ProspectD::coefficients(*nm).expect("within the table");
+    let reflectance = |nm: &f64| at(nm).reflectance_transmittance(&contents).reflectance;
+    Leaf {
+        name: "l3".to_owned(),
+        reflectance: nm.iter().map(reflectance).collect(),
+        nm,
+        ..Leaf::default()
+    }
+}
+
+#[test]
+fn contents_that_a_spectrum_does_not_determine_are_empty_with_the_reason() {
+    let leaf = leaf((0..61).map(|i| 1300.0 + 20.0 * f64::from(i)));
+    let free = Inversion::PROSPECT_D;
+    let fitted = [fit(&leaf, &free, Contents::NOTHING).expect("within the table")];
+    let text = contents(&fitted, &free);
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let at = |key: &str| {
+        rows[0]
+            .iter()
+            .position(|name| *name == key)
+            .expect("a column")
+    };
+    let report: Json = serde_json::from_str(&report(&fitted, &free)).expect("JSON");
+    for of in free {
+        let is_pigment = !matches!(
+            of,
+            Constituent::Structure | Constituent::Water | Constituent::DryMatter
+        );
+        let error = format!("{}_standard_error", of.key());
+        assert_eq!(rows[1][at(of.key())].is_empty(), is_pigment, "{text}");
+        assert_eq!(rows[1][at(&error)].is_empty(), is_pigment, "{text}");
+        let said = format!("{}: these values do not depend on it", of.name());
+        assert_eq!(rows[1][at("reasons")].contains(&said), is_pigment, "{text}");
+        let content = &report["leaves"][0]["contents"][of.key()];
+        for key in ["value", "standard_error", "interval_95"] {
+            assert_eq!(content[key].is_null(), is_pigment, "{content}");
+        }
+        assert_eq!(content["reason"].is_string(), is_pigment, "{content}");
+    }
+    assert!(human(&fitted, &free).contains("not determined"));
+}
+
+#[test]
+fn covariances_are_written_for_each_pair_of_what_is_determined() {
+    let leaf = leaf((0..61).map(|i| 1300.0 + 20.0 * f64::from(i)));
+    let free = Inversion::PROSPECT_D;
+    let fitted = [fit(&leaf, &free, Contents::NOTHING).expect("within the table")];
+    let report: Json = serde_json::from_str(&report(&fitted, &free)).expect("JSON");
+    let covariance = &report["leaves"][0]["covariance"];
+    let keys = ["structure", "water_cm", "dry_matter_g_per_cm2"];
+    assert_eq!(covariance["of"], json!(keys));
+    let text = covariances(&fitted);
+    let mut rows = text.lines().skip(1);
+    for (i, first) in keys.iter().enumerate() {
+        for (j, second) in keys.iter().enumerate() {
+            let row: Vec<&str> = rows.next().expect("nine rows").split(',').collect();
+            assert_eq!(row[..3], ["l3", first, second]);
+            let value = covariance["rows"][i][j].as_f64().expect("a number");
+            assert_eq!(row[3].parse(), Ok(value));
+            let correlation: f64 = row[4].parse().expect("a number");
+            assert!(correlation.abs() <= 1.0 + 1e-9);
+            assert!(i != j || (correlation - 1.0).abs() < 1e-12, "{text}");
+        }
+    }
+    assert_eq!(rows.next(), None);
+}
