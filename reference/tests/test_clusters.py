@@ -95,7 +95,7 @@ def test_a_render_ends_with_its_work_saved_when_python_is_killed(tmp_path: Path)
     )
     stem = tmp_path / "kept"
     parent = subprocess.Popen([sys.executable, "-c", code, str(FURNACE), str(stem)])
-    appears(tmp_path / ".kept.exr.lock")
+    appears(tmp_path / ".lamina-kept.exr.lock")
     [program] = children(parent.pid)
     works(program, 0.8)
     parent.send_signal(signal.SIGKILL)

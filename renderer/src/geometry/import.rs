@@ -2,7 +2,7 @@
 //!
 //! The bytes are not trusted: nothing is allocated for counts claimed by a header before the bytes
 //! for them are there, and every error names its place. Faces with more than three corners are
-//! [split into triangles](polygon).
+//! split into triangles.
 
 mod obj;
 mod ply;
