@@ -134,6 +134,7 @@ fn instances_of_every_kind_are_as_exact_far_away_as_at_the_origin() {
         // A double holds 1e6 m to 1e-10 m; what comes to rest does so to some thousandths of a
         // millimetre.
         assert!(off < 3e-6, "object {object}, part {number}: {off} m");
+        // The search for rest ends within a tolerance: something turned by 0.0004 in another place.
         let turned = (other.linear - own.linear).to_cols_array();
         assert!(turned.iter().all(|by| by.abs() < 1e-3), "{turned:?}");
         // Rays meet it there.

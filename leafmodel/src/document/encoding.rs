@@ -1,7 +1,7 @@
 //! Encodings of text files: from bytes to characters.
 //!
 //! A byte order mark decides first, then an XML declaration, then whether the bytes are UTF-8. What is
-//! none of these is read as Windows-1252, of which Latin-1 is a part, and a note says so.
+//! none of these is read as Windows-1252, which contains Latin-1, and a note says so.
 
 use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use thiserror::Error;

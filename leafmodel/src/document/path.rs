@@ -11,7 +11,7 @@ use super::error::DocumentError;
 use super::nearest::nearest;
 use super::source::{Place, escaped};
 
-/// Folders of which every document may name files, besides its own.
+/// Folders whose files every document may name, besides those of its own folder.
 static ALLOWED: RwLock<Vec<PathBuf>> = RwLock::new(Vec::new());
 
 /// Lets the documents of this process name files in these folders too, links followed. Nothing but

@@ -137,7 +137,7 @@ impl<'t> Rows<'t> {
         Self::written(text, Form::default())
     }
 
-    /// The rows of a text of which something is known.
+    /// The rows of a text whose separator or decimal mark may be known.
     pub fn written(text: &'t str, form: Form) -> Self {
         Self::below(text, 0, form)
     }

@@ -4,8 +4,8 @@
 //!   which contents are free.
 //! - **Out**: the contents of the least sum of squares, their standard errors, and what is left.
 //! - **Always true**: contents are in range; the same spectra give the same bits.
-//! - **Left out**: what the model's own error shifts. Where what is left is correlated along a
-//!   spectrum, as smooth noise and the model's own error are, errors are wider ([`correlated`]).
+//! - **Left out**: shifts by the model's own error. Errors are wider where residuals are correlated
+//!   along a spectrum, as smooth noise and the model's own error are ([`correlated`]).
 //!
 //! PROSPECT has one face. Where the abaxial one was measured too, its reflectance is that of the
 //! adaxial face times [`abaxial_ratio`], whose contrast is one more unknown: a rule, not a model of
@@ -87,7 +87,7 @@ pub struct Found {
     pub known: PerConstituent<Determined>,
     /// Covariances of what is determined.
     pub covariance: Covariance,
-    /// How what is left is correlated along the spectra, if it is.
+    /// The correlation of residuals along the spectra, if there is one.
     pub correlation: Option<Correlation>,
     /// How much brighter the abaxial face is, if it was measured.
     pub contrast: Option<Contrast>,

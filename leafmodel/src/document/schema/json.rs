@@ -12,7 +12,7 @@ use crate::document::tree::Value;
 pub struct Alone {
     /// The section.
     pub section: &'static str,
-    /// Sections of which a file with nothing but that one has none.
+    /// Sections that a file of this section alone does not have.
     pub without: &'static [&'static str],
     /// A key of its blocks that is only needed beside those.
     pub optional: &'static str,
