@@ -144,7 +144,8 @@ def test_openexr_finds_each_point_of_a_picture_in_its_pixel(camera: dict[str, ob
     seen = points @ to_camera
     # To the right, up, and ahead: left-handed.
     assert np.linalg.det(to_camera[:3, :3]) == pytest.approx(-1, abs=1e-5)
-    assert (np.diff(seen[row == 16][:, 0]) > 0).all() and (np.diff(seen[column == 24][:, 1]) < 0).all()
+    assert (np.diff(seen[row == 16][:, 0]) > 0).all()
+    assert (np.diff(seen[column == 24][:, 1]) < 0).all()
     depth = pixels[met][:, spec.channelnames.index("depth.Z")]
     far = seen[:, 2] if kind == "orthographic" else np.linalg.norm(seen[:, :3], axis=1)
     np.testing.assert_allclose(far, depth, rtol=1e-5)

@@ -170,7 +170,7 @@ class Tissue:
         """c for two directions: on the same face or not, and on which one."""
         return dr.select(same, dr.select(adaxial, self.back_a, self.back_b), self.through)
 
-    def turned(self, mu_o: Any, mu_i: Any, adaxial: Any, means: tuple[Any, Any]) -> Any:
+    def turned(self, mu_o: Any, mu_i: Any, adaxial: Any, means: tuple[Any, ...]) -> Any:
         """f_turned but for both 1 − E and 1/π; `means` are the faces' 1 − Ē."""
         value = dr.zeros(Double)
         for number, (way, t) in enumerate(zip(self.ways, (self.t_ab, self.t_ba), strict=True)):
