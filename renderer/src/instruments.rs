@@ -72,6 +72,7 @@ mod walk;
 use thiserror::Error;
 
 pub use self::batches::{Budget, Effort, FEWEST_RAYS, Target, Watch};
+pub use self::period::MOST_TURNS;
 pub use self::row::{Direction, Row, ViewAngles};
 pub use self::stage::CutPaths;
 use crate::geometry::GeometryError;
@@ -124,6 +125,24 @@ pub enum InstrumentError {
     NoLeaves {
         /// Where the block stands.
         at: String,
+    },
+    /// What stands in a box that repeats itself is too high for its width.
+    #[error(
+        "{at}: what stands in `within_m` reaches from z = {:.4e} to {:.4e} m, more than {most} times the \
+         smaller side of the box ({side} m); the tallest is of the object `{object}`: widen the box, \
+         or leave that object out of the scene", heights[0], heights[1]
+    )]
+    TooHigh {
+        /// Where the block stands.
+        at: String,
+        /// Least and greatest height, m.
+        heights: [f64; 2],
+        /// Smaller side of the box, m.
+        side: f64,
+        /// The most times that.
+        most: f64,
+        /// The object of the tallest part.
+        object: String,
     },
     /// Soil that does not fill the box.
     #[error(
@@ -195,7 +214,8 @@ pub enum InstrumentError {
 pub struct Reading {
     /// Its figures.
     pub rows: Vec<Row>,
-    /// Paths that were cut; what they carried counts as absorbed.
+    /// Paths that were cut; what they carried counts as absorbed, or is missing from the figures of a
+    /// canopy.
     pub cut: CutPaths,
 }
 

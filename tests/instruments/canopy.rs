@@ -227,3 +227,25 @@ fn a_canopy_without_leaves_and_soil_that_is_too_small_are_refused() {
          leaves to the scene"
     );
 }
+
+#[test]
+fn a_canopy_under_a_dome_far_wider_than_its_box_is_refused() {
+    let dome = |radius: f64| {
+        let keys = format!(
+            "[meshes.dome.sphere]\nradius_m = {radius}\n[objects.dome]\nmesh = \"dome\"\n\
+             material = \"soil\"\n[instruments.field.canopy]\nwithin_m = [-0.5, -0.5, 0.5, 0.5]\n\
+             soil = \"ground\"\nwavelengths_nm = [550]\n"
+        );
+        figures(&sheet(4.0, &keys), &rays(1024))
+    };
+    let error = dome(1e9).expect_err("a dome of 10⁹ m over a box of 1 m");
+    let text = error.to_string();
+    assert!(
+        text.starts_with("bench.toml:") && text.contains("more than 1000 times the smaller side")
+            && text.ends_with(
+                "(1 m); the tallest is of the object `dome`: widen the box, or leave that object out of the scene"
+            ),
+        "{text}"
+    );
+    dome(400.0).expect("800 times as high as wide");
+}

@@ -14,7 +14,9 @@ use crate::cli::progress::{BETWEEN_LINES, Patience};
 use crate::cli::signals::Signals;
 use crate::cli::{Failure, needs, places, say, warn};
 use crate::image::atomic;
-use crate::instruments::{Budget, CutPaths, Effort, Row, Watch, notes, read_out_watched, sets_of};
+use crate::instruments::{
+    Budget, CutPaths, Effort, MOST_TURNS, Row, Watch, notes, read_out_watched, sets_of,
+};
 use crate::scene::description::Description;
 use crate::scene::load;
 use crate::scene::plant_cache::PlantCache;
@@ -233,12 +235,13 @@ fn measure(
     })
 }
 
-/// Says so if the limit of events cut paths.
+/// Says so if a limit cut paths.
 fn report_cuts(name: &str, cut: &CutPaths, most_events: u32) {
     if cut.paths > 0 {
         eprintln!(
-            "note: {name}: {} paths were cut after {most_events} events (`integrator.max_events`); what they \
-             carried, at most {:.1e} of the light, counts as absorbed",
+            "note: {name}: {} paths were cut after {most_events} events (`integrator.max_events`), or after \
+             {MOST_TURNS} times through the sides of a canopy's box; what they carried, at most {:.1e} of the \
+             light, counts as absorbed or is missing",
             cut.paths, cut.at_most
         );
     }

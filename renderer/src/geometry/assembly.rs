@@ -13,6 +13,7 @@ use super::instance::Instance;
 use super::mesh::TriangleMesh;
 use super::placement::{Carrier, Placement};
 use super::ray::Ray;
+use super::slab;
 use super::surface::{self, SurfacePoint, TextureScale};
 use super::wide_tree::{LeafItems, WideTree};
 use crate::simd::{LANES, Level};
@@ -35,10 +36,15 @@ pub struct Geometry {
     placements: Vec<Placement>,
     /// The point of the scene around which rays are traced.
     origin: DVec3,
+    /// The box around everything.
+    around: Bounds,
+    /// Over boxes widened for culling.
     tree: WideTree,
+    /// Greatest magnitude of a coordinate of those.
+    farthest: f32,
     /// The instance of each leaf of `tree`, or joined ones.
     carriers: Vec<Carrier>,
-    /// Its box in the world.
+    /// Its box in the world, widened for hits.
     boxes: Vec<Bounds>,
     level: Level,
 }
@@ -161,16 +167,23 @@ impl Geometry {
             trees.push(Arc::new(tree));
         }
         check_boxes(&boxes, &carriers)?;
-        let (tree, leaves) = WideTree::build(&boxes, 1);
+        let around = boxes.iter().copied().fold(Bounds::EMPTY, Bounds::union);
+        let widened: Vec<_> = boxes.iter().copied().map(slab::widened_for_culling).collect();
+        let (tree, leaves) = WideTree::build(&widened, 1);
+        let farthest = widened.iter().map(|bounds| bounds.farthest()).fold(0.0, f32::max);
         let order = || leaves.iter().flat_map(LeafItems::as_slice);
         Ok(Self {
             meshes,
             trees,
             placements,
             origin,
+            around,
             tree,
+            farthest,
             carriers: order().map(|&leaf| carriers[leaf as usize]).collect(),
-            boxes: order().map(|&leaf| boxes[leaf as usize]).collect(),
+            boxes: order()
+                .map(|&leaf| slab::widened_for_hits(boxes[leaf as usize]))
+                .collect(),
             level: Level::best(),
         })
     }
@@ -237,11 +250,10 @@ impl Geometry {
     /// Smallest and largest coordinates of all instances' boxes, m, around [`Geometry::origin`]; both
     /// the origin if there are none.
     pub fn bounds(&self) -> (Vec3, Vec3) {
-        let bounds = self.tree.bounds();
-        if bounds.is_empty() {
+        if self.around.is_empty() {
             return (Vec3::ZERO, Vec3::ZERO);
         }
-        (bounds.min, bounds.max)
+        (self.around.min, self.around.max)
     }
 
     /// Area of one side of all triangles of an instance, m².

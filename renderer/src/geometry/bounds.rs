@@ -36,6 +36,16 @@ impl Bounds {
         }
     }
 
+    /// The box with its sides moved outwards by at least `by`.
+    pub(super) fn widened(self, by: Vec3) -> Self {
+        let down = |a: Vec3| Vec3::from_array(a.to_array().map(f32::next_down));
+        let up = |a: Vec3| Vec3::from_array(a.to_array().map(f32::next_up));
+        Self {
+            min: down(self.min - by),
+            max: up(self.max + by),
+        }
+    }
+
     pub(super) fn is_empty(self) -> bool {
         !self.min.cmple(self.max).all()
     }
@@ -66,6 +76,11 @@ impl Bounds {
         let above = (low - error).cmpgt(end) & direction.cmpge(Vec3A::ZERO);
         let below = (high + error).cmplt(end) & direction.cmple(Vec3A::ZERO);
         (above | below).any()
+    }
+
+    /// Greatest magnitude of a coordinate.
+    pub(super) fn farthest(&self) -> f32 {
+        self.min.abs().max(self.max.abs()).max_element()
     }
 
     pub(super) fn center(self) -> Vec3 {

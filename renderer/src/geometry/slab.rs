@@ -5,7 +5,7 @@
 //! [`SlabRay::sixteen`] only saves time: it widens boxes by more than its own roundings, so that it
 //! never leaves out what `one` accepts, whichever instructions it is compiled for.
 
-use glam::Vec3A;
+use glam::{Vec3, Vec3A};
 
 use super::bounds::Bounds;
 use crate::simd::{Sixteen, WideRow};
@@ -50,6 +50,19 @@ const LEAST_INVERSE: f32 = 1.099_511_6e12; // 2^40
 /// Allows for the three roundings in each of the two compared distances, (b − o) · 1/d.
 const FAR_FACTOR: f32 = 1.0 + 8.0 / 16_777_216.0;
 
+/// A box widened by that part of the triangle test's error which goes with its own distance from the
+/// origin of the coordinates.
+pub(super) fn widened_for_hits(bounds: Bounds) -> Bounds {
+    let far = bounds.min.abs().max(bounds.max.abs());
+    bounds.widened((far + Vec3::splat(far.max_element())) * SHEAR_ERROR)
+}
+
+/// The same box, widened by the error of [`SlabRay::sixteen`] too.
+pub(super) fn widened_for_culling(bounds: Bounds) -> Bounds {
+    let far = bounds.min.abs().max(bounds.max.abs());
+    widened_for_hits(bounds).widened(far * ROUGHNESS)
+}
+
 /// A ray prepared for box tests in one tree.
 ///
 /// # Source
@@ -91,6 +104,34 @@ impl SlabRay {
     pub(super) fn new(origin: Vec3A, direction: Vec3A, t_min: f32, bounds: &Bounds) -> Self {
         let (low, high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
         let reach = (low - origin).abs().max((high - origin).abs());
+        Self::within_reach(origin, direction, t_min, reach, 0.0)
+    }
+
+    /// The same for boxes that are widened already: [`SlabRay::one`] for those of
+    /// [`widened_for_hits`], [`SlabRay::sixteen`] for those of [`widened_for_culling`]. `farthest` is at
+    /// least the magnitude of each of their coordinates.
+    ///
+    /// Errors go with distances, which are at most those of the box and of the ray from the origin of
+    /// the coordinates together. So a box far away does not widen those nearby.
+    #[inline(always)]
+    pub(super) fn among_widened(
+        origin: Vec3A,
+        direction: Vec3A,
+        t_min: f32,
+        farthest: f32,
+    ) -> Self {
+        Self::within_reach(origin, direction, t_min, origin.abs(), farthest)
+    }
+
+    /// For boxes whose planes are within `reach` of the origin.
+    #[inline(always)]
+    fn within_reach(
+        origin: Vec3A,
+        direction: Vec3A,
+        t_min: f32,
+        reach: Vec3A,
+        farthest: f32,
+    ) -> Self {
         let axis = longest(direction);
         let along = reach.to_array()[axis];
         let error = (reach + Vec3A::splat(along)) * SHEAR_ERROR;
@@ -100,7 +141,7 @@ impl SlabRay {
         let shift = error.copysign(inverse);
         let wide = (error + (reach + origin.abs()) * ROUGHNESS).copysign(inverse);
         // At least 1, so that what it divides stays finite.
-        let coordinates = (origin.abs() + reach).max_element().max(1.0);
+        let coordinates = (origin.abs() + reach).max_element().max(farthest).max(1.0);
         // 1/d along the longest axis.
         let least = inverse.abs().min_element();
         let mut most = MOST_INVERSE * least;
@@ -177,8 +218,6 @@ impl SlabRay {
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec3;
-
     use super::super::testing::Numbers;
     use super::*;
     use crate::simd::{Level, Task};
@@ -238,6 +277,25 @@ mod tests {
     }
 
     #[test]
+    fn a_box_far_away_does_not_widen_those_nearby() {
+        let nearby = Bounds::around([Vec3::ZERO, Vec3::splat(0.1)]);
+        let far = Bounds::around([Vec3::splat(7e5), Vec3::splat(7.1e5)]);
+        let origin = Vec3::new(0.0, 0.05, -1.0);
+        for (beside, is_met) in [(-1e-3, false), (1e-3, true)] {
+            let from = Vec3A::from(origin + Vec3::X * beside);
+            let slab = SlabRay::among_widened(from, Vec3A::Z, 0.0, far.farthest());
+            assert_eq!(slab.one(&widened_for_hits(nearby)).is_some(), is_met);
+            let bounds = widened_for_culling(nearby);
+            let (low, high) = (bounds.min.to_array(), bounds.max.to_array());
+            let planes = [0, 1, 2].map(|axis| [low, high].map(|side| WideRow::splat(side[axis])));
+            for level in Level::all() {
+                let (_, met) = level.run(Quick(&slab, planes, f32::INFINITY));
+                assert_eq!(met != 0, is_met, "{}", level.name());
+            }
+        }
+    }
+
+    #[test]
     fn what_the_exact_test_accepts_the_quick_one_never_leaves_out_at_any_level() {
         let mut numbers = Numbers::new(3);
         let (mut met, mut tried) = (0, 0);
@@ -260,12 +318,19 @@ mod tests {
             if direction == Vec3::ZERO {
                 continue;
             }
-            let slab = SlabRay::new(origin.into(), direction.into(), 0.0, &scene);
-            let Some(exact) = slab.one(&inner) else {
+            let (from, towards) = (origin.into(), direction.into());
+            let (slab, decides, quick) = if round % 2 == 0 {
+                (SlabRay::new(from, towards, 0.0, &scene), inner, [inner, outer])
+            } else {
+                let farthest = widened_for_culling(scene).farthest();
+                let slab = SlabRay::among_widened(from, towards, 0.0, farthest);
+                (slab, widened_for_hits(inner), [inner, outer].map(widened_for_culling))
+            };
+            let Some(exact) = slab.one(&decides) else {
                 continue;
             };
             tried += 1;
-            for bounds in [&inner, &outer] {
+            for bounds in &quick {
                 let (low, high) = (bounds.min.to_array(), bounds.max.to_array());
                 let planes =
                     [0, 1, 2].map(|axis| [low, high].map(|side| WideRow::splat(side[axis])));

@@ -177,7 +177,7 @@ pub(super) fn read_out(
     effort: &Effort<'_>,
 ) -> Result<Reading, InstrumentError> {
     let at = &instrument.value.at;
-    let (stage, period) = Period::stage(canopy.within, world, at)?;
+    let (stage, period) = Period::stage(canopy.within, world, scene, at)?;
     let ground = (canopy.within[1] - canopy.within[0]).element_product();
     let ledger = Ledger::new(scene, &stage, canopy, ground);
     check(scene, (&stage, &period), canopy, &ledger, at)?;

@@ -170,7 +170,7 @@ impl Detectors {
                 * encounter.bsdf.flux_over_radiance(encounter.wo, wi)
                 * towards.of_intensity;
             let seen = at.weight * f * of_intensity;
-            if !seen.is_zero() && course.is_clear(stage, facet.spawn(direction)) {
+            if !seen.is_zero() && course.is_clear(stage, facet.spawn(direction), &seen) {
                 add(number, seen);
             }
         }

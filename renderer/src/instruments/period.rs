@@ -5,15 +5,21 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use super::InstrumentError;
+use super::{InstrumentError, LANES};
 use super::stage::Stage;
-use super::walk::{Course, Straight};
-use crate::geometry::{GeometryError, Hit, Ray, origin_near};
+use super::walk::{Ahead, Course, Straight};
+use crate::geometry::{GeometryError, Ray, origin_near};
+use crate::scene::description::Description;
 use crate::scene::world::World;
+use crate::spectrum::Lanes;
 
-/// Most times that a ray enters the box anew without a hit; then it counts as having left. A ray
-/// needs a slope below 1e-5 for a box as high as wide.
-const MOST_TURNS: u32 = 100_000;
+/// Most times that a ray passes the sides of the box from one surface to the next; then it is cut. In
+/// a box as high as wide these are rays within a thousandth of a degree of the horizon.
+pub const MOST_TURNS: u32 = 100_000;
+
+/// Greatest height of what stands in the box over the box's smaller side. Diffuse light passes the
+/// sides some one and a half times as often as that.
+const MOST_HEIGHT: f64 = 1000.0;
 
 /// Share of the box's size, or of its distance from the origin, within which a place counts as being
 /// on a side.
@@ -40,7 +46,7 @@ pub(super) struct Period {
 }
 
 impl Course for Period {
-    fn next(&self, stage: &Stage<'_>, ray: &mut Ray) -> (Option<Hit>, f32) {
+    fn next(&self, stage: &Stage<'_>, ray: &mut Ray) -> (Ahead, f32) {
         let mut gone = 0.0;
         let end = ray.t_max();
         for _ in 0..MOST_TURNS {
@@ -48,18 +54,18 @@ impl Course for Period {
             let to_end = end - gone;
             *ray = ray.up_to(t_beyond.min(to_end));
             if let Some(hit) = stage.geometry.intersect(ray) {
-                return (Some(hit), gone);
+                return (Ahead::Hit(hit), gone);
             }
             if to_end <= t_side {
-                return (None, gone);
+                return (Ahead::Nothing, gone);
             }
             *ray = ray.up_to(f32::INFINITY);
             if !self.enter(ray, t_side, axis) {
-                return (None, gone);
+                return (Ahead::Nothing, gone);
             }
             gone += t_side;
         }
-        (None, gone)
+        (Ahead::Unknown, gone)
     }
 
     fn is_free(&self, stage: &Stage<'_>, way: &Ray) -> bool {
@@ -69,7 +75,7 @@ impl Course for Period {
         is_within && Straight.is_free(stage, way)
     }
 
-    fn is_clear(&self, stage: &Stage<'_>, mut ray: Ray) -> bool {
+    fn is_clear(&self, stage: &Stage<'_>, mut ray: Ray, carried: &Lanes<LANES>) -> bool {
         for _ in 0..MOST_TURNS {
             let (t_side, t_beyond, axis) = self.side(&ray);
             ray = ray.up_to(t_beyond);
@@ -80,7 +86,8 @@ impl Course for Period {
                 return true;
             }
         }
-        true
+        stage.cuts.add(*carried);
+        false
     }
 }
 
@@ -202,18 +209,35 @@ impl Period {
     pub(super) fn stage<'w>(
         within: [DVec2; 2],
         world: &'w World,
+        scene: &Description,
         at: &str,
     ) -> Result<(Stage<'w>, Self), InstrumentError> {
         let mut heights = [f64::INFINITY, f64::NEG_INFINITY];
         let mut places: Vec<(u32, DVec3)> = Vec::new();
+        // Its own height, m, and number.
+        let mut tallest = (f64::NEG_INFINITY, 0);
         for (number, [low, high], own) in Sides::of(within).places(world) {
             if !own.is_empty() {
                 heights = [heights[0].min(low), heights[1].max(high)];
+                if high - low > tallest.0 {
+                    tallest = (high - low, number);
+                }
             }
             places.extend(own.into_iter().map(|by| (number, by)));
         }
         if places.is_empty() {
             return Err(InstrumentError::NoLeaves { at: at.to_owned() });
+        }
+        let side = (within[1] - within[0]).min_element();
+        if heights[1] - heights[0] > MOST_HEIGHT * side {
+            let object = world.objects[tallest.1 as usize].object;
+            return Err(InstrumentError::TooHigh {
+                at: at.to_owned(),
+                heights,
+                side,
+                most: MOST_HEIGHT,
+                object: scene.objects[object].name.clone(),
+            });
         }
         let middle = 0.5 * (within[0] + within[1]);
         let middle = middle.extend(0.5 * (heights[0] + heights[1]));

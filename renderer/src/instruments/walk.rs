@@ -79,14 +79,25 @@ pub(super) struct Escaped {
     pub(super) is_specular: bool,
 }
 
-/// The first hit of a ray, which may be moved on its way to it, and the distance that it went
-/// before it was moved last; `None` if the ray leaves. A ray that has an end may come to it instead:
-/// then it is `None` too, and the end of the moved ray is finite.
-pub(super) trait Course {
-    fn next(&self, stage: &Stage<'_>, ray: &mut Ray) -> (Option<Hit>, f32);
+/// What is ahead of a ray.
+pub(super) enum Ahead {
+    /// A surface.
+    Hit(Hit),
+    /// Nothing: the ray leaves, or comes to its end if it has one.
+    Nothing,
+    /// The search was given up.
+    Unknown,
+}
 
-    /// Whether a ray leaves without a hit.
-    fn is_clear(&self, stage: &Stage<'_>, ray: Ray) -> bool;
+/// How rays go on.
+pub(super) trait Course {
+    /// What is ahead of a ray, which may be moved on its way to it, and the distance that it went
+    /// before it was moved last.
+    fn next(&self, stage: &Stage<'_>, ray: &mut Ray) -> (Ahead, f32);
+
+    /// Whether a ray leaves without a hit. If the search is given up it does not, and what it carries
+    /// counts as cut.
+    fn is_clear(&self, stage: &Stage<'_>, ray: Ray, carried: &Lanes<LANES>) -> bool;
 
     /// Whether nothing is in the way of a short ray that ends.
     fn is_free(&self, stage: &Stage<'_>, way: &Ray) -> bool {
@@ -107,11 +118,12 @@ impl<C: Course> Surroundings for Staged<'_, C> {
 pub(super) struct Straight;
 
 impl Course for Straight {
-    fn next(&self, stage: &Stage<'_>, ray: &mut Ray) -> (Option<Hit>, f32) {
-        (stage.geometry.intersect(ray), 0.0)
+    fn next(&self, stage: &Stage<'_>, ray: &mut Ray) -> (Ahead, f32) {
+        let hit = stage.geometry.intersect(ray);
+        (hit.map_or(Ahead::Nothing, Ahead::Hit), 0.0)
     }
 
-    fn is_clear(&self, stage: &Stage<'_>, ray: Ray) -> bool {
+    fn is_clear(&self, stage: &Stage<'_>, ray: Ray, _: &Lanes<LANES>) -> bool {
         !stage.geometry.occluded(&ray)
     }
 }
@@ -211,7 +223,7 @@ impl<'m, C: Course> Walk<'m, C> {
         stream: &mut Stream,
         witness: &mut impl Witness<'m>,
     ) -> Option<Met<'m>> {
-        let (hit, gone) = if self.stage.world.media.are_present {
+        let (ahead, gone) = if self.stage.world.media.are_present {
             self.fly(leg, stream, witness)
         } else {
             self.course.next(self.stage, &mut leg.ray)
@@ -219,13 +231,20 @@ impl<'m, C: Course> Walk<'m, C> {
         if leg.weight.is_zero() {
             return None;
         }
-        let Some(hit) = hit else {
-            witness.escape(&Escaped {
-                direction: leg.ray.direction(),
-                weight: leg.weight,
-                is_specular: leg.is_specular,
-            });
-            return None;
+        let hit = match ahead {
+            Ahead::Hit(hit) => hit,
+            Ahead::Nothing => {
+                witness.escape(&Escaped {
+                    direction: leg.ray.direction(),
+                    weight: leg.weight,
+                    is_specular: leg.is_specular,
+                });
+                return None;
+            }
+            Ahead::Unknown => {
+                self.stage.cuts.add(leg.weight);
+                return None;
+            }
         };
         let cone = leg.cone.from(gone);
         let geometry = &self.stage.geometry;

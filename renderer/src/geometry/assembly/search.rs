@@ -118,12 +118,11 @@ impl<F: Found> Task for Search<'_, F> {
                 found.hit(hit, ray.t_max());
             }
         } else if ray.is_proper() {
-            let bounds = geometry.tree.bounds();
-            let slab = SlabRay::new(
+            let slab = SlabRay::among_widened(
                 ray.origin().into(),
                 ray.direction().into(),
                 ray.t_min(),
-                bounds,
+                geometry.farthest,
             );
             let mut instances = Instances {
                 geometry,

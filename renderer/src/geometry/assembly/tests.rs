@@ -17,11 +17,11 @@ mod limits;
 /// the tracer's own test.
 fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
     let mut hits = Vec::new();
-    let world = SlabRay::new(
+    let world = SlabRay::among_widened(
         ray.origin().into(),
         ray.direction().into(),
         ray.t_min(),
-        geometry.tree.bounds(),
+        geometry.farthest,
     );
     for (carrier, bounds) in geometry.carriers.iter().zip(&geometry.boxes) {
         let traced = &geometry.trees[carrier.tree as usize];

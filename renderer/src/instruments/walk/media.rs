@@ -4,8 +4,8 @@ use glam::{Vec2, Vec3};
 
 use super::super::LANES;
 use super::super::stage::Stage;
-use super::{Course, Event, Leg, ROULETTE_BELOW, Walk, Witness};
-use crate::geometry::{Hit, Ray};
+use super::{Ahead, Course, Event, Leg, ROULETTE_BELOW, Walk, Witness};
+use crate::geometry::Ray;
 use crate::integrator::facet::{Facet, Surroundings};
 use crate::medium::{BodyPlace, Coefficients, Inside};
 use crate::sampling::stream::Stream;
@@ -79,7 +79,7 @@ impl<'m, C: Course> Walk<'m, C> {
         leg: &mut Leg,
         stream: &mut Stream,
         witness: &mut impl Witness<'m>,
-    ) -> (Option<Hit>, f32) {
+    ) -> (Ahead, f32) {
         let stage = self.stage;
         // How far the ray was moved, and from where on it is in what is around it now.
         let (mut moved, mut from) = (0.0, 0.0);
@@ -92,12 +92,17 @@ impl<'m, C: Course> Walk<'m, C> {
                 medium.reach(&leg.weight, [choice, distance])
             });
             leg.ray = leg.ray.up_to(from + reach);
-            let (hit, gone) = self.course.next(stage, &mut leg.ray);
+            let (ahead, gone) = self.course.next(stage, &mut leg.ray);
             moved += gone;
             let before = leg.weight;
+            let hit = match ahead {
+                Ahead::Hit(hit) => Some(hit),
+                Ahead::Nothing => None,
+                Ahead::Unknown => break,
+            };
             let Some(hit) = hit else {
                 let Some((body, medium)) = around else {
-                    return (None, moved);
+                    return (Ahead::Nothing, moved);
                 };
                 if leg.ray.t_max().is_infinite() {
                     // No closed body is left without passing its boundary, but by rounding.
@@ -107,7 +112,7 @@ impl<'m, C: Course> Walk<'m, C> {
                         (leg.ray.origin(), Vec2::ZERO),
                         [before, leg.weight],
                     ));
-                    return (None, moved);
+                    return (Ahead::Nothing, moved);
                 }
                 leg.passage.is_straight = false;
                 let position = leg.ray.origin() + leg.ray.direction() * leg.ray.t_max();
@@ -124,7 +129,7 @@ impl<'m, C: Course> Walk<'m, C> {
                     is_scattered: true,
                 });
                 if leg.weight.is_zero() {
-                    return (None, moved);
+                    return (Ahead::Nothing, moved);
                 }
                 leg.is_specular = false;
                 let scattering = medium.phase.sample(leg.ray.direction(), Vec2::new(x, y));
@@ -148,7 +153,7 @@ impl<'m, C: Course> Walk<'m, C> {
                 ));
             }
             let Some(body) = passed.filter(|_| !leg.weight.is_zero()) else {
-                return (Some(hit), moved);
+                return (Ahead::Hit(hit), moved);
             };
             let direction = leg.ray.direction();
             leg.passage.inside.leave_boundary(
@@ -161,17 +166,15 @@ impl<'m, C: Course> Walk<'m, C> {
             from = hit.t;
             leg.ray = leg.ray.starting_at(from.next_up());
         }
-        // What light that is caught still carries counts as absorbed where it is.
-        stage.cuts.add(leg.weight);
+        // What light that is caught still carries counts as absorbed where it is, if anything is there.
         if let Some((body, _)) = leg.passage.inside.innermost() {
             witness.event(&passing(
                 stage.objects.object_of(body),
                 (leg.ray.origin(), Vec2::ZERO),
                 [leg.weight, Lanes::ZERO],
             ));
-            leg.weight = Lanes::ZERO;
         }
-        (None, 0.0)
+        (Ahead::Unknown, 0.0)
     }
 
     /// The body around light and the medium in it, if there is one.

@@ -75,6 +75,28 @@ fn joined_meshes_are_found_as_every_triangle_is() {
     assert_eq!(walls, 9, "the floor stands beside the tree");
 }
 
+/// What stands far from all else, as a lamp in the sky does, is traced by a tree of its own.
+#[test]
+fn what_stands_apart_is_not_joined() {
+    let lamp = blade(3, 2, 1e3, 1e3, Vec3::new(0.0, 0.0, 7e5));
+    let leaves = (0..3).map(|seed| soup(seed, 30, 1.0, Vec3::ZERO));
+    let meshes: Vec<_> = leaves.chain([lamp]).collect();
+    let instances: Vec<_> = (0..4).map(|mesh| (mesh, Affine3A::IDENTITY)).collect();
+    let geometry = placed_with(meshes, &instances, 0);
+    assert_eq!(geometry.carriers.len(), 2);
+    let mut numbers = Numbers::new(3);
+    let mut lit = 0;
+    for _ in 0..1000 {
+        let target = Vec3::new(0.0, 0.0, 7e5) + numbers.cube() * Vec3::new(500.0, 500.0, 0.0);
+        let from = numbers.cube() * 2.0;
+        let ray = Ray::new(from, (target - from).normalize());
+        let hit = geometry.intersect(&ray);
+        assert_eq!(hit, every_triangle(&geometry, &ray), "{ray:?}");
+        lit += usize::from(hit.is_some_and(|hit| hit.instance == 3));
+    }
+    assert!(lit > 300, "{lit} of 1000 rays meet the lamp");
+}
+
 /// Surfaces do not depend on whether their mesh is joined: places, sides, tangents and textures of
 /// mirrored and sheared instances.
 #[test]
