@@ -309,7 +309,7 @@ fn a_floor_in_daylight_gets_the_irradiance_of_sun_and_sky_beside_other_lights_to
         let irradiance = row.direct * up + row.diffuse + beside;
         for sampled in ["", "[integrator]\nsample_skies = false\n"] {
             let day = format!("{day}{sampled}");
-            let found = mean_and_error(&floor_under(&day, 256), 0, 8);
+            let found = mean_and_error(&floor_under(&day, 64), 0, 8);
             // The lamp hides less than a thousandth of the sky.
             assert_agrees(&day, found, 0.5 / PI * irradiance, 1e-3);
         }
@@ -352,7 +352,7 @@ fn lamps_and_a_picture_of_the_sky_add_up() {
     let lit = "[lights.lamp.area]\nobject = \"lamp\"\nradiance_w_m2_sr_nm = 3\n";
     let sky = "[lights.sky.environment]\npath = \"evening.png\"\n";
     let mean_and_error = |blocks: &str| {
-        let text = floor_under(blocks, 256);
+        let text = floor_under(blocks, 64);
         let loaded = parse(&text, "test.toml", &folder, &[]);
         let description = loaded.map_err(|errors| errors.to_string());
         let description = description

@@ -70,7 +70,7 @@ fn a_flat_leaf_reads_what_the_ordinates_of_its_layers_say_on_both_faces() {
         let stack = LayeredLeaf::new(&contents).stack(&at);
         let slanted = libm::cos(f64::to_radians(60.0));
         let solved = Ordinates::new(&stack, Resolution::new(16), &[1.0, slanted]).expect("solved");
-        let rows = smooth(&sphere(preset, nm), &rays(16384));
+        let rows = smooth(&sphere(preset, nm), &rays(4096));
         let cases = [
             (Direction::Beam(0.0), Incidence::NORMAL),
             (
@@ -90,7 +90,7 @@ fn a_flat_leaf_reads_what_the_ordinates_of_its_layers_say_on_both_faces() {
                     let row = of(&rows, quantity, lit, nm)
                         .find(|row| row.face == Some(word))
                         .expect("it is measured");
-                    assert!(row.error < 3e-3, "{row:?}");
+                    assert!(row.error < 6e-3, "{row:?}");
                     let z = (row.value - expected) / row.error;
                     greatest = greatest.max(z.abs());
                     assert!(z.abs() < 3.5, "{preset} {nm}: {row:?} for {expected}");
@@ -125,7 +125,7 @@ fn a_spectrum_in_steps_of_10_nm_is_that_of_the_ordinates_at_every_wavelength() {
     ] {
         let rows = smooth(
             &text.replace("wavelengths_nm = [550]\n", &wanted),
-            &rays(16384),
+            &rays(4096),
         );
         let (mut greatest, mut count) = (0.0_f64, 0);
         for row in rows.iter().filter(|row| row.quantity != "absorptance") {

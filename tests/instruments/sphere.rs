@@ -45,8 +45,12 @@ const SHEET: &str = "[meshes.sheet.rectangle]\nwidth_m = 0.1\nheight_m = 0.1\n";
 
 #[test]
 fn a_sphere_over_a_uniform_leaf_reads_what_prospect_says() {
-    let leaves = leaves();
+    let mut leaves = leaves();
     assert_eq!(leaves.len(), 33);
+    if std::env::var("LAMINA_ANCHORS").is_err() {
+        // Eleven of them in the core suite.
+        leaves = leaves.into_iter().step_by(3).collect();
+    }
     let mut text = SHEET.to_owned();
     for (number, (contents, _)) in leaves.iter().enumerate() {
         // A coat that alone reflects less than any of these leaves.

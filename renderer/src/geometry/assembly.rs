@@ -168,9 +168,16 @@ impl Geometry {
         }
         check_boxes(&boxes, &carriers)?;
         let around = boxes.iter().copied().fold(Bounds::EMPTY, Bounds::union);
-        let widened: Vec<_> = boxes.iter().copied().map(slab::widened_for_culling).collect();
+        let widened: Vec<_> = boxes
+            .iter()
+            .copied()
+            .map(slab::widened_for_culling)
+            .collect();
         let (tree, leaves) = WideTree::build(&widened, 1);
-        let farthest = widened.iter().map(|bounds| bounds.farthest()).fold(0.0, f32::max);
+        let farthest = widened
+            .iter()
+            .map(|bounds| bounds.farthest())
+            .fold(0.0, f32::max);
         let order = || leaves.iter().flat_map(LeafItems::as_slice);
         Ok(Self {
             meshes,

@@ -320,11 +320,19 @@ mod tests {
             }
             let (from, towards) = (origin.into(), direction.into());
             let (slab, decides, quick) = if round % 2 == 0 {
-                (SlabRay::new(from, towards, 0.0, &scene), inner, [inner, outer])
+                (
+                    SlabRay::new(from, towards, 0.0, &scene),
+                    inner,
+                    [inner, outer],
+                )
             } else {
                 let farthest = widened_for_culling(scene).farthest();
                 let slab = SlabRay::among_widened(from, towards, 0.0, farthest);
-                (slab, widened_for_hits(inner), [inner, outer].map(widened_for_culling))
+                (
+                    slab,
+                    widened_for_hits(inner),
+                    [inner, outer].map(widened_for_culling),
+                )
             };
             let Some(exact) = slab.one(&decides) else {
                 continue;

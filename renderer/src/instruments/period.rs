@@ -5,9 +5,9 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use super::{InstrumentError, LANES};
 use super::stage::Stage;
 use super::walk::{Ahead, Course, Straight};
+use super::{InstrumentError, LANES};
 use crate::geometry::{GeometryError, Ray, origin_near};
 use crate::scene::description::Description;
 use crate::scene::world::World;
