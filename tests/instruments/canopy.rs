@@ -167,10 +167,10 @@ fn what_stands_outside_the_box_is_not_in_it() {
         assert!(error < 6e-3, "{all:?} {part:?}");
     }
     let [none, notes] = scenes.map(|(scene, world, _)| notes(&world, &scene, 0));
-    assert_eq!(none, Vec::<String>::new());
-    assert_eq!(notes.len(), 1, "{notes:?}");
+    // The first note says that errors hold for one draw.
+    assert_eq!((none.len(), notes.len()), (1, 2), "{none:?} {notes:?}");
     let left_out = "parts of the object `leaves` stand outside `within_m` and are left out";
-    assert!(notes[0].ends_with(left_out), "{notes:?}");
+    assert!(notes[1].ends_with(left_out), "{notes:?}");
 }
 
 #[test]
@@ -238,7 +238,7 @@ fn a_canopy_under_a_dome_far_wider_than_its_box_is_refused() {
         );
         figures(&sheet(4.0, &keys), &rays(1024))
     };
-    let error = dome(1e9).expect_err("a dome of 10⁹ m over a box of 1 m");
+    let error = dome(1e6).expect_err("a dome of 1,000 km over a box of 1 m");
     let text = error.to_string();
     assert!(
         text.starts_with("bench.toml:") && text.contains("more than 1000 times the smaller side")
