@@ -222,6 +222,24 @@ fn a_white_furnace_is_as_bright_within_a_leaf_around_it() {
     }
 }
 
+#[test]
+fn a_white_furnace_is_as_bright_within_a_closed_blade() {
+    // Halfway between the faces, which are 2 mm apart.
+    let within = [0.0, 0.0136, -0.0034];
+    let coated = BLADE.replace("eta = 1\n", "eta = 1.45\n");
+    for (name, blade, allowed) in [("bare", BLADE, 1e-5), ("coated", &coated, BY_COATS)] {
+        for up in [1.0, -1.0] {
+            let towards = [0.0, 0.0136, up];
+            let text = head(within, towards, 120.0, 64) + blade + SKY;
+            let what = format!("a {name} closed blade, {up}");
+            // From outside the sky would be seen on one side.
+            let open = picture_of(&text, 0).film.map(|pixel| pixel.alpha() < 1.0);
+            assert!(!open.contains(&true), "{what}");
+            assert_furnace(&what, &text, allowed);
+        }
+    }
+}
+
 /// A picture of a sphere of 16 segments from afar by light that is scattered once, and its greatest
 /// pixel.
 fn lit_sphere(material: &str, sun: &str) -> (Vec<f64>, f64) {

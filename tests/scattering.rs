@@ -92,7 +92,8 @@ fn unlike_coats_leave_both_reflectances_and_the_transmittance_as_they_are_and_lo
     let none = || Coat::new(1.0, 1.0, 1.0);
     let pairs = [
         [Coat::new(1.5, 0.1, 0.1), none()],
-        [none(), Coat::new(1.6, 0.2, 0.4)],
+        [none(), Coat::new(2.0, 0.05, 0.4)],
+        [Coat::new(1.6, 0.4, 0.2), Coat::new(1.5, 0.1, 0.1)],
         [Coat::new(2.5, 0.9, 0.9), none()],
         [Coat::new(1.3, 0.3, 0.3), Coat::new(1.6, 0.6, 0.2)],
     ];
