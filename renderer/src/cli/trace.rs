@@ -215,7 +215,7 @@ fn told(findings: &[Finding]) -> Vec<String> {
         | FindingKind::Crossings { .. }
         | FindingKind::Thin { .. }
         | FindingKind::Petiole
-        | FindingKind::BaseGuessed
+        | FindingKind::BaseGuessed { .. }
         | FindingKind::Moved { .. } => None,
     };
     let (mut apart, others): (Vec<&Finding>, Vec<&Finding>) = findings

@@ -219,7 +219,7 @@ fn is_fault(finding: &Finding) -> bool {
         | FindingKind::Spurs { .. }
         | FindingKind::Crossings { .. }
         | FindingKind::Petiole
-        | FindingKind::BaseGuessed
+        | FindingKind::BaseGuessed { .. }
         | FindingKind::Moved { .. } => false,
     }
 }
