@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use leafmodel::measure::Subject;
 
-pub(super) use self::input::{Input, text_of};
+pub(super) use self::input::Input;
 use self::report::Report;
 pub(super) use self::report::{by_order, measured};
 use crate::cli::arguments::MeasureArguments;
