@@ -41,11 +41,9 @@ pub(super) fn read(edges: &str, nodes: Option<&str>, form: Form) -> Result<Draft
     }
     let is_of_skan = table.header.iter().any(|name| is_skans(name));
     let fields = edge_fields(&table.header);
-    for name in &table.header {
-        if EdgeField::of(name).is_none() {
-            builder.ignore("edge", name);
-        }
-    }
+    ignore_unknown(&mut builder, "edge", &table.header, |name| {
+        EdgeField::of(name).is_some()
+    });
     let column = |wanted: &dyn Fn(EdgeField) -> bool| {
         fields.iter().position(|field| field.is_some_and(wanted))
     };
@@ -143,6 +141,18 @@ fn edge_fields(header: &[String]) -> Vec<Option<EdgeField>> {
     fields.collect()
 }
 
+/// Remembers the columns that are not read.
+fn ignore_unknown(
+    builder: &mut Builder,
+    of: &str,
+    header: &[String],
+    is_known: impl Fn(&str) -> bool,
+) {
+    for name in header.iter().filter(|name| !is_known(name)) {
+        builder.ignore(of, name);
+    }
+}
+
 /// The length of a segment out of a line `# segment_mm = 0.12`.
 fn segment(comment: &str) -> Option<f64> {
     let (_, value) = comment.split_once("segment_mm =")?;
@@ -233,11 +243,9 @@ fn read_nodes(
             .iter()
             .map(|name| NodeField::of(name))
             .collect();
-        for (name, field) in table.header.iter().zip(&fields) {
-            if field.is_none() {
-                builder.ignore("node", name);
-            }
-        }
+        ignore_unknown(builder, "node", &table.header, |name| {
+            NodeField::of(name).is_some()
+        });
         // Of several columns that may name a node, the first does.
         let mut is_named = false;
         for field in &mut fields {

@@ -132,7 +132,9 @@ fn what_may_separate_as_well_is_a_guess_and_the_usual_table_has_none() {
         let rows = Rows::of(text);
         let all: Vec<Row> = rows.of_any_length().collect();
         let fields = all.iter().flat_map(|row| &row.fields);
-        fields.for_each(|field| drop(rows.number(field)));
+        for field in fields {
+            let _ = rows.number(field);
+        }
         let guesses = rows.guesses().into_iter();
         guesses.map(|guess| guess.to_string()).collect::<Vec<_>>()
     };

@@ -159,8 +159,8 @@ fn every_change_of_parent_saves_what_the_definition_says() {
 fn cells_that_are_passed_over_would_have_kept_their_parents() {
     for (mirrored, beta) in [(false, 0.4), (true, 0.4), (true, 1.2)] {
         let plan = TransportPlan {
-            mirrored,
             beta,
+            mirrored,
             ..TransportPlan::default()
         };
         let [mut passing, mut forgetful] = [plan.seedling(1), plan.seedling(1)];

@@ -115,27 +115,20 @@ struct Marks {
 impl Marks {
     /// What the scene says, and else what the text shows; with a guess, if it is one.
     fn of(text: &str, Form { separator, decimal }: Form) -> (Self, Option<Guess>) {
-        let separators: &[char] = match (separator, decimal) {
-            (Some(Separator::Tab), _) => &['\t', '\r'],
-            (Some(Separator::Semicolon), _) => &[';', '\r'],
-            (Some(Separator::Comma), _) => &[',', '\r'],
-            (Some(Separator::Blanks), _) => &[' ', '\t', '\r'],
-            (None, Some(Decimal::Point)) => &SEPARATORS,
-            (None, Some(Decimal::Comma)) => ALL_BUT_COMMAS,
-            (None, None) if Self::has_decimal_commas(text) => {
-                let marks = Self {
-                    separators: ALL_BUT_COMMAS,
-                    decimal,
-                };
-                return (marks, Some(Guess::decimal_commas()));
-            }
-            (None, None) => &SEPARATORS,
+        let is_guess = separator.is_none() && decimal.is_none() && Self::has_decimal_commas(text);
+        let separators: &[char] = match separator {
+            Some(Separator::Tab) => &['\t', '\r'],
+            Some(Separator::Semicolon) => &[';', '\r'],
+            Some(Separator::Comma) => &[',', '\r'],
+            Some(Separator::Blanks) => &[' ', '\t', '\r'],
+            None if is_guess || decimal == Some(Decimal::Comma) => ALL_BUT_COMMAS,
+            None => &SEPARATORS,
         };
         let marks = Self {
             separators,
             decimal,
         };
-        (marks, None)
+        (marks, is_guess.then(Guess::decimal_commas))
     }
 
     /// Whether there are commas, something else separates the names, and every field with a comma is
