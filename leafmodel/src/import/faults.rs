@@ -52,6 +52,8 @@ pub enum FaultKind {
     StyleRule,
     /// Something of the file that is not known.
     Ignored,
+    /// How a table is written was found from it.
+    Guess,
     /// An edge is longer than the straight line between its ends.
     Bent,
     /// An edge is shorter than that line.
@@ -81,6 +83,7 @@ impl FaultKind {
             | Self::Clip
             | Self::StyleRule
             | Self::Ignored
+            | Self::Guess
             | Self::Bent
             | Self::ShortLength => false,
         }
@@ -95,6 +98,7 @@ impl FaultKind {
                 | Self::NoStroke
                 | Self::NoShape
                 | Self::Ignored
+                | Self::Guess
                 | Self::Bent
         )
     }
@@ -123,6 +127,7 @@ impl FaultKind {
             Self::Clip => "clip",
             Self::StyleRule => "style_rule",
             Self::Ignored => "ignored",
+            Self::Guess => "guess",
             Self::Bent => "bent",
             Self::ShortLength => "short_length",
         }
@@ -168,6 +173,7 @@ impl FaultKind {
                 "clip paths and masks of the drawing are not applied; what they hide is read"
             }
             Self::Ignored => "parts of the file are not known; they are left out",
+            Self::Guess => "guesses about how tables are written",
             Self::Bent => {
                 "edges are longer than the straight line between their ends; they are drawn as arcs of their \
                  length, so areas of areoles, angles and distances to veins are approximate"
