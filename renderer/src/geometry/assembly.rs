@@ -174,10 +174,7 @@ impl Geometry {
             .map(slab::widened_for_culling)
             .collect();
         let (tree, leaves) = WideTree::build(&widened, 1);
-        let farthest = widened
-            .iter()
-            .map(|bounds| bounds.farthest())
-            .fold(0.0, f32::max);
+        let farthest = widened.iter().map(Bounds::farthest).fold(0.0, f32::max);
         let order = || leaves.iter().flat_map(LeafItems::as_slice);
         Ok(Self {
             meshes,
