@@ -95,6 +95,15 @@ pub enum ExportError {
         /// The block that says so.
         place: String,
     },
+    /// A model with all that its own materials say.
+    #[error(
+        "{place} cannot be exported: Mitsuba has no plugin for metal, roughness and normals of models; \
+         write `plastic` or `diffuse` with the same `mesh`, which have its base colours"
+    )]
+    OwnMaterials {
+        /// The block that says so.
+        place: String,
+    },
     /// The folder exists and holds something other than an export.
     #[error(
         "{path} exists and holds no lamina.json: name a new folder, or one that was exported before"
@@ -154,13 +163,17 @@ pub fn check_ours(dir: &Path) -> Result<(), ExportError> {
 ///
 /// # Errors
 ///
-/// [`ExportError`] if it has a lens that Mitsuba lacks, a leaf that fluoresces, or one of layers.
+/// [`ExportError`] if it has a lens that Mitsuba lacks, a leaf that fluoresces, one of layers, or a
+/// model with all that its own materials say.
 pub fn check(scene: &Description) -> Result<(), ExportError> {
     if let Some(key) = sensor::foreign_key(&scene.camera.view) {
         return Err(ExportError::Lens { key });
     }
     if let Some(place) = bsdf::layered(scene) {
         return Err(ExportError::Layers { place });
+    }
+    if let Some(place) = bsdf::own_materials(scene) {
+        return Err(ExportError::OwnMaterials { place });
     }
     let mut leaves = scene.leaves.iter();
     let mut materials = scene.materials.iter();

@@ -220,6 +220,17 @@ impl Geometry {
         TextureScale::at(hit, corners, mesh, placement)
     }
 
+    /// The colour of the mesh's vertices, interpolated to a hit; white if they have none.
+    pub fn colour(&self, hit: &Hit) -> [f32; 3] {
+        let mesh = &self.meshes[self.placements[hit.instance as usize].instance.mesh as usize];
+        mesh.colours().map_or([1.0; 3], |colours| {
+            let [a, b, c] =
+                mesh.triangles()[hit.triangle as usize].map(|vertex| colours[vertex as usize]);
+            let first = 1.0 - hit.b1 - hit.b2;
+            std::array::from_fn(|i| first * a[i] + hit.b1 * b[i] + hit.b2 * c[i])
+        })
+    }
+
     /// How texture coordinates change along two unit directions in the plane of the surface at a hit,
     /// 1/m; not at all if the triangle is degenerate.
     pub fn uv_per_metre(&self, hit: &Hit, directions: [Vec3; 2]) -> [Vec2; 2] {

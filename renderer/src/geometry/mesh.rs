@@ -35,6 +35,7 @@ pub struct TriangleMesh {
     positions: Vec<Vec3>,
     normals: Option<Vec<Vec3>>,
     uvs: Option<Vec<Vec2>>,
+    colours: Option<Vec<[f32; 3]>>,
     triangles: Vec<[u32; 3]>,
     dropped: DroppedFaces,
     bounds: Bounds,
@@ -288,10 +289,25 @@ impl TriangleMesh {
             positions,
             normals,
             uvs,
+            colours: None,
             triangles,
             dropped,
             bounds,
         })
+    }
+
+    /// The same mesh with a colour for each vertex.
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many colours as vertices.
+    #[must_use]
+    pub fn with_colours(self, colours: Vec<[f32; 3]>) -> Self {
+        assert_eq!(colours.len(), self.positions.len(), "one for each vertex");
+        Self {
+            colours: Some(colours),
+            ..self
+        }
     }
 
     /// Vertices, m. Vertices that no face uses may hold any value.
@@ -308,6 +324,11 @@ impl TriangleMesh {
     /// Texture coordinates, one per vertex.
     pub fn uvs(&self) -> Option<&[Vec2]> {
         self.uvs.as_deref()
+    }
+
+    /// Colours, one per vertex: factors on the colours of a material, linear sRGB in [0, 1].
+    pub fn colours(&self) -> Option<&[[f32; 3]]> {
+        self.colours.as_deref()
     }
 
     /// Faces as vertex numbers, counter-clockwise seen from the + side.
@@ -340,6 +361,10 @@ impl TriangleMesh {
                 .uvs
                 .as_ref()
                 .map_or(0, |uvs| uvs.capacity() * size_of::<Vec2>())
+            + self
+                .colours
+                .as_ref()
+                .map_or(0, |colours| colours.capacity() * size_of::<[f32; 3]>())
             + self.triangles.capacity() * size_of::<[u32; 3]>()
     }
 }

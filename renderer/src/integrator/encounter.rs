@@ -26,7 +26,7 @@ pub struct Encounter<'m, const N: usize> {
     pub wo: Vec3,
     /// Width of the ray there, m.
     pub width: f32,
-    /// Whether the material has a relief.
+    /// Whether the material has a relief or a map of normals.
     pub has_relief: bool,
 }
 
@@ -50,7 +50,14 @@ impl<'m, const N: usize> Encounter<'m, N> {
             let footprint = cone::footprint(width, facing);
             (relief, relief.seen(surface.uv, scale, footprint))
         });
-        let site = material.site(surface.uv, wavelengths);
+        let mut site = material.site(surface.uv, wavelengths);
+        if material.is_tinted() {
+            site.tint = geometry.colour(hit);
+        }
+        if material.has_normals() {
+            let scale = geometry.texture_scale(hit);
+            site.is_mirrored = scale.is_some_and(|scale| scale.is_mirrored);
+        }
         let relieved =
             relief.map(|(relief, seen)| (relief.faces(&seen), relief.grains(wavelengths)));
         // Made where it stays: a BSDF is large.
@@ -58,7 +65,7 @@ impl<'m, const N: usize> Encounter<'m, N> {
             bsdf: material.bsdf_at(&site, wavelengths),
             wo: facet::arriving(&surface, &frame, ray.direction()),
             width,
-            has_relief: relieved.is_some(),
+            has_relief: relieved.is_some() || material.has_normals(),
             frame,
             surface,
         };

@@ -35,6 +35,7 @@ pub(super) fn layered(scene: &Description) -> Option<String> {
             Material::Diffuse { .. }
             | Material::Dielectric { .. }
             | Material::Plastic { .. }
+            | Material::Model { .. }
             | Material::Solid { .. } => None,
         };
         ("materials", &material.name, faces)
@@ -61,12 +62,20 @@ pub(super) fn fluoresces(material: &Material) -> bool {
     )
 }
 
+/// The block of a material that is all that a model's own materials say, which Mitsuba does not have.
+pub(super) fn own_materials(scene: &Description) -> Option<String> {
+    let mut materials = scene.materials.iter();
+    let found = materials.find(|named| matches!(named.value, Material::Model { .. }));
+    found.map(|named| format!("materials.{}.gltf", named.name))
+}
+
 /// Whether a material becomes a BSDF of Mitsuba's own that scatters.
 pub(super) fn is_stock(material: &material::Material) -> bool {
     match material {
         material::Material::Diffuse(_) => true,
         material::Material::Dielectric(dielectric) => dielectric.eta != 1.0,
         material::Material::Plastic(_)
+        | material::Material::Model(_)
         | material::Material::Leaf(_)
         | material::Material::Solid(_) => false,
     }
@@ -145,6 +154,7 @@ pub(super) fn bsdf(
             .float("eta", *eta)
             .float("alpha", *roughness)
             .holding(shared(&id, own, reflectance, spectra)),
+        Material::Model { .. } => unreachable!("a scene with it was refused"),
         Material::Leaf {
             tissue,
             pigments: _,

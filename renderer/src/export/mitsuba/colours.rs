@@ -27,7 +27,8 @@ pub(super) fn texture(id: &str, name: &'static str, map: Option<&ColourMap>) -> 
         .with("name", name)
         .string("basis", BASIS)
         .float("repeats_u", u)
-        .float("repeats_v", v);
+        .float("repeats_v", v)
+        .boolean("tinted", map.is_tinted());
     let slots = map.slots().iter().enumerate();
     slots.fold(texture, |texture, (number, slot)| {
         let [r, g, b] = slot.factor;

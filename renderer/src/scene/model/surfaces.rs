@@ -1,7 +1,6 @@
 //! The triangles of a glTF file's scene, where its nodes place them.
 
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DQuat, DVec3, Vec2, Vec3};
 use gltf_json::mesh::{Mode, Primitive, Semantic};
@@ -13,7 +12,6 @@ use super::ModelError;
 use super::accessors::Accessors;
 use super::textures::Place;
 use crate::geometry::TriangleMesh;
-use crate::material::colour_map::ColourTexture;
 
 /// Greatest number of triangles of a model.
 const MOST_TRIANGLES: u64 = 1 << 27;
@@ -31,8 +29,6 @@ pub(super) struct Patch {
     /// Factors on the base colour, each in [0, 1].
     pub(super) colours: Option<Vec<[f32; 3]>>,
     pub(super) triangles: Vec<[u32; 3]>,
-    /// Those factors as a picture over `uvs`.
-    pub(super) painted: Option<Arc<ColourTexture>>,
 }
 
 impl Patch {
@@ -254,7 +250,6 @@ fn patch(
         uvs,
         colours,
         triangles: triangles.collect(),
-        painted: None,
     })
 }
 
@@ -264,8 +259,10 @@ pub(super) fn joined(patches: Vec<Patch>) -> Result<TriangleMesh, ModelError> {
         .iter()
         .any(|patch| patch.normals.iter().any(|normal| *normal != Vec3::ZERO));
     let has_uvs = patches.iter().any(|patch| patch.uvs.is_some());
+    let has_colours = patches.iter().any(|patch| patch.colours.is_some());
     let (mut positions, mut normals) = (Vec::new(), Vec::new());
     let (mut uvs, mut triangles) = (Vec::new(), Vec::new());
+    let mut colours = Vec::new();
     for patch in patches {
         let first = positions.len() as u32;
         let count = patch.vertices();
@@ -273,8 +270,16 @@ pub(super) fn joined(patches: Vec<Patch>) -> Result<TriangleMesh, ModelError> {
         positions.extend(patch.positions);
         normals.extend(patch.normals);
         uvs.extend(patch.uvs.unwrap_or_else(|| vec![Vec2::ZERO; count]));
+        if has_colours {
+            colours.extend(patch.colours.unwrap_or_else(|| vec![[1.0; 3]; count]));
+        }
     }
     let normals = has_normals.then_some(normals);
     let uvs = has_uvs.then_some(uvs);
-    Ok(TriangleMesh::new(positions, normals, uvs, triangles)?)
+    let mesh = TriangleMesh::new(positions, normals, uvs, triangles)?;
+    Ok(if has_colours {
+        mesh.with_colours(colours)
+    } else {
+        mesh
+    })
 }
