@@ -280,7 +280,14 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         let spectra = surroundings::spectra(&table);
         save(&surroundings::spectra_file(light), spectra.as_bytes())?;
     }
-    for light in &scene.lights {
+    for (number, light) in scene.lights.iter().enumerate() {
+        if let Some(map) = emitter::emission(scene, world, number) {
+            let id = units::light_id(&light.name);
+            for (name, picture) in colours::pictures(&id, map) {
+                openexr::write(&picture, &folder.join(name))?;
+            }
+            save(colours::BASIS, rgb::basis_text().as_bytes())?;
+        }
         if let Light::Area { .. } = light.value
             && let Some((file, layer)) = light.value.picture()
         {

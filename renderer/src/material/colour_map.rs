@@ -142,7 +142,7 @@ pub struct Slot {
     pub begins: f32,
     /// What is taken from u to have the picture's own.
     pub shift: f32,
-    /// Factor on the picture, in [0, 1].
+    /// Factor on the picture; in [0, 1] if these are reflectances.
     pub factor: [f32; 3],
     /// The picture; white without one.
     pub texture: Option<Arc<ColourTexture>>,
@@ -215,6 +215,20 @@ impl ColourMap {
     /// Evaluates the spectra of red, green and blue at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         self.primaries.tabulate(grid);
+    }
+
+    /// Numbers that red, green and blue exceed nowhere.
+    pub fn greatest(&self) -> [f32; 3] {
+        let mut most = [0.0_f32; 3];
+        for slot in &self.slots {
+            let texels = slot.texture.iter().flat_map(|texture| texture.texels());
+            let brightest = texels
+                .copied()
+                .reduce(|a, b| std::array::from_fn(|i| a[i].max(b[i])));
+            let brightest = brightest.unwrap_or([1.0; 3]);
+            most = std::array::from_fn(|i| most[i].max(slot.factor[i] * brightest[i]));
+        }
+        most
     }
 
     /// The number of the slot at texture coordinates, and those of its picture.

@@ -85,9 +85,18 @@ impl Description {
     pub fn wanted_of(&self, mesh: usize) -> Wanted {
         let materials = self.materials.iter().map(|named| &named.value);
         let of_it = materials.filter(|material| material.colours_of() == Some(mesh));
-        of_it.fold(Wanted::default(), |wanted, material| Wanted {
+        let emission = self
+            .lights
+            .iter()
+            .any(|light| light.value.emission_of(&self.objects) == Some(mesh));
+        let nothing = Wanted {
+            emission,
+            ..Wanted::default()
+        };
+        of_it.fold(nothing, |wanted, material| Wanted {
             colours: true,
             finishes: wanted.finishes || matches!(material, Material::Model { .. }),
+            emission,
         })
     }
 

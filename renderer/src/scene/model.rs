@@ -102,6 +102,8 @@ pub struct Wanted {
     pub colours: bool,
     /// Roughness, metal and normals, with the colours.
     pub finishes: bool,
+    /// Emitted light.
+    pub emission: bool,
 }
 
 impl Wanted {
@@ -109,6 +111,7 @@ impl Wanted {
     pub const ALL: Self = Self {
         colours: true,
         finishes: true,
+        emission: true,
     };
 }
 
@@ -121,6 +124,8 @@ pub struct Model {
     pub colours: Option<ColourMap>,
     /// For each slot of the colours what their material says besides, if it is wanted.
     pub finishes: Option<Vec<Finish>>,
+    /// The light that it emits, in units of what an emission of 1 stands for, if it is wanted.
+    pub emission: Option<ColourMap>,
     /// What the file has and this lacks, in words.
     pub left_out: Vec<String>,
 }
@@ -173,11 +178,16 @@ pub fn read<'a>(
     if wanted.finishes {
         finishes = Some(parts::finishes(&parts, &mut pictures, &mut left_out)?);
     }
+    let mut emission = None;
+    if wanted.emission {
+        emission = Some(parts::emission(&parts, &mut pictures, &mut left_out)?);
+    }
     let left_out = left_out.into_iter().collect();
     Ok(Model {
         mesh,
         colours,
         finishes,
+        emission,
         left_out,
     })
 }

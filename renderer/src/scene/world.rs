@@ -211,7 +211,7 @@ impl World {
             .map_err(WorldError::Focus)?;
         let seen = (&meshes[..], &instances[..], &objects);
         let origin = look(scene, &mut view, seen, options, &mut notes);
-        let placed = (&meshes[..], &instances[..], &first[..]);
+        let placed = (&meshes[..], &surfaces[..], &instances[..], &first[..]);
         let mut lights = all_lights(scene, placed, origin, &mut objects, &mut notes)?;
         let light_colours = colours_on_film(scene, &lights, &wavelengths, options)?;
         tabulate(&mut materials, &mut lights, wavelengths.grid());
@@ -301,10 +301,18 @@ fn tabulate(materials: &mut [Material], lights: &mut [Light], grid: &WavelengthG
     }
 }
 
+/// The meshes with the surfaces that they bring along, their instances, and the first one of each object.
+type Shining<'a> = (
+    &'a [TriangleMesh],
+    &'a [OwnSurface],
+    &'a [Instance],
+    &'a [usize],
+);
+
 /// The scene's lights; objects that emit light are told so.
 fn all_lights(
     scene: &Description,
-    (meshes, instances, first): (&[TriangleMesh], &[Instance], &[usize]),
+    (meshes, surfaces, instances, first): Shining<'_>,
     origin: DVec3,
     objects: &mut WorldObjects,
     notes: &mut Vec<String>,
@@ -318,7 +326,7 @@ fn all_lights(
         lights.extend(build_lights(
             &light.name,
             &light.value,
-            meshes,
+            (meshes, surfaces),
             instance_of,
             origin,
             notes,

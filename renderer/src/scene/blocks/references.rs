@@ -97,6 +97,10 @@ fn check_white_light(scene: &Description, keys: &Keys<'_>) {
 /// An area light needs a mesh object, and an object has at most one area light.
 fn check_shining(scene: &Description, keys: &Keys<'_>) {
     let mut shining = BTreeSet::new();
+    let is_plain = |mesh: usize| {
+        let mesh = scene.meshes.get(mesh);
+        mesh.is_some_and(|mesh| !matches!(mesh.value, Mesh::Gltf { .. }))
+    };
     for light in &scene.lights {
         let Light::Area { object, .. } = light.value else {
             continue;
@@ -117,6 +121,16 @@ fn check_shining(scene: &Description, keys: &Keys<'_>) {
         } else if shape.is_some_and(|shape| is_no_surface(scene, *shape)) {
             "is the boundary of a medium, and those do not shine"
         } else if shining.insert(object) {
+            if light
+                .value
+                .emission_of(&scene.objects)
+                .is_some_and(is_plain)
+            {
+                let problem = format!("`{}` has no mesh from a glTF file", named.name);
+                let help = "leave `emission` out, or name an object with a mesh of the kind `gltf`";
+                let path = ["lights", &light.name, "area", "emission"];
+                keys.refuse(&path, problem, help);
+            }
             continue;
         } else {
             "has an area light already"

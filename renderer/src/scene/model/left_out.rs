@@ -16,6 +16,9 @@ const MOST_NAMED: usize = 10;
 /// Extensions that are read, or change nothing of what is.
 const HARMLESS: [&str; 2] = ["KHR_texture_transform", "KHR_mesh_quantization"];
 
+/// The extension by which materials emit more than 1, read with the light that they emit.
+const STRENGTH: &str = "KHR_materials_emissive_strength";
+
 /// What is left out of a document of which this is wanted, in words.
 pub(super) fn of_document(root: &Root, wanted: Wanted) -> BTreeSet<String> {
     let mut left_out = BTreeSet::new();
@@ -56,7 +59,8 @@ pub(super) fn of_document(root: &Root, wanted: Wanted) -> BTreeSet<String> {
     }
     let extensions = root.extensions_used.iter().chain(&root.extensions_required);
     let extensions = extensions.map(String::as_str);
-    let extensions: BTreeSet<&str> = extensions.filter(|name| !HARMLESS.contains(name)).collect();
+    let is_read = |name: &str| HARMLESS.contains(&name) || (name == STRENGTH && wanted.emission);
+    let extensions: BTreeSet<&str> = extensions.filter(|name| !is_read(name)).collect();
     let count = extensions.len();
     for name in extensions.into_iter().take(MOST_NAMED) {
         left_out.insert(format!("extension {}", shown(name)));
@@ -91,5 +95,8 @@ fn of_material(material: &Material, wanted: Wanted, add: &mut impl FnMut(bool, &
         "maps of normals",
     );
     let glows = material.emissive_factor.0.iter().any(|part| *part > 0.0);
-    add(glows, "emitted light");
+    add(
+        glows && !wanted.emission,
+        "emitted light (an area light with `emission` has it)",
+    );
 }

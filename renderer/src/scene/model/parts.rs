@@ -17,6 +17,9 @@ use crate::material::model::Finish;
 /// thousandth of a picture's width.
 const WIDE: f32 = 8192.0;
 
+/// Greatest factor on the light that a material emits.
+const STRONGEST: f32 = 1e12;
+
 /// Where a material's pictures lie.
 #[derive(Debug)]
 pub(super) struct Part {
@@ -89,6 +92,7 @@ impl Part {
                 Of::Colour => "base colours",
                 Of::Finish => "roughness and metal",
                 Of::Normals => "normals",
+                Of::Emission => "emitted light",
             };
             left_out.insert(format!(
                 "maps of {what} with other texture coordinates than the first map of their material"
@@ -98,15 +102,15 @@ impl Part {
         Some(texture)
     }
 
-    /// Refuses a number of its material that is not in [0, 1].
-    fn check(&self, key: &str, values: &[f32]) -> Result<(), ModelError> {
+    /// Refuses numbers of its material that are below 0 or above `most`.
+    fn check(&self, key: &str, values: &[f32], most: f32) -> Result<(), ModelError> {
         let Some(material) = self.material else {
             return Ok(());
         };
-        if values.iter().all(|value| (0.0..=1.0).contains(value)) {
+        if values.iter().all(|value| (0.0..=most).contains(value)) {
             return Ok(());
         }
-        let place = format!("materials[{material}].pbrMetallicRoughness.{key}");
+        let place = format!("materials[{material}].{key}");
         let written: Vec<String> = values.iter().map(f32::to_string).collect();
         let mut written = written.join(", ");
         if values.len() > 1 {
@@ -114,7 +118,7 @@ impl Part {
         }
         Err(ModelError::invalid(
             place,
-            format!("is {written}; allowed is 0 to 1"),
+            format!("is {written}; allowed is 0 to {most}"),
         ))
     }
 }
@@ -133,13 +137,48 @@ pub(super) fn colours(
             colour.base_color_factor.0
         });
         let [r, g, b, _] = factor.unwrap_or([1.0; 4]);
-        part.check("baseColorFactor", &[r, g, b])?;
+        part.check("pbrMetallicRoughness.baseColorFactor", &[r, g, b], 1.0)?;
         let texture = part.texture(root, Of::Colour, left_out);
         let texture = texture.map(|texture| pictures.texture(texture, Stored::Srgb));
         slots.push(Slot {
             begins: part.begins,
             shift: part.shift,
             factor: [r, g, b],
+            texture: texture.transpose()?,
+        });
+    }
+    Ok(ColourMap::new(slots, Vec2::ONE))
+}
+
+/// The map of all light that is emitted, in units of what an emission of 1 stands for.
+pub(super) fn emission(
+    parts: &[Part],
+    pictures: &mut Pictures<'_, '_>,
+    left_out: &mut BTreeSet<String>,
+) -> Result<ColourMap, ModelError> {
+    let root = pictures.root;
+    let mut slots = Vec::new();
+    for part in parts {
+        let material = part.material.map(|material| &root.materials[material]);
+        let factor = material.map_or([0.0; 3], |material| material.emissive_factor.0);
+        part.check("emissiveFactor", &factor, 1.0)?;
+        let extensions = material.and_then(|material| material.extensions.as_ref());
+        let strength = extensions.and_then(|of| of.emissive_strength.as_ref());
+        let strength = strength.map_or(1.0, |of| of.emissive_strength.0);
+        let key = "extensions.KHR_materials_emissive_strength.emissiveStrength";
+        part.check(key, &[strength], STRONGEST)?;
+        let is_lit = factor.iter().any(|value| *value > 0.0);
+        if is_lit && material.is_some_and(|material| material.double_sided) {
+            left_out
+                .insert("light that backs of faces emit (lamps shine from the front)".to_owned());
+        }
+        let texture = part.texture(root, Of::Emission, left_out);
+        let texture = texture.filter(|_| is_lit);
+        let texture = texture.map(|texture| pictures.texture(texture, Stored::Srgb));
+        slots.push(Slot {
+            begins: part.begins,
+            shift: part.shift,
+            factor: factor.map(|value| value * strength),
             texture: texture.transpose()?,
         });
     }
@@ -162,8 +201,8 @@ pub(super) fn finishes(
             [colour.roughness_factor.0, colour.metallic_factor.0]
         });
         let [roughness, metallic] = numbers;
-        part.check("roughnessFactor", &[roughness])?;
-        part.check("metallicFactor", &[metallic])?;
+        part.check("pbrMetallicRoughness.roughnessFactor", &[roughness], 1.0)?;
+        part.check("pbrMetallicRoughness.metallicFactor", &[metallic], 1.0)?;
         let texture = part.texture(root, Of::Finish, left_out);
         let texture = texture.map(|texture| pictures.texture(texture, Stored::Numbers));
         let scale = material.and_then(|material| material.normal_texture.as_ref());

@@ -21,6 +21,7 @@ use crate::spectrum::{Curve, Lanes, Wavelengths};
 const COLOURS: Wanted = Wanted {
     colours: true,
     finishes: false,
+    emission: false,
 };
 
 fn wavelengths() -> Wavelengths<4> {
@@ -363,7 +364,7 @@ fn what_is_left_out_is_told_by_name() {
     list.expect("a list").push(line);
     let expected = [
         "animations",
-        "emitted light",
+        "emitted light (an area light with `emission` has it)",
         "extension \"KHR_lights_punctual\"",
         "extension \"KHR_materials_sheen\"",
         "lines and points",
@@ -590,6 +591,48 @@ fn a_map_of_normals_turns_them_along_u_and_v_on_mirrored_parts_too() {
             );
         }
     }
+}
+
+#[test]
+fn emitted_light_is_a_factor_times_a_strength_times_a_picture() {
+    let mut made = Made::empty();
+    let texture = made.texture(33071);
+    let paint = made.paint([1.0; 4], None);
+    let of = &mut made.json["materials"][paint];
+    of["emissiveFactor"] = json!([1.0, 0.5, 0.0]);
+    of["emissiveTexture"] = json!({ "index": texture });
+    of["extensions"] = json!({ "KHR_materials_emissive_strength": { "emissiveStrength": 3 } });
+    made.square(0.0, Some(paint));
+    made.square(1.0, None);
+    made.json["extensionsUsed"] = json!(["KHR_materials_emissive_strength"]);
+    let read = |made: &Made| {
+        let glb = made.glb();
+        let container = Container::open(&glb).expect("good JSON");
+        read(&container, &|_| None, 1.0, Wanted::ALL)
+    };
+    let model = read(&made).expect("a good model");
+    assert_eq!(model.left_out, Vec::<String>::new());
+    let map = model.emission.as_ref().expect("it was asked for");
+    let uvs = model.mesh.uvs().expect("it has them");
+    // Half way between the middles of black and white; the other square has no material.
+    assert_eq!(map.colour(uvs[0].lerp(uvs[2], 0.5)), [1.5, 0.75, 0.0]);
+    assert_eq!(map.colour(uvs[4].lerp(uvs[6], 0.5)), [0.0; 3]);
+    assert_eq!(map.greatest(), [3.0, 1.5, 0.0]);
+    made.json["materials"][paint]["doubleSided"] = json!(true);
+    let left_out = read(&made).expect("a good model").left_out;
+    assert_eq!(
+        left_out,
+        ["light that backs of faces emit (lamps shine from the front)"]
+    );
+    let of = &mut made.json["materials"][paint]["extensions"];
+    of["KHR_materials_emissive_strength"]["emissiveStrength"] = json!(-1);
+    let error = read(&made).map(|_| ()).expect_err("light is not negative");
+    assert!(
+        error
+            .to_string()
+            .contains("emissiveStrength: is -1; allowed is 0 to"),
+        "{error}"
+    );
 }
 
 #[test]

@@ -19,11 +19,13 @@ pub(super) enum Of {
     Finish,
     /// Its normals.
     Normals,
+    /// The light that it emits.
+    Emission,
 }
 
 impl Of {
     /// All of them. The first that a material has says where its parts have their texture coordinates.
-    const ALL: [Self; 3] = [Self::Colour, Self::Finish, Self::Normals];
+    const ALL: [Self; 4] = [Self::Colour, Self::Finish, Self::Normals, Self::Emission];
 }
 
 /// A texture of a material.
@@ -84,6 +86,7 @@ pub(super) fn texture(root: &Root, material: Option<usize>, of: Of) -> Option<Te
     let colour = &material.pbr_metallic_roughness;
     match of {
         Of::Colour => colour.base_color_texture.as_ref().map(described),
+        Of::Emission => material.emissive_texture.as_ref().map(described),
         Of::Finish => colour.metallic_roughness_texture.as_ref().map(described),
         Of::Normals => material.normal_texture.as_ref().map(|normals| {
             let others = normals.extensions.as_ref().map(|of| &of.others);

@@ -105,7 +105,9 @@ fn build_material(
             Material::Plastic(Box::new(PlasticMaterial::new(reflectance, coat)))
         }
         description::Material::Model { mesh } => {
-            let OwnSurface { colours, finishes } = &surfaces[*mesh];
+            let OwnSurface {
+                colours, finishes, ..
+            } = &surfaces[*mesh];
             let (colours, finishes) = colours
                 .clone()
                 .zip(finishes.clone())

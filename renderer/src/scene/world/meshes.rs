@@ -21,6 +21,8 @@ pub(super) struct OwnSurface {
     pub(super) colours: Option<ColourMap>,
     /// Roughness, metal and normals of each slot of the colours.
     pub(super) finishes: Option<Arc<[Finish]>>,
+    /// The light that it emits.
+    pub(super) emission: Option<ColourMap>,
 }
 
 /// A mesh that was built.
@@ -54,6 +56,7 @@ pub(in crate::scene) fn build_mesh(
             surface: OwnSurface {
                 colours: model.colours,
                 finishes: model.finishes.map(Arc::from),
+                emission: model.emission,
             },
             left_out: model.left_out,
         });
