@@ -38,6 +38,7 @@ pub struct TriangleMesh {
     colours: Option<Vec<[f32; 3]>>,
     triangles: Vec<[u32; 3]>,
     dropped: DroppedFaces,
+    crossing: usize,
     bounds: Bounds,
 }
 
@@ -292,6 +293,7 @@ impl TriangleMesh {
             colours: None,
             triangles,
             dropped,
+            crossing: 0,
             bounds,
         })
     }
@@ -339,6 +341,26 @@ impl TriangleMesh {
     /// Faces that were left out.
     pub fn dropped(&self) -> DroppedFaces {
         self.dropped
+    }
+
+    /// The same mesh from a file in which so many faces cross themselves.
+    #[must_use]
+    pub(super) fn with_crossing(self, crossing: usize) -> Self {
+        Self { crossing, ..self }
+    }
+
+    /// What a user should know of its faces: those that were left out, and those that cross
+    /// themselves.
+    pub fn remarks(&self) -> Vec<String> {
+        let dropped = (self.dropped.total() > 0).then(|| self.dropped.to_string());
+        let crossing = match self.crossing {
+            0 => None,
+            1 => Some("1 face crosses itself, and is a fan of triangles".to_owned()),
+            more => Some(format!(
+                "{more} faces cross themselves, and are fans of triangles"
+            )),
+        };
+        dropped.into_iter().chain(crossing).collect()
     }
 
     /// Smallest and largest coordinates of the faces, m.

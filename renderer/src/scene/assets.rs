@@ -472,14 +472,13 @@ impl Assets for Decoder {
         let extension = file.extension().and_then(|ending| ending.to_str());
         let mesh = geometry::import(&bytes, extension.unwrap_or(""), scale as f32)
             .map_err(|error| (error.to_string(), "save the mesh anew as PLY or OBJ"))?;
-        let dropped = mesh.dropped();
         Ok(Triangles {
             positions: mesh.positions().iter().map(|p| p.as_dvec3()).collect(),
             faces: mesh.triangles().to_vec(),
             normals: mesh
                 .normals()
                 .map(|normals| normals.iter().map(|normal| normal.as_dvec3()).collect()),
-            dropped: (dropped.total() > 0).then(|| dropped.to_string()),
+            dropped: Some(mesh.remarks().join("; ")).filter(|remarks| !remarks.is_empty()),
         })
     }
 }
