@@ -36,6 +36,7 @@ pub struct TriangleMesh {
     normals: Option<Vec<Vec3>>,
     uvs: Option<Vec<Vec2>>,
     colours: Option<Vec<[f32; 3]>>,
+    tangents: Option<Vec<[f32; 4]>>,
     triangles: Vec<[u32; 3]>,
     dropped: DroppedFaces,
     crossing: usize,
@@ -291,6 +292,7 @@ impl TriangleMesh {
             normals,
             uvs,
             colours: None,
+            tangents: None,
             triangles,
             dropped,
             crossing: 0,
@@ -333,6 +335,12 @@ impl TriangleMesh {
         self.colours.as_deref()
     }
 
+    /// Tangents, one per vertex: the direction of a map's x axis, of any length, and the sign with which
+    /// the normal times that direction is its y axis. Zero where the texture coordinates have to do.
+    pub fn tangents(&self) -> Option<&[[f32; 4]]> {
+        self.tangents.as_deref()
+    }
+
     /// Faces as vertex numbers, counter-clockwise seen from the + side.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
@@ -341,6 +349,20 @@ impl TriangleMesh {
     /// Faces that were left out.
     pub fn dropped(&self) -> DroppedFaces {
         self.dropped
+    }
+
+    /// The same mesh with a tangent for each vertex.
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many tangents as vertices.
+    #[must_use]
+    pub fn with_tangents(self, tangents: Vec<[f32; 4]>) -> Self {
+        assert_eq!(tangents.len(), self.positions.len(), "one for each vertex");
+        Self {
+            tangents: Some(tangents),
+            ..self
+        }
     }
 
     /// The same mesh from a file in which so many faces cross themselves.
@@ -387,6 +409,10 @@ impl TriangleMesh {
                 .colours
                 .as_ref()
                 .map_or(0, |colours| colours.capacity() * size_of::<[f32; 3]>())
+            + self
+                .tangents
+                .as_ref()
+                .map_or(0, |tangents| tangents.capacity() * size_of::<[f32; 4]>())
             + self.triangles.capacity() * size_of::<[u32; 3]>()
     }
 }

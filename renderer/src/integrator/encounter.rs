@@ -1,6 +1,6 @@
 //! The point where a ray meets a surface, and how light is scattered there.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::bsdf::Bsdf;
 use crate::geometry::frame::Frame;
@@ -30,6 +30,20 @@ pub struct Encounter<'m, const N: usize> {
     pub has_relief: bool,
 }
 
+/// The axes of a map of normals in the frame of a BSDF: those of the mesh's tangents, or else those
+/// along which u and v grow.
+fn map_axes(geometry: &Geometry, hit: &Hit, frame: &Frame) -> [Vec2; 2] {
+    let given = geometry.tangent(hit).and_then(|(tangent, sign)| {
+        let x = frame.to_local(tangent).truncate().try_normalize()?;
+        Some([x, x.perp() * sign])
+    });
+    given.unwrap_or_else(|| {
+        let scale = geometry.texture_scale(hit);
+        let is_mirrored = scale.is_some_and(|scale| scale.is_mirrored);
+        [if is_mirrored { -Vec2::X } else { Vec2::X }, Vec2::Y]
+    })
+}
+
 impl<'m, const N: usize> Encounter<'m, N> {
     /// The encounter of a ray, with its cone, at a hit of a surface of this material.
     #[inline]
@@ -55,8 +69,7 @@ impl<'m, const N: usize> Encounter<'m, N> {
             site.tint = geometry.colour(hit);
         }
         if material.has_normals() {
-            let scale = geometry.texture_scale(hit);
-            site.is_mirrored = scale.is_some_and(|scale| scale.is_mirrored);
+            site.map_axes = map_axes(geometry, hit, &frame);
         }
         let relieved =
             relief.map(|(relief, seen)| (relief.faces(&seen), relief.grains(wavelengths)));

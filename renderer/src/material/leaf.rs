@@ -309,8 +309,9 @@ pub struct Site<const N: usize> {
     pub uv: Vec2,
     /// Factor on the colours of a map, linear sRGB.
     pub tint: [f32; 3],
-    /// Whether u runs against the x axis of the frame of the BSDF.
-    pub is_mirrored: bool,
+    /// The x and the y axis of a map of normals in the frame of the BSDF, whose z axis is the shading
+    /// normal.
+    pub map_axes: [Vec2; 2],
     /// Of a leaf with a map in which light spreads, where that entered which leaves there, and the
     /// texels around.
     spreading: Option<(Entry<N>, Around)>,
@@ -322,7 +323,7 @@ impl<const N: usize> Site<N> {
         Self {
             uv,
             tint: [1.0; 3],
-            is_mirrored: false,
+            map_axes: [Vec2::X, Vec2::Y],
             spreading: None,
         }
     }

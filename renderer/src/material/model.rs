@@ -28,7 +28,7 @@ pub struct Finish {
     pub metallic: f32,
     /// Factors on the roughness, in its second channel, and on the metal, in its third.
     pub texture: Option<Arc<ColourTexture>>,
-    /// Normals (x along u, y along v) that are stored as ½ + ½ n, and a factor on x and y.
+    /// Normals, x and y along [`Site::map_axes`], that are stored as ½ + ½ n, and a factor on x and y.
     pub normals: Option<(Arc<ColourTexture>, f32)>,
 }
 
@@ -98,12 +98,10 @@ impl ModelMaterial {
         let roughness = finish.roughness * rough;
         let alphas = [roughness * roughness; 2];
         let normals = finish.normals.as_ref();
-        let mut slope = normals.map_or(Vec2::ZERO, |(texture, scale)| {
-            slope_of(texture.at(uv), *scale)
+        let slope = normals.map_or(Vec2::ZERO, |(texture, scale)| {
+            let [x, y] = slope_of(texture.at(uv), *scale).to_array();
+            site.map_axes[0] * x + site.map_axes[1] * y
         });
-        if site.is_mirrored {
-            slope.x = -slope.x;
-        }
         MetallicRoughness {
             colour: self.colours.spectrum(site.uv, site.tint, wavelengths),
             metallic: finish.metallic * metal,

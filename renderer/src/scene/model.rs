@@ -166,6 +166,11 @@ pub fn read<'a>(
             patch.colours = None;
         }
     }
+    if !wanted.finishes {
+        for patch in &mut patches {
+            patch.tangents = None;
+        }
+    }
     let parts = parts::side_by_side(&mut patches, &mut left_out);
     let mesh = surfaces::joined(patches)?;
     let mut colours = None;

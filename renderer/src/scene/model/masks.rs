@@ -94,6 +94,10 @@ fn cut(patch: &mut Patch, mask: &Mask) -> Option<()> {
                     .colours
                     .as_ref()
                     .map_or([1.0; 3], |colours| colours[corner]),
+                tangent: patch
+                    .tangents
+                    .as_ref()
+                    .map_or([0.0; 4], |tangents| tangents[corner]),
             }
         });
         match mask.cut(triangle, MOST_TRIANGLES - added)? {
@@ -109,6 +113,8 @@ fn cut(patch: &mut Patch, mask: &Mask) -> Option<()> {
                         patch.uvs.iter_mut().for_each(|uvs| uvs.push(corner.uv));
                         let colours = patch.colours.iter_mut();
                         colours.for_each(|colours| colours.push(corner.colour));
+                        let tangents = patch.tangents.iter_mut();
+                        tangents.for_each(|tangents| tangents.push(corner.tangent));
                     }
                 }
             }

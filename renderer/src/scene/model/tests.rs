@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use glam::{DAffine3, Vec2, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use serde_json::{Value, json};
 
 use super::*;
@@ -633,6 +633,63 @@ fn emitted_light_is_a_factor_times_a_strength_times_a_picture() {
             .contains("emissiveStrength: is -1; allowed is 0 to"),
         "{error}"
     );
+}
+
+#[test]
+fn a_map_of_normals_follows_the_tangents_of_the_file_as_nodes_turn_and_mirror_them() {
+    // 0.6 along x of the map, 0.48 along y, 0.64 away from the surface.
+    let png = portable_network::encoded(1, 1, &[204, 189, 209]).expect("one pixel");
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    for (sign, node, tangent) in [
+        (1.0, json!({ "mesh": 0 }), Vec3::Z),
+        (-1.0, json!({ "mesh": 0 }), Vec3::Z),
+        // The tangent, up in the file, is turned about its z axis, which is −y of the scene.
+        (
+            1.0,
+            json!({ "mesh": 0, "rotation": [0, 0, half, half] }),
+            -Vec3::X,
+        ),
+        (1.0, json!({ "mesh": 0, "scale": [-1, 1, 1] }), Vec3::Z),
+    ] {
+        let mut made = Made::empty();
+        let texture = made.texture(33071);
+        let view = made.view(&png);
+        made.json["images"][0]["bufferView"] = json!(view);
+        let paint = made.paint([0.5; 4], None);
+        made.json["materials"][paint]["normalTexture"] = json!({ "index": texture });
+        let mirrors = node["scale"][0] == json!(-1);
+        made.json["nodes"] = json!([node]);
+        made.square(0.0, Some(paint));
+        let tangents = made.floats(&[[0.0, 1.0, 0.0, sign]; 4]);
+        made.json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = json!(tangents);
+        let (mesh, material, left_out) = whole(&made);
+        assert_eq!(left_out, Vec::<String>::new());
+        let normal = -Vec3::Y;
+        let sign = if mirrors { -sign } else { sign };
+        let bitangent = sign * normal.cross(tangent);
+        let expected = 0.6 * tangent + 0.48 * bitangent + 0.64 * normal;
+        let found = met((&mesh, &material), [0.1, 0.2], normal, |met| {
+            met.frame.to_world(met.bsdf.normal(met.wo))
+        });
+        assert!((found - expected).length() < 0.01, "{found} {expected}");
+        // Twice as large, turned about z, and mirrored in x after that, alone and among others.
+        let turn = DMat3::from_rotation_z(0.5 * std::f64::consts::PI);
+        let placed = DMat3::from_diagonal(DVec3::new(-2.0, 2.0, 2.0)) * turn;
+        for count in [1, 2] {
+            let place = Instance::new(0, &DAffine3::from_mat3(placed));
+            let places = vec![place; count];
+            let geometry = Geometry::build(vec![mesh.clone()], places).expect("squares");
+            let ray = Ray::new(Vec3::new(-1.0, 0.2, 0.4), Vec3::X);
+            let hit = geometry.intersect(&ray).expect("it is there");
+            let (found, found_sign) = geometry.tangent(&hit).expect("it has them");
+            let tangent = placed.as_mat3() * tangent;
+            assert!(
+                found.normalize().dot(tangent.normalize()) > 0.999,
+                "{found} {tangent}"
+            );
+            assert_eq!(found_sign, -sign);
+        }
+    }
 }
 
 #[test]
