@@ -108,21 +108,29 @@ class ColourTexture(mi.Texture):
         while f"slot_{len(self.slots)}" in props:
             self.slots.append(Slot(str(props.get(f"slot_{len(self.slots)}"))))
 
-    def eval(self, si: Any, active: Any = True) -> Any:
-        """Reflectance at a hit, at its wavelengths."""
-        u, v = si.uv.x, si.uv.y
-        colour = self.slots[0].at(u, v, self.repeats)
-        for slot in self.slots[1:]:
-            here = u >= slot.begins
-            other = slot.at(u, v, self.repeats)
-            colour = [dr.select(here, b, a) for a, b in zip(colour, other, strict=True)]
+    def chosen(self, si: Any, values: list[Any]) -> Any:
+        """That of a list of values, one for each slot, whose slot is at a hit."""
+        value = values[0]
+        for slot, other in zip(self.slots[1:], values[1:], strict=True):
+            value = dr.select(si.uv.x >= slot.begins, other, value)
+        return value
+
+    def eval_3(self, si: Any, active: Any = True) -> Any:
+        """The colour at a hit."""
+        colours = [slot.at(si.uv.x, si.uv.y, self.repeats) for slot in self.slots]
+        colour = [self.chosen(si, list(channel)) for channel in zip(*colours, strict=True)]
         if self.is_tinted:
             tint = si.shape.eval_attribute_3("vertex_tint", si, active)
             colour = [value * factor for value, factor in zip(colour, tint, strict=True)]
+        return mi.Color3f(*colour)
+
+    def eval(self, si: Any, active: Any = True) -> Any:
+        """Reflectance at a hit, at its wavelengths."""
+        colour = self.eval_3(si, active)
         at, share = cell(Double, (Double(si.wavelengths) - self.first) / self.step, self.count)
         above = [i + 1 for i in at] if isinstance(at, list) else at + 1
         reflected = Double(0.0)
-        for value, basis in zip(colour, self.basis, strict=True):
+        for value, basis in zip((colour.x, colour.y, colour.z), self.basis, strict=True):
             low, high = basis.at(Double, at), basis.at(Double, above)
             reflected = reflected + Double(value) * (low + share * (high - low))
         return mi.UnpolarizedSpectrum(reflected)

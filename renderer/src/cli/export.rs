@@ -28,7 +28,7 @@ pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
         | ExportError::Nested { .. }
         | ExportError::CameraInside
         | ExportError::Layers { .. }
-        | ExportError::OwnMaterials { .. }
+        | ExportError::Tangents { .. }
         | ExportError::NotOurs { .. } => Failure::bad(error),
     })?;
     say(arguments.out.display());

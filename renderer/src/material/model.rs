@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
-use super::colour_map::{ColourMap, ColourTexture};
+use super::colour_map::{ColourMap, ColourTexture, Slot};
 use super::leaf::Site;
 use crate::bsdf::coat_table::{Bloom, CoatTable};
 use crate::bsdf::metallic_roughness::MetallicRoughness;
@@ -15,6 +15,9 @@ use crate::spectrum::{WavelengthGrid, Wavelengths};
 const ETA: f32 = 1.5;
 /// Index of a coat that reflects all light.
 const MIRROR: f32 = f32::INFINITY;
+
+/// The normal of the surface itself, as stored.
+const FLAT: [f32; 3] = [0.5, 0.5, 1.0];
 
 /// Least part of a normal of a map that points away from the surface.
 const LEAST_UPWARD: f32 = 0.02;
@@ -71,6 +74,41 @@ impl ModelMaterial {
     /// Its base colours.
     pub fn colours(&self) -> &ColourMap {
         &self.colours
+    }
+
+    /// Roughness and metal of all slots as a map of which they are green and blue, and the normals as
+    /// stored.
+    pub fn finish_maps(&self) -> [ColourMap; 2] {
+        let map = |of: &dyn Fn(&Finish) -> ([f32; 3], Option<Arc<ColourTexture>>)| {
+            let slots = self.colours.slots().iter().zip(&*self.finishes);
+            let slots = slots.map(|(slot, finish)| {
+                let (factor, texture) = of(finish);
+                Slot {
+                    factor,
+                    texture,
+                    ..*slot
+                }
+            });
+            ColourMap::new(slots.collect(), Vec2::ONE)
+        };
+        [
+            map(&|finish| {
+                (
+                    [1.0, finish.roughness, finish.metallic],
+                    finish.texture.clone(),
+                )
+            }),
+            map(&|finish| match &finish.normals {
+                Some((texture, _)) => ([1.0; 3], Some(Arc::clone(texture))),
+                None => (FLAT, None),
+            }),
+        ]
+    }
+
+    /// Factors on x and y of the normals of all slots.
+    pub fn normal_scales(&self) -> impl Iterator<Item = f32> + '_ {
+        let finishes = self.finishes.iter();
+        finishes.map(|finish| finish.normals.as_ref().map_or(1.0, |(_, scale)| *scale))
     }
 
     /// Whether any part has a map of normals.

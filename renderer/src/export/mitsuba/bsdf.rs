@@ -19,6 +19,8 @@ const LEAF: &str = "lamina_leaf";
 const RELIEF: &str = "lamina_relief";
 /// Plugin for diffuse bodies below a coat, in `reference/`.
 const PLASTIC: &str = "lamina_plastic";
+/// Plugin for the materials of models, in `reference/`.
+const MODEL: &str = "lamina_model";
 /// Plugin for solid tissue, in `reference/`.
 const SOLID: &str = "lamina_solid";
 
@@ -60,13 +62,6 @@ pub(super) fn fluoresces(material: &Material) -> bool {
             ..
         }
     )
-}
-
-/// The block of a material that is all that a model's own materials say, which Mitsuba does not have.
-pub(super) fn own_materials(scene: &Description) -> Option<String> {
-    let mut materials = scene.materials.iter();
-    let found = materials.find(|named| matches!(named.value, Material::Model { .. }));
-    found.map(|named| format!("materials.{}.gltf", named.name))
 }
 
 /// Whether a material becomes a BSDF of Mitsuba's own that scatters.
@@ -154,7 +149,19 @@ pub(super) fn bsdf(
             .float("eta", *eta)
             .float("alpha", *roughness)
             .holding(shared(&id, own, reflectance, spectra)),
-        Material::Model { .. } => unreachable!("a scene with it was refused"),
+        Material::Model { .. } => {
+            let material::Material::Model(model) = own else {
+                unreachable!("it was built of it")
+            };
+            let maps = ["colours", "finish", "normals"].into_iter();
+            let maps = maps.zip(colours::maps(&id, own));
+            let maps = maps.map(|(name, (id, map))| colours::texture(&id, name, Some(&map)));
+            let bsdf = Element::plugin("bsdf", MODEL).called(&id).holding_all(maps);
+            let scales = model.normal_scales().enumerate();
+            scales.fold(bsdf, |bsdf, (slot, scale)| {
+                bsdf.float(&format!("normal_scale_{slot}"), f64::from(scale))
+            })
+        }
         Material::Leaf {
             tissue,
             pigments: _,
