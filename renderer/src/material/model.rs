@@ -41,6 +41,7 @@ pub struct ModelMaterial {
     colours: ColourMap,
     /// For each slot of the colours.
     finishes: Arc<[Finish]>,
+    has_normals: bool,
     coat: Coats,
     mirror: Coats,
 }
@@ -65,6 +66,7 @@ impl ModelMaterial {
     pub fn new(colours: ColourMap, finishes: Arc<[Finish]>) -> Self {
         Self {
             colours,
+            has_normals: finishes.iter().any(|finish| finish.normals.is_some()),
             finishes,
             coat: Coats::of(ETA),
             mirror: Coats::of(MIRROR),
@@ -79,28 +81,29 @@ impl ModelMaterial {
     /// Roughness and metal of all slots as a map of which they are green and blue, and the normals as
     /// stored.
     pub fn finish_maps(&self) -> [ColourMap; 2] {
-        let map = |of: &dyn Fn(&Finish) -> ([f32; 3], Option<Arc<ColourTexture>>)| {
+        let map = |of: &dyn Fn(&Finish) -> Slot| {
             let slots = self.colours.slots().iter().zip(&*self.finishes);
-            let slots = slots.map(|(slot, finish)| {
-                let (factor, texture) = of(finish);
-                Slot {
-                    factor,
-                    texture,
-                    ..*slot
-                }
+            let slots = slots.map(|(slot, finish)| Slot {
+                begins: slot.begins,
+                shift: slot.shift,
+                ..of(finish)
             });
             ColourMap::new(slots.collect(), Vec2::ONE)
         };
+        let slot = |factor, texture| Slot {
+            begins: 0.0,
+            shift: 0.0,
+            factor,
+            texture,
+        };
         [
             map(&|finish| {
-                (
-                    [1.0, finish.roughness, finish.metallic],
-                    finish.texture.clone(),
-                )
+                let factor = [1.0, finish.roughness, finish.metallic];
+                slot(factor, finish.texture.clone())
             }),
             map(&|finish| match &finish.normals {
-                Some((texture, _)) => ([1.0; 3], Some(Arc::clone(texture))),
-                None => (FLAT, None),
+                Some((texture, _)) => slot([1.0; 3], Some(Arc::clone(texture))),
+                None => slot(FLAT, None),
             }),
         ]
     }
@@ -112,8 +115,9 @@ impl ModelMaterial {
     }
 
     /// Whether any part has a map of normals.
+    #[inline]
     pub fn has_normals(&self) -> bool {
-        self.finishes.iter().any(|finish| finish.normals.is_some())
+        self.has_normals
     }
 
     /// Evaluates what depends on wavelength alone, at every wavelength of a grid.

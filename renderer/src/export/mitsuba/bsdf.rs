@@ -149,19 +149,7 @@ pub(super) fn bsdf(
             .float("eta", *eta)
             .float("alpha", *roughness)
             .holding(shared(&id, own, reflectance, spectra)),
-        Material::Model { .. } => {
-            let material::Material::Model(model) = own else {
-                unreachable!("it was built of it")
-            };
-            let maps = ["colours", "finish", "normals"].into_iter();
-            let maps = maps.zip(colours::maps(&id, own));
-            let maps = maps.map(|(name, (id, map))| colours::texture(&id, name, Some(&map)));
-            let bsdf = Element::plugin("bsdf", MODEL).called(&id).holding_all(maps);
-            let scales = model.normal_scales().enumerate();
-            scales.fold(bsdf, |bsdf, (slot, scale)| {
-                bsdf.float(&format!("normal_scale_{slot}"), f64::from(scale))
-            })
-        }
+        Material::Model { .. } => model(&id, own),
         Material::Leaf {
             tissue,
             pigments: _,
@@ -185,6 +173,21 @@ pub(super) fn bsdf(
             optics,
         } => solid_optics(plugin(SOLID, held.extrapolates()), optics),
     }
+}
+
+/// The materials of a model.
+fn model(id: &str, own: &material::Material) -> Element {
+    let material::Material::Model(model) = own else {
+        unreachable!("it was built of one")
+    };
+    let maps = ["colours", "finish", "normals"].into_iter();
+    let maps = maps.zip(colours::maps(id, own));
+    let maps = maps.map(|(name, (id, map))| colours::texture(&id, name, Some(&map)));
+    let bsdf = Element::plugin("bsdf", MODEL).called(id).holding_all(maps);
+    let scales = model.normal_scales().enumerate();
+    scales.fold(bsdf, |bsdf, (slot, scale)| {
+        bsdf.float(&format!("normal_scale_{slot}"), f64::from(scale))
+    })
 }
 
 /// The parameter `reflectance`: a spectrum, or a texture that is written to files beside.

@@ -78,12 +78,12 @@ fn of_material(material: &Material, wanted: Wanted, add: &mut impl FnMut(bool, &
     let is_metal = colour.metallic_factor.0 > 0.0;
     add(
         is_plain && is_metal,
-        "metal (its base colour is taken as that of paint)",
+        "metal (its base colour is taken as that of paint; the material `gltf` uses it)",
     );
     let is_rough = colour.roughness_factor.0 == 1.0 && colour.metallic_roughness_texture.is_none();
     add(
         is_plain && !is_rough,
-        "roughness (that of the scene's material holds)",
+        "roughness (that of the scene's material holds; the material `gltf` uses it)",
     );
     add(
         material.alpha_mode == Checked::Valid(AlphaMode::Blend),
@@ -92,11 +92,11 @@ fn of_material(material: &Material, wanted: Wanted, add: &mut impl FnMut(bool, &
     add(material.occlusion_texture.is_some(), "maps of occlusion");
     add(
         is_plain && material.normal_texture.is_some(),
-        "maps of normals",
+        "maps of normals (the material `gltf` uses them)",
     );
     let glows = material.emissive_factor.0.iter().any(|part| *part > 0.0);
     add(
         glows && !wanted.emission,
-        "emitted light (an area light with `emission` has it)",
+        "emitted light (`emission = true` of an area light uses it)",
     );
 }

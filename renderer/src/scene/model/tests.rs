@@ -364,14 +364,14 @@ fn what_is_left_out_is_told_by_name() {
     list.expect("a list").push(line);
     let expected = [
         "animations",
-        "emitted light (an area light with `emission` has it)",
+        "emitted light (`emission = true` of an area light uses it)",
         "extension \"KHR_lights_punctual\"",
         "extension \"KHR_materials_sheen\"",
         "lines and points",
         "maps of occlusion",
-        "metal (its base colour is taken as that of paint)",
+        "metal (its base colour is taken as that of paint; the material `gltf` uses it)",
         "partial transparency (alpha mode BLEND is taken as opaque)",
-        "roughness (that of the scene's material holds)",
+        "roughness (that of the scene's material holds; the material `gltf` uses it)",
     ];
     assert_eq!(made.model().expect("a good model").left_out, expected);
 }

@@ -284,7 +284,7 @@ mod tests {
         let without = LAMP.replace("emission = true\n", "");
         let (_, notes) = rendered(&without, folder.path());
         assert!(
-            notes[0].contains("emitted light (an area light with `emission` has it)"),
+            notes[0].contains("emitted light (`emission = true` of an area light uses it)"),
             "{notes:?}"
         );
         // And a lamp of it that is dark is refused.
