@@ -2,8 +2,10 @@
 //! is lost.
 
 use glam::{Vec2, Vec3};
+use renderer::bsdf::coat_table::{Bloom, CoatTable};
 use renderer::bsdf::dielectric::Dielectric;
 use renderer::bsdf::leaf::{Coat, LeafBsdf, Tissue};
+use renderer::bsdf::metallic_roughness::MetallicRoughness;
 use renderer::bsdf::{Bsdf, View};
 use renderer::geometry::frame::Frame;
 use renderer::geometry::{Ray, SurfacePoint};
@@ -407,6 +409,21 @@ fn light_near_a_tilted_triangle_is_drawn_as_its_density_says_and_keeps_its_energ
     let opaque = LeafBsdf::new(&coats, Tissue::opaque(Lanes::splat(0.9)));
     assert_closed("plastic", &Bsdf::Leaf(opaque));
     assert_closed("diffuse", &Bsdf::Diffuse(Lanes::splat(0.8)));
+    let coats = [1.5, f32::INFINITY].map(|eta| {
+        let table = CoatTable::of(eta);
+        (eta, Bloom::new(0.0, &table), table)
+    });
+    let [coat, mirror] = coats
+        .each_ref()
+        .map(|(eta, bare, table)| table.coat(*eta, [0.3; 2], bare));
+    let metal = MetallicRoughness {
+        colour: Lanes::splat(0.8),
+        metallic: 0.5,
+        coat,
+        mirror,
+        slope: Vec2::new(0.3, -0.2),
+    };
+    assert_closed("paint and metal", &Bsdf::Metallic(metal));
     let glass = Dielectric {
         eta: 1.5,
         alpha: 0.4,

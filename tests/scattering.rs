@@ -1,9 +1,13 @@
 //! The BSDFs: drawn as their densities say, reciprocal, without gain or loss.
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3};
 use renderer::bsdf::Bsdf;
+use renderer::bsdf::coat_table::{Bloom, CoatTable};
 use renderer::bsdf::dielectric::Dielectric;
 use renderer::bsdf::leaf::{Coat, LeafBsdf, Tissue};
+use renderer::bsdf::metallic_roughness::MetallicRoughness;
 use renderer::sampling::stream::Stream;
 use renderer::spectrum::Lanes;
 use support::chi_square::{ChiSquare, sidak};
@@ -285,13 +289,38 @@ const OBLIQUE: [Vec3; 4] = [
     Vec3::new(0.48, -0.6, -0.64),
 ];
 
+/// Coats of any roughness for a surface between paint and metal: of paint, and of all light.
+fn model() -> [(f32, Arc<CoatTable>, Bloom); 2] {
+    [1.5, f32::INFINITY].map(|eta| {
+        let table = CoatTable::of(eta);
+        let bare = Bloom::new(0.0, &table);
+        (eta, table, bare)
+    })
+}
+
+/// Half metal, on a slope.
+fn tilted(model: &[(f32, Arc<CoatTable>, Bloom); 2]) -> Bsdf<'_, 8> {
+    let [coat, mirror] = model
+        .each_ref()
+        .map(|(eta, table, bare)| table.coat(*eta, [0.3; 2], bare));
+    Bsdf::Metallic(MetallicRoughness {
+        colour: Lanes::from_fn(|lane| 0.1 * lane as f32),
+        metallic: 0.5,
+        coat,
+        mirror,
+        slope: Vec2::new(0.3, -0.2),
+    })
+}
+
 #[test]
 fn every_bsdf_is_sampled_as_its_density_says() {
     let glossy = [Coat::new(1.45, 0.15, 0.3), Coat::new(1.4, 0.5, 0.5)];
     let matt = coats(0.6);
     let glaze = Coat::new(1.5, 0.1, 0.1);
     let glaze = [glaze.clone(), glaze];
-    let cases: [(&str, Bsdf<'_, 8>); 6] = [
+    let model = model();
+    let cases: [(&str, Bsdf<'_, 8>); 7] = [
+        ("tilted paint and metal", tilted(&model)),
         ("glazed body", Bsdf::Leaf(coated(&glaze, 0.3))),
         ("diffuse", Bsdf::Diffuse(Lanes::splat(0.5))),
         ("glossy leaf", Bsdf::Leaf(leaf(&glossy, 0.1, 0.08))),

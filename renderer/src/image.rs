@@ -51,6 +51,7 @@ use image::metadata::Orientation;
 use thiserror::Error;
 
 pub use compare::{ChannelComparison, Comparison, compare};
+pub use encoding::Stored;
 
 /// Greatest number of pixels of a picture.
 pub const MOST_PIXELS: u64 = 1 << 28;

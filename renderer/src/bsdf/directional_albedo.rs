@@ -60,7 +60,12 @@ impl DirectionalAlbedo {
         let entry = |number: usize| {
             let sin2 = azimuths[number / MU_NODES];
             let mu = mu_of((number % MU_NODES) as f32);
-            reflected_share(ggx, eta, mu, sin2, &points)
+            reflected_share(
+                ggx,
+                |cos| fresnel::dielectric(cos, eta),
+                (mu, sin2),
+                &points,
+            )
         };
         // Collected by number, so that it is the same on any number of threads.
         let entries = (0..azimuths.len() * MU_NODES).into_par_iter().map(entry);
@@ -162,8 +167,14 @@ pub(super) fn lattice_on_disc((count, step): (u32, u32)) -> Vec<Vec2> {
     (0..count).map(point).collect()
 }
 
-/// `E` at one direction, by a lattice over the visible normals: the integrand `F G₂ / G₁` is smooth.
-pub(super) fn reflected_share(ggx: Ggx, eta: f32, mu: f32, sin2_phi: f32, points: &[Vec2]) -> f32 {
+/// `E` at one direction, given by its cosine and `sin² φ`, by a lattice over the visible normals: the
+/// integrand `F G₂ / G₁` is smooth.
+pub(super) fn reflected_share(
+    ggx: Ggx,
+    fresnel: impl Fn(f32) -> f32,
+    (mu, sin2_phi): (f32, f32),
+    points: &[Vec2],
+) -> f32 {
     // At exactly grazing incidence the limit is taken from close by.
     let mu = mu.max(0.25 * mu_of(1.0));
     let sin = (1.0 - mu * mu).max(0.0).sqrt();
@@ -177,7 +188,7 @@ pub(super) fn reflected_share(ggx: Ggx, eta: f32, mu: f32, sin2_phi: f32, points
         let wi = 2.0 * cos * h - wo;
         if cos > 0.0 && wi.z > 0.0 {
             let g2 = 1.0 / (1.0 + lambda + ggx.lambda(wi));
-            sum += f64::from(fresnel::dielectric(cos, eta) * g2 / g1);
+            sum += f64::from(fresnel(cos) * g2 / g1);
         }
     }
     (sum / points.len() as f64) as f32

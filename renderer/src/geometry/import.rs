@@ -14,6 +14,7 @@ use glam::{Vec2, Vec3};
 use leafmodel::document::source::escaped;
 use thiserror::Error;
 
+use self::polygon::Cover;
 use super::mesh::{MeshError, TriangleMesh};
 
 /// Greatest number of corners of a face.
@@ -64,6 +65,8 @@ struct RawMesh {
     triangles: Vec<[u32; 3]>,
     /// Those of the triangles that are the fan of a face with more corners.
     fans: Vec<Range<usize>>,
+    /// Number of faces that cross themselves.
+    crossing: usize,
 }
 
 impl RawMesh {
@@ -96,7 +99,9 @@ impl RawMesh {
             else {
                 continue;
             };
-            if let Some(better) = polygon::triangles(&places) {
+            let cover = polygon::cover(&places);
+            self.crossing += usize::from(cover == Cover::Nothing);
+            if let Cover::Triangles(better) = cover {
                 covered.extend(&self.triangles[taken..fan.start]);
                 let numbered = better.iter();
                 covered.extend(numbered.map(|places| places.map(|place| corners[place])));
@@ -135,12 +140,8 @@ pub fn import(bytes: &[u8], extension: &str, scale: f32) -> Result<TriangleMesh,
     for position in &mut raw.positions {
         *position *= scale;
     }
-    Ok(TriangleMesh::new(
-        raw.positions,
-        raw.normals,
-        raw.uvs,
-        raw.triangles,
-    )?)
+    let mesh = TriangleMesh::new(raw.positions, raw.normals, raw.uvs, raw.triangles)?;
+    Ok(mesh.with_crossing(raw.crossing))
 }
 
 #[cfg(test)]
