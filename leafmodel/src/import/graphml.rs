@@ -108,6 +108,16 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
     }
     let segment_mm = data(graph).find(|(key, _)| name_of(key) == "segment_mm");
     builder.draft.segment_mm = segment_mm.and_then(|(_, value)| value.trim().parse().ok());
+    // Edges between more than two nodes, and graphs within nodes. To find a line takes long.
+    for name in ["hyperedge", "graph"] {
+        let within = graph.descendants().skip(1);
+        let mut these = within.filter(|node| node.has_tag_name_of(name));
+        if let Some(first) = these.next() {
+            let count = 1 + these.count();
+            let all = format!("{count} <{name}>, the first in {}", line(first));
+            builder.ignore("file", &all);
+        }
+    }
     let graphs = root.children().filter(|node| node.has_tag_name_of("graph"));
     for other in graphs.skip(1) {
         builder.ignore("file", &format!("<graph> in {}", line(other)));
