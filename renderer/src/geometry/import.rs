@@ -44,6 +44,15 @@ pub enum ImportError {
         /// What is wrong.
         what: String,
     },
+    /// Nothing of the file can be read.
+    #[error(
+        "it has no polygons, only {surfaces} free-form surfaces, which are not read: convert them to \
+         polygons in the program that made them"
+    )]
+    FreeForm {
+        /// How many.
+        surfaces: usize,
+    },
     /// The file was read, but what it holds cannot be rendered.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -64,6 +73,8 @@ struct RawMesh {
     triangles: Vec<[u32; 3]>,
     /// Those of the triangles that are the fan of a face with more corners.
     fans: Vec<Range<usize>>,
+    /// Free-form surfaces, which are left out.
+    free_form: usize,
 }
 
 impl RawMesh {
@@ -114,9 +125,10 @@ impl RawMesh {
 /// metres per unit of the file.
 ///
 /// PLY: ASCII or binary; `vertex` with x y z, optionally nx ny nz, optionally u v (or s t, or
-/// `texture_u` `texture_v`); `face` with `vertex_indices` (or `vertex_index`); everything else is
-/// ignored. OBJ: v, vt, vn, f with negative indices, also over several lines that end in a
-/// backslash; uvs are kept if every corner has one; materials and groups are ignored.
+/// `texture_u` `texture_v`); `face` and `tristrips` with `vertex_indices` (or `vertex_index`);
+/// everything else is ignored. OBJ: v, vt, vn, f (or fo) with negative indices, also over several
+/// lines that end in a backslash; uvs are kept if every corner has one; free-form surfaces are
+/// counted; materials and groups are ignored.
 ///
 /// # Errors
 ///
@@ -131,16 +143,16 @@ pub fn import(bytes: &[u8], extension: &str, scale: f32) -> Result<TriangleMesh,
             });
         }
     };
+    if raw.triangles.is_empty() && raw.free_form > 0 {
+        let surfaces = raw.free_form;
+        return Err(ImportError::FreeForm { surfaces });
+    }
     raw.triangulate();
     for position in &mut raw.positions {
         *position *= scale;
     }
-    Ok(TriangleMesh::new(
-        raw.positions,
-        raw.normals,
-        raw.uvs,
-        raw.triangles,
-    )?)
+    let mesh = TriangleMesh::new(raw.positions, raw.normals, raw.uvs, raw.triangles)?;
+    Ok(mesh.beside_free_form(raw.free_form))
 }
 
 #[cfg(test)]
