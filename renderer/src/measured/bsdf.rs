@@ -27,6 +27,8 @@ pub use self::energy::Energy;
 
 /// Directions that differ by less are the same, degrees.
 const SAME_DEG: f64 = 0.01;
+/// The greatest θ in radians, half a turn and what rounding adds to it.
+const MOST_RADIANS: f64 = std::f64::consts::PI + 1e-3;
 /// Columns, by what they hold.
 const COLUMNS: [&[&str]; 6] = [
     &["theta_i", "theta_i_deg", "theta_in"],
@@ -171,14 +173,23 @@ pub fn read(text: &str, known: &Known) -> Result<Table, Fault> {
                 Fault::at(field.span.clone(), problem, "")
             })?;
         }
-        if known.angles.is_none() {
-            for (angle, _) in numbers
-                .iter_mut()
-                .take(4)
-                .zip(is_radian)
-                .filter(|own| own.1)
-            {
-                *angle = angle.to_degrees();
+        for (at, number) in numbers.iter_mut().enumerate().take(4) {
+            let angle = *number;
+            let are_radians = known
+                .angles
+                .map_or(is_radian[at], |unit| unit == AngleUnit::Radians);
+            let is_theta = at % 2 == 0;
+            if are_radians && is_theta && angle > MOST_RADIANS {
+                let (name, degrees) = (names[places[at]].shown(), angle.to_degrees());
+                let problem = format!(
+                    "{name} is {angle} and in radians, so {degrees:.2}°, allowed is up to 180°"
+                );
+                let help = "if the angles are degrees, say --angles degrees";
+                return Err(Fault::at(fields[places[at]].span.clone(), problem, help));
+            }
+            if are_radians && known.angles.is_none() {
+                let most = if is_theta { 180.0 } else { f64::INFINITY };
+                *number = angle.to_degrees().min(most);
             }
         }
         let [theta_i, phi_i, theta_o, phi_o, nm, value] = numbers;
@@ -262,7 +273,7 @@ fn to_degrees_and_nm(samples: &mut [Sample], known: &Known, said: Option<AngleUn
 /// The unit of angles by their sizes. Where none is more than half a turn can be in radians, whole
 /// numbers are degrees and others radians, and a note says so.
 fn angles(samples: &[Sample]) -> (AngleUnit, Option<Guess>) {
-    use std::f64::consts::{PI, TAU};
+    use std::f64::consts::TAU;
     let all = |of: fn(&Direction) -> f64| {
         let both = samples
             .iter()
@@ -271,7 +282,7 @@ fn angles(samples: &[Sample]) -> (AngleUnit, Option<Guess>) {
     };
     let theta = all(|direction| direction.theta).fold(0.0, f64::max);
     let phi = all(|direction| direction.phi).fold(0.0, f64::max);
-    if theta == 0.0 || theta > PI + 1e-3 || phi > TAU + 1e-3 {
+    if theta == 0.0 || theta > MOST_RADIANS || phi > TAU + 1e-3 {
         return (AngleUnit::Degrees, None);
     }
     let is_whole = |angle: f64| angle.fract() == 0.0;
