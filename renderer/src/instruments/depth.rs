@@ -61,8 +61,8 @@ pub(super) fn read_out(
         .checked()
         .map_err(|error| refuse(format!("has contents out of range: {error}")))?;
     let leaf = LayeredLeaf::new(&contents);
-    if leaf.thickness_um() <= 0.0 {
-        let problem = "has neither water nor dry matter, so its layers have no thickness";
+    if leaf.thickness_um() == 0.0 {
+        let problem = "has neither water nor dry matter, so that its layers have no thickness";
         return Err(refuse(problem.to_owned()));
     }
     let nm = instrument.value.measured_nm();

@@ -14,7 +14,7 @@
 
 use std::collections::BTreeMap;
 
-use leafmodel::document::rows::{Guess, Row, Rows};
+use leafmodel::document::rows::{Field, Guess, Row, Rows};
 
 use super::columns::listed;
 use super::known::{AngleUnit, Known, WavelengthUnit};
@@ -159,7 +159,7 @@ pub fn read(text: &str, known: &Known) -> Result<Table, Fault> {
             .find_map(|(end, unit)| lower.ends_with(end).then_some(unit));
     }
     let any = said.into_iter().flatten().next();
-    let is_radian = said.map(|own| own.or(any) == Some(AngleUnit::Radians));
+    let is_radian = said.map(|own| known.angles.or(own).or(any) == Some(AngleUnit::Radians));
     let mut samples = Vec::new();
     for row in rows {
         let Row { line, fields, .. } = row.map_err(|ragged| of_ragged(&ragged))?;
@@ -173,23 +173,12 @@ pub fn read(text: &str, known: &Known) -> Result<Table, Fault> {
                 Fault::at(field.span.clone(), problem, "")
             })?;
         }
-        for (at, number) in numbers.iter_mut().enumerate().take(4) {
-            let angle = *number;
-            let are_radians = known
-                .angles
-                .map_or(is_radian[at], |unit| unit == AngleUnit::Radians);
-            let is_theta = at % 2 == 0;
-            if are_radians && is_theta && angle > MOST_RADIANS {
-                let (name, degrees) = (names[places[at]].shown(), angle.to_degrees());
-                let problem = format!(
-                    "{name} is {angle} and in radians, so {degrees:.2}°, allowed is up to 180°"
-                );
-                let help = "if the angles are degrees, say --angles degrees";
-                return Err(Fault::at(fields[places[at]].span.clone(), problem, help));
-            }
-            if are_radians && known.angles.is_none() {
-                let most = if is_theta { 180.0 } else { f64::INFINITY };
-                *number = angle.to_degrees().min(most);
+        for at in (0..4).filter(|&at| is_radian[at]) {
+            let field = &fields[places[at]];
+            let degrees = in_degrees(numbers[at], at % 2 == 0, &names[places[at]], field)?;
+            // A unit that a person says holds for all and is applied to all.
+            if known.angles.is_none() {
+                numbers[at] = degrees;
             }
         }
         let [theta_i, phi_i, theta_o, phi_o, nm, value] = numbers;
@@ -236,6 +225,23 @@ pub fn read(text: &str, known: &Known) -> Result<Table, Fault> {
     }
     refuse_twins(text, &samples)?;
     Ok(Table { samples, notes })
+}
+
+/// An angle in radians in degrees; θ is at most half a turn.
+fn in_degrees(angle: f64, is_theta: bool, name: &Field, field: &Field) -> Result<f64, Fault> {
+    let degrees = angle.to_degrees();
+    if is_theta && angle > MOST_RADIANS {
+        let name = name.shown();
+        let problem =
+            format!("{name} is {angle} and in radians, so {degrees:.2}°, allowed is up to 180°");
+        let help = "if the angles are degrees, say --angles degrees";
+        return Err(Fault::at(field.span.clone(), problem, help));
+    }
+    Ok(if is_theta {
+        degrees.min(180.0)
+    } else {
+        degrees
+    })
 }
 
 /// Brings angles into degrees and wavelengths into nm; what was guessed.
