@@ -61,6 +61,8 @@ pub(super) struct Builder {
     edge_units: [Option<Unit>; 2],
     /// The radius that a value of the edge has given for both ends.
     edge_radius: Option<f64>,
+    /// Whether each end has a radius of its own.
+    has_end_radius: [bool; 2],
     ends: [[f64; 2]; 2],
     by_place: HashMap<[u64; 2], u32>,
     /// Whether nodes are given by rows and columns.
@@ -79,6 +81,7 @@ impl Builder {
             is_without_name: true,
             edge_units: [None; 2],
             edge_radius: None,
+            has_end_radius: [false; 2],
             ends: [[f64::NAN; 2]; 2],
             by_place: HashMap::new(),
             is_in_rows: false,
@@ -213,6 +216,7 @@ impl Builder {
         self.ends = [[f64::NAN; 2]; 2];
         self.edge_units = [None; 2];
         self.edge_radius = None;
+        self.has_end_radius = [false; 2];
     }
 
     /// Begins an edge between two nodes.
@@ -260,13 +264,17 @@ impl Builder {
                         ));
                     }
                     self.edge_radius = Some(radius);
-                    self.draft.edges[edge].radii = [Some(radius); 2];
+                    let radii = self.draft.edges[edge].radii.iter_mut();
+                    for (end, _) in radii.zip(self.has_end_radius).filter(|both| !both.1) {
+                        *end = Some(radius);
+                    }
                 }
             }
             EdgeField::EndRadius(end, unit) => {
                 if let Some(radius) = text.radius(1.0)? {
                     let radius = self.draft.radius_in(radius, unit);
                     self.draft.edges[edge].radii[end] = Some(radius);
+                    self.has_end_radius[end] = true;
                 }
             }
             EdgeField::Weight if !self.is_in_rows => self.ignore("edge", "weight"),

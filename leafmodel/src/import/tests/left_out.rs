@@ -106,6 +106,19 @@ fn a_width_that_is_not_twice_the_radius_is_refused() {
     );
 }
 
+#[test]
+fn radii_of_ends_count_more_than_the_mean_in_any_order_of_columns() {
+    for (columns, values) in [
+        ("radius_from_mm,radius_to_mm,radius_mm", "0.2,0.1,0.15"),
+        ("radius_mm,radius_from_mm,radius_to_mm", "0.15,0.2,0.1"),
+    ] {
+        let text = format!("from_x_mm,from_y_mm,to_x_mm,to_y_mm,{columns}\n0,0,1,0,{values}\n");
+        let read = imported(Format::Table, &text);
+        let edge = read.network.edges()[0];
+        assert_eq!((edge.radius_from, edge.radius_to), (0.2, 0.1), "{text}");
+    }
+}
+
 /// A drawing of 4 by 2 mm with a vein and something else.
 fn drawing(more: &str) -> String {
     format!(
