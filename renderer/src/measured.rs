@@ -22,6 +22,7 @@ pub mod bsdf;
 mod columns;
 pub mod known;
 mod masks;
+mod misnomers;
 pub mod sensitivities;
 pub mod series;
 pub mod spectra;

@@ -28,6 +28,7 @@ mod range;
 mod rows;
 mod words;
 
+use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 
 use leafmodel::document::context::{Context, QUOTED};
@@ -174,10 +175,31 @@ impl Draft {
             if keys[..index].iter().any(|other| other.path == key.path) {
                 let problem = "is varied twice";
                 impossible(cx, &key.at, &key.path, problem, "keep one of the two");
-            } else if key.path == "seed" && !self.seeds.is_empty() {
+            } else if is_of_flag(key, "seed") && !self.seeds.is_empty() {
                 let help = "keep this one, or the seeds";
-                impossible(cx, &key.at, &key.path, "is varied by the seeds too", help);
+                let problem = "is varied twice: by the seeds too";
+                impossible(cx, &key.at, &key.path, problem, help);
+            } else {
+                for (flag, is_given) in
+                    [("spp", self.spp.is_some()), ("noise", self.noise.is_some())]
+                {
+                    if is_given && is_of_flag(key, flag) {
+                        let problem = format!("is varied, and --{flag} sets it for all tasks");
+                        impossible(cx, &key.at, &key.path, problem, "keep one of the two");
+                    }
+                }
             }
+        }
+        for axis in &self.axes {
+            refuse_twins(cx, axis);
+        }
+        let mut seen = HashSet::new();
+        if let Some(seed) = self.seeds.iter().find(|seed| !seen.insert(**seed)) {
+            cx.error_of_the_file(DocumentError::Impossible {
+                key: "seeds".to_owned(),
+                problem: format!("has the seed {seed} twice"),
+                help: "write each seed once".to_owned(),
+            });
         }
         let rows = self.axes.iter().map(|axis| axis.rows.len());
         let mut rows = rows.chain([self.seeds.len().max(1)]);
@@ -222,6 +244,30 @@ impl Draft {
                 sources,
             }),
             Some(_) | None => Err(DocumentErrors::new(sources.into(), errors)),
+        }
+    }
+}
+
+/// Whether a key is what a flag of this name sets: of a scene a number of its film.
+fn is_of_flag(key: &Key, flag: &str) -> bool {
+    let words: Vec<&str> = key.path.split('.').collect();
+    matches!(words[..], [last] | ["film", _, last] if last == flag)
+}
+
+/// Reports a value that is written twice for one key: both tasks would be the same. Rows of several
+/// keys may be the same by chance.
+fn refuse_twins(cx: &Context, axis: &Axis) {
+    let [key] = &axis.keys[..] else {
+        return;
+    };
+    let mut seen: HashMap<&str, &Place> = HashMap::new();
+    for cell in axis.rows.iter().flatten() {
+        // The values of a range share its place.
+        if let Some(at) = seen.insert(&cell.text, &cell.at)
+            && *at != cell.at
+        {
+            let problem = format!("has the value {} twice", escaped(&cell.text, QUOTED));
+            impossible(cx, &cell.at, &key.path, problem, "write each value once");
         }
     }
 }

@@ -50,6 +50,8 @@ pub enum FaultKind {
     Clip,
     /// A part of a style sheet that is not understood.
     StyleRule,
+    /// A stroke of a drawing is wider along one direction than along another.
+    Uneven,
     /// Something of the file that is not known.
     Ignored,
     /// How a table is written was found from it.
@@ -82,6 +84,7 @@ impl FaultKind {
             | Self::NoShape
             | Self::Clip
             | Self::StyleRule
+            | Self::Uneven
             | Self::Ignored
             | Self::Guess
             | Self::Bent
@@ -126,6 +129,7 @@ impl FaultKind {
             Self::NoShape => "no_shape",
             Self::Clip => "clip",
             Self::StyleRule => "style_rule",
+            Self::Uneven => "uneven_stroke",
             Self::Ignored => "ignored",
             Self::Guess => "guess",
             Self::Bent => "bent",
@@ -171,6 +175,9 @@ impl FaultKind {
             }
             Self::Clip => {
                 "clip paths and masks of the drawing are not applied; what they hide is read"
+            }
+            Self::Uneven => {
+                "strokes are scaled unevenly, so that their widths differ by direction; the mean width is taken"
             }
             Self::Ignored => "parts of the file are not known; they are left out",
             Self::Guess => "guesses about how tables are written",

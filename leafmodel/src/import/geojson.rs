@@ -66,8 +66,22 @@ pub(super) fn read_value(file: &Value) -> Result<Draft, ImportError> {
     if margins.is_empty() && polygons.len() == 1 {
         margins.clone_from(&polygons);
     }
+    for (number, feature) in &polygons {
+        // Areoles are measured from the veins.
+        let is_areole = feature["properties"]["kind"] == "areole";
+        if !is_areole && !margins.iter().any(|(margin, _)| margin == number) {
+            let name = format!("features[{number}]: Polygon");
+            lines.builder.ignore("file", &name);
+        }
+    }
     for (number, feature) in margins {
-        let ring = feature["geometry"]["coordinates"].get(0);
+        let rings = &feature["geometry"]["coordinates"];
+        let holes = rings.as_array().map_or(0, Vec::len).saturating_sub(1);
+        if holes > 0 {
+            let name = format!("features[{number}]: holes of the margin: {holes}");
+            lines.builder.ignore("file", &name);
+        }
+        let ring = rings.get(0);
         let ring = ring.unwrap_or(&Value::Null);
         let points = lines.places(number, ring)?;
         let ends = |key: &str| {
@@ -122,6 +136,11 @@ impl Lines {
     /// Adds a line with its properties.
     fn add(&mut self, feature: usize, line: &Value, properties: &Value) -> Result<(), ImportError> {
         let places = self.places(feature, line)?;
+        if places.len() < 2 {
+            let name = format!("features[{feature}]: a line of {} points", places.len());
+            self.builder.ignore("file", &name);
+            return Ok(());
+        }
         if let Some(numbers) = Numbers::of(properties, places.len()) {
             self.builder.draft.is_directed = true;
             for step in 0..places.len() - 1 {
@@ -157,8 +176,14 @@ impl Lines {
                         | EdgeField::Course(_)
                         | EdgeField::CourseInRows(_)
                         | EdgeField::Nothing,
-                    )
-                    | None => continue,
+                    ) => continue,
+                    None => {
+                        // The kind of feature.
+                        if key != "kind" {
+                            self.builder.ignore("edge", key);
+                        }
+                        continue;
+                    }
                     Some(field) => field,
                 };
                 if value.is_null() {

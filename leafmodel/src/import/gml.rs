@@ -39,7 +39,8 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
         // The place may be in a list of its own, as graphics.
         let inner = members.iter().filter(is_of("graphics"));
         let inner = inner.flat_map(|entry| entry.list().unwrap_or_default());
-        for entry in gathered(inner.chain(members)) {
+        let own = members.iter().filter(|entry| !entry.is("graphics"));
+        for entry in gathered(inner.chain(own)) {
             match NodeField::of(entry.key) {
                 // The id is the name.
                 Some(NodeField::Name) => {}

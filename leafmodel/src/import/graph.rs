@@ -11,6 +11,9 @@ use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
 use super::fields::{EdgeField, NodeField, Unit, numbers, two_numbers};
 
+/// Relative difference of radii below which they are one, rounded.
+const SAME_RADIUS: f64 = 0.01;
+
 /// A value as text, with its key and its place in the file, which are only asked for if it cannot
 /// be read.
 pub(super) struct Text<'a, K, P> {
@@ -56,6 +59,10 @@ pub(super) struct Builder {
     numbers: HashMap<String, u32>,
     is_without_name: bool,
     edge_units: [Option<Unit>; 2],
+    /// The radius that a value of the edge has given for both ends.
+    edge_radius: Option<f64>,
+    /// Whether each end has a radius of its own.
+    has_end_radius: [bool; 2],
     ends: [[f64; 2]; 2],
     by_place: HashMap<[u64; 2], u32>,
     /// Whether nodes are given by rows and columns.
@@ -73,6 +80,8 @@ impl Builder {
             numbers: HashMap::new(),
             is_without_name: true,
             edge_units: [None; 2],
+            edge_radius: None,
+            has_end_radius: [false; 2],
             ends: [[f64::NAN; 2]; 2],
             by_place: HashMap::new(),
             is_in_rows: false,
@@ -206,6 +215,8 @@ impl Builder {
         self.draft.edges.push(DraftEdge::between(ABSENT, ABSENT));
         self.ends = [[f64::NAN; 2]; 2];
         self.edge_units = [None; 2];
+        self.edge_radius = None;
+        self.has_end_radius = [false; 2];
     }
 
     /// Begins an edge between two nodes.
@@ -245,13 +256,25 @@ impl Builder {
                 };
                 if let Some(radius) = text.radius(share)? {
                     let radius = self.draft.radius_in(radius, unit);
-                    self.draft.edges[edge].radii = [Some(radius); 2];
+                    let is_other = |other: f64| (radius - other).abs() > SAME_RADIUS * other.abs();
+                    if self.edge_radius.is_some_and(is_other) {
+                        return Err(text.refused(
+                            "the edge has another radius or width too, and a width is twice its radius: \
+                             leave one of them out",
+                        ));
+                    }
+                    self.edge_radius = Some(radius);
+                    let radii = self.draft.edges[edge].radii.iter_mut();
+                    for (end, _) in radii.zip(self.has_end_radius).filter(|both| !both.1) {
+                        *end = Some(radius);
+                    }
                 }
             }
             EdgeField::EndRadius(end, unit) => {
                 if let Some(radius) = text.radius(1.0)? {
                     let radius = self.draft.radius_in(radius, unit);
                     self.draft.edges[edge].radii[end] = Some(radius);
+                    self.has_end_radius[end] = true;
                 }
             }
             EdgeField::Weight if !self.is_in_rows => self.ignore("edge", "weight"),

@@ -108,11 +108,35 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
     }
     let segment_mm = data(graph).find(|(key, _)| name_of(key) == "segment_mm");
     builder.draft.segment_mm = segment_mm.and_then(|(_, value)| value.trim().parse().ok());
-    let graphs = root.children().filter(|node| node.has_tag_name_of("graph"));
-    for other in graphs.skip(1) {
-        builder.ignore("file", &format!("<graph> in {}", line(other)));
+    for part in left_out(root, graph, &line) {
+        builder.ignore("file", &part);
     }
     Ok(builder.done())
+}
+
+/// Edges between more than two nodes, graphs within nodes and further graphs. To find a line takes
+/// long, so that the first of a kind has its line.
+fn left_out(
+    root: Node<'_, '_>,
+    graph: Node<'_, '_>,
+    line: &dyn Fn(Node<'_, '_>) -> String,
+) -> Vec<String> {
+    let mut parts = Vec::new();
+    for name in ["hyperedge", "graph"] {
+        let within = graph.descendants().skip(1);
+        let mut these = within.filter(|node| node.has_tag_name_of(name));
+        if let Some(first) = these.next() {
+            let count = 1 + these.count();
+            parts.push(format!("{count} <{name}>, the first in {}", line(first)));
+        }
+    }
+    let graphs = root.children().filter(|node| node.has_tag_name_of("graph"));
+    parts.extend(
+        graphs
+            .skip(1)
+            .map(|other| format!("<graph> in {}", line(other))),
+    );
+    parts
 }
 
 fn malformed(problem: String) -> ImportError {

@@ -5,6 +5,7 @@ use serde_json::{Map, Value, json};
 
 use super::draft::{ABSENT, Draft, DraftEdge, DraftMargin};
 use super::error::ImportError;
+use super::faults::{Fault, FaultKind};
 use super::fields::{EdgeField, NodeField};
 use super::geojson;
 use super::graph::{Builder, Text, shortened};
@@ -26,11 +27,17 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
     {
         return geojson::read_value(&value);
     }
-    match (file.get("nodes"), file.get("edges").or(file.get("links"))) {
-        (Some(Value::Object(nodes)), Some(Value::Object(edges))) => columns(file, nodes, edges),
-        (Some(Value::Array(nodes)), Some(Value::Array(edges))) => lists(file, nodes, edges),
-        _ => Err(ImportError::NoVeins { wanted: WANTED }),
+    let mut draft = match (file.get("nodes"), file.get("edges").or(file.get("links"))) {
+        (Some(Value::Object(nodes)), Some(Value::Object(edges))) => columns(file, nodes, edges)?,
+        (Some(Value::Array(nodes)), Some(Value::Array(edges))) => lists(file, nodes, edges)?,
+        _ => return Err(ImportError::NoVeins { wanted: WANTED }),
+    };
+    if file.contains_key("edges") && file.contains_key("links") {
+        let mut links = Fault::new(FaultKind::Ignored);
+        links.named(|| "\"links\" beside \"edges\"".to_owned());
+        draft.remarks.push(links);
     }
+    Ok(draft)
 }
 
 const WANTED: &str = "an object with nodes and edges (as lamina grow writes it), with nodes and links (as networkx \

@@ -39,6 +39,9 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
     let mut draft = empty(&drawing);
     let line = |shape: &Shape<'_>| document.text_pos_at(shape.node.range().start).row;
     let mut bare = Fault::new(FaultKind::NoStroke);
+    let mut uneven = Fault::new(FaultKind::Uneven);
+    let named =
+        |shape: &Shape<'_>| format!("line {} <{}>", line(shape), shape.node.tag_name().name());
     for shape in drawing.drawn() {
         let bad = |BadAttribute { attribute, problem }| {
             // To find a line takes as long as the text before it.
@@ -62,6 +65,9 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
         let before = strokes.len();
         let to_mm = DAffine2::from_scale(mm_per_unit(&drawing));
         if let Some(width) = width {
+            if shape.is_unevenly_scaled(drawing.mm_per_unit) {
+                uneven.named(|| named(shape));
+            }
             let width = width * to_mm.matrix2.determinant().abs().sqrt();
             for points in flattened(&drawing, shape).map_err(bad)? {
                 let radii = vec![0.5 * width; 2 * points.len().saturating_sub(1)];
@@ -82,7 +88,7 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
         let parent = shape.node.parent_element();
         let is_ours = parent.is_some_and(|group| group.attribute("id") == Some(NO_VEINS));
         if strokes.len() == before && !is_ours {
-            bare.named(|| format!("line {} <{}>", line(shape), shape.node.tag_name().name()));
+            bare.named(|| named(shape));
         }
     }
     if strokes.is_empty() {
@@ -95,7 +101,8 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
             },
         });
     }
-    draft.remarks.extend((bare.count > 0).then_some(bare));
+    let found = [bare, uneven].into_iter().filter(|fault| fault.count > 0);
+    draft.remarks.extend(found);
     join(&strokes, &mut draft);
     Ok(draft)
 }

@@ -2,6 +2,7 @@
 
 mod courses;
 mod drawings;
+mod left_out;
 
 use super::*;
 use crate::document::rows::{Decimal, Separator};

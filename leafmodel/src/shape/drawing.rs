@@ -258,6 +258,19 @@ impl Shape<'_> {
         Ok(parts)
     }
 
+    /// Whether its stroke is wider along one direction than along another.
+    pub(crate) fn is_unevenly_scaled(&self, mm_per_unit: Option<DVec2>) -> bool {
+        const ROUNDING: f64 = 1e-3;
+        let Ok(whole) = &self.to_root else {
+            return false;
+        };
+        let whole = DAffine2::from_scale(mm_per_unit.unwrap_or(DVec2::ONE)) * *whole;
+        let (x, y) = (whole.matrix2.x_axis, whole.matrix2.y_axis);
+        let area = whole.matrix2.determinant().abs();
+        let off = (x.length_squared() - y.length_squared()).hypot(2.0 * x.dot(y));
+        !self.style.is_unscaled && off > ROUNDING * area
+    }
+
     /// Width of its stroke in units of the outermost element, above 0; `None` without a stroke.
     ///
     /// # Errors
@@ -336,11 +349,18 @@ impl<'s> Walk<'s> {
                 continue;
             }
             let first = open.len();
-            open.extend(
-                node.children()
-                    .filter(Node::is_element)
-                    .map(|child| (child, within.clone())),
-            );
+            let mut children: Vec<_> = node.children().filter(Node::is_element).collect();
+            if node.tag_name().name() == "switch" {
+                let chosen = children.iter().position(applies);
+                let chosen = chosen.map(|at| children.remove(at));
+                if within.standing == Standing::Drawn {
+                    for child in children {
+                        self.leave_out(Reason::Hidden, child, "another of its <switch> is drawn");
+                    }
+                }
+                children = chosen.into_iter().collect();
+            }
+            open.extend(children.into_iter().map(|child| (child, within.clone())));
             open[first..].reverse();
         }
         Ok(())
@@ -465,6 +485,21 @@ impl<'s> Walk<'s> {
             left.names.push(name);
         }
     }
+}
+
+/// Whether an element of a `<switch>` may be the one that is drawn: it needs no extension, and its
+/// text is English if it is in some language. Features are all there, as SVG 2 has it.
+fn applies(node: &Node<'_, '_>) -> bool {
+    let is_english = |tags: &str| {
+        let mut tags = tags.split(',').map(str::trim);
+        tags.any(|tag| {
+            tag.split('-')
+                .next()
+                .is_some_and(|main| main.eq_ignore_ascii_case("en"))
+        })
+    };
+    node.attribute("requiredExtensions").is_none()
+        && node.attribute("systemLanguage").is_none_or(is_english)
 }
 
 /// The number behind `order-` in the name of a group, or in its label in Inkscape.

@@ -152,16 +152,24 @@ impl Work<'_> {
         let mut seen = BTreeSet::new();
         // Tasks that are the same are done once.
         let numbered = self.range.clone().zip(&self.identities);
+        let numbered = numbered.filter(|(_, identity)| seen.insert(**identity));
         let open: Vec<(usize, u64)> = numbered
-            .filter(|(_, identity)| is_open(identity) && seen.insert(**identity))
+            .filter(|(_, identity)| is_open(identity))
             .map(|(number, identity)| (number, *identity))
             .collect();
+        let twins = self.range.len() - seen.len();
+        if twins > 0 {
+            eprintln!(
+                "{twins} of {} tasks are the same as others: each is done once",
+                self.range.len()
+            );
+        }
         let outcome = Mutex::new(Outcome {
-            before: self.range.len() - open.len(),
+            before: seen.len() - open.len(),
             ..Outcome::default()
         });
-        if !open.is_empty() && open.len() < self.range.len() {
-            let before = self.range.len() - open.len();
+        if !open.is_empty() && open.len() < seen.len() {
+            let before = seen.len() - open.len();
             eprintln!("{before} of {} tasks are done already", self.range.len());
         }
         let next = AtomicUsize::new(0);

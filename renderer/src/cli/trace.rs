@@ -307,6 +307,12 @@ fn read(path: &Path, allowed: Option<f64>) -> Result<Raster, Failure> {
         allowed,
     )?;
     let picture = scan::read_grey(path).map_err(Failure::bad)?;
+    if picture.attribute(scan::MORE_PAGES).is_some() {
+        eprintln!(
+            "note: {}: only the first page is read, and the file has more",
+            path.display()
+        );
+    }
     let values = picture.layers.into_iter().next();
     let values = values.map_or_else(Vec::new, |layer| layer.data);
     Raster::new(picture.width as usize, picture.height as usize, values)

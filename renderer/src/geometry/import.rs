@@ -45,6 +45,15 @@ pub enum ImportError {
         /// What is wrong.
         what: String,
     },
+    /// Nothing of the file can be read.
+    #[error(
+        "it has no polygons, only {surfaces} free-form surfaces, which are not read: convert them to \
+         polygons in the program that made them"
+    )]
+    FreeForm {
+        /// How many.
+        surfaces: usize,
+    },
     /// The file was read, but what it holds cannot be rendered.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -67,6 +76,8 @@ struct RawMesh {
     fans: Vec<Range<usize>>,
     /// Number of faces that cross themselves.
     crossing: usize,
+    /// Free-form surfaces, which are left out.
+    free_form: usize,
 }
 
 impl RawMesh {
@@ -119,9 +130,10 @@ impl RawMesh {
 /// metres per unit of the file.
 ///
 /// PLY: ASCII or binary; `vertex` with x y z, optionally nx ny nz, optionally u v (or s t, or
-/// `texture_u` `texture_v`); `face` with `vertex_indices` (or `vertex_index`); everything else is
-/// ignored. OBJ: v, vt, vn, f with negative indices, also over several lines that end in a
-/// backslash; uvs are kept if every corner has one; materials and groups are ignored.
+/// `texture_u` `texture_v`); `face` and `tristrips` with `vertex_indices` (or `vertex_index`);
+/// everything else is ignored. OBJ: v, vt, vn, f (or fo) with negative indices, also over several
+/// lines that end in a backslash; uvs are kept if every corner has one; free-form surfaces are
+/// counted; materials and groups are ignored.
 ///
 /// # Errors
 ///
@@ -136,12 +148,18 @@ pub fn import(bytes: &[u8], extension: &str, scale: f32) -> Result<TriangleMesh,
             });
         }
     };
+    if raw.triangles.is_empty() && raw.free_form > 0 {
+        let surfaces = raw.free_form;
+        return Err(ImportError::FreeForm { surfaces });
+    }
     raw.triangulate();
     for position in &mut raw.positions {
         *position *= scale;
     }
     let mesh = TriangleMesh::new(raw.positions, raw.normals, raw.uvs, raw.triangles)?;
-    Ok(mesh.with_crossing(raw.crossing))
+    Ok(mesh
+        .with_crossing(raw.crossing)
+        .beside_free_form(raw.free_form))
 }
 
 #[cfg(test)]

@@ -63,6 +63,8 @@ pub struct DroppedFaces {
     pub degenerate: usize,
     /// Faces on the three positions of an earlier face.
     pub duplicate: usize,
+    /// Free-form surfaces of its file, which are not read.
+    pub free_form: usize,
     /// Number of the first face that was left out, in the order given, and why. One without area
     /// counts only if there are no others.
     pub first: Option<(usize, DropCause)>,
@@ -72,20 +74,28 @@ impl fmt::Display for DroppedFaces {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{} {} left out ({} not finite, {} without area, {} duplicate)",
+            "{} {} left out ({} not finite, {} without area, {} duplicate",
             self.total(),
             if self.total() == 1 { "face" } else { "faces" },
             self.not_finite,
             self.degenerate,
             self.duplicate
-        )
+        )?;
+        if self.free_form > 0 {
+            write!(
+                f,
+                ", {} free-form surfaces, which are not read",
+                self.free_form
+            )?;
+        }
+        f.write_str(")")
     }
 }
 
 impl DroppedFaces {
     /// Number of dropped faces.
     pub fn total(&self) -> usize {
-        self.not_finite + self.degenerate + self.duplicate
+        self.not_finite + self.degenerate + self.duplicate + self.free_form
     }
 
     /// Number of dropped faces that should not be in a file: without those that have no area.
@@ -344,6 +354,12 @@ impl TriangleMesh {
     /// Faces as vertex numbers, counter-clockwise seen from the + side.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
+    }
+
+    /// The mesh of a file that has so many free-form surfaces too.
+    pub(super) fn beside_free_form(mut self, surfaces: usize) -> Self {
+        self.dropped.free_form = surfaces;
+        self
     }
 
     /// Faces that were left out.

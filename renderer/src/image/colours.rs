@@ -15,6 +15,7 @@ use super::{
     Attribute, ImageError, Layer, MOST_TEXTURE_BYTES, Picture, REC709, jpeg, openexr,
     portable_network, primaries, radiance, read_file,
 };
+use crate::spectrum::cie::srgb_from_xyz;
 
 /// The channels of colours.
 pub const CHANNELS: [&str; 3] = ["R", "G", "B"];
@@ -107,23 +108,34 @@ pub fn in_rec709(mut picture: Picture) -> Result<Picture, ImageError> {
     Ok(picture)
 }
 
-/// The colours of a layer: those of its channels `R`, `G` and `B`, or grey if it has luminance `Y`
-/// alone.
+/// The colours of a layer: those of its channels `R`, `G` and `B`, or `X`, `Y` and `Z`, or grey if it
+/// has luminance `Y` alone.
 fn of_layer(mut picture: Picture, layer: Option<&str>) -> Result<Picture, ImageError> {
     let prefix = layer.map_or_else(String::new, |name| format!("{name}."));
-    let names = CHANNELS.map(|channel| format!("{prefix}{channel}"));
-    let mut take = |name: &str| {
+    let mut take = |channel: &str| {
+        let name = format!("{prefix}{channel}");
         let place = picture.layers.iter().position(|known| known.name == name)?;
         Some(picture.layers.swap_remove(place).data)
     };
-    let colours = match names.each_ref().map(|name| take(name)) {
+    let mut is_xyz = false;
+    let colours = match CHANNELS.map(&mut take) {
         [Some(red), Some(green), Some(blue)] => [red, green, blue],
-        [None, None, None] => match take(&format!("{prefix}Y")) {
-            Some(grey) => [grey.clone(), grey.clone(), grey],
-            None => return Err(lacking(&picture, layer)),
+        [None, None, None] => match ["X", "Y", "Z"].map(take) {
+            [Some(x), Some(y), Some(z)] => {
+                is_xyz = true;
+                from_xyz([x, y, z])
+            }
+            [None, Some(grey), None] => [grey.clone(), grey.clone(), grey],
+            _ => return Err(lacking(&picture, layer)),
         },
         _ => return Err(lacking(&picture, layer)),
     };
+    if is_xyz {
+        // Whatever primaries the file names, they are not those of these channels.
+        picture
+            .attributes
+            .retain(|(name, _)| name != "chromaticities");
+    }
     let layers = CHANNELS.into_iter().zip(colours);
     picture.layers = layers
         .map(|(name, data)| Layer {
@@ -132,6 +144,17 @@ fn of_layer(mut picture: Picture, layer: Option<&str>) -> Result<Picture, ImageE
         })
         .collect();
     Ok(picture)
+}
+
+/// Linear sRGB of CIE XYZ, channel by channel.
+fn from_xyz(mut channels: [Vec<f32>; 3]) -> [Vec<f32>; 3] {
+    for pixel in 0..channels[0].len() {
+        let xyz = channels.each_ref().map(|channel| f64::from(channel[pixel]));
+        for (channel, value) in channels.iter_mut().zip(srgb_from_xyz(xyz)) {
+            channel[pixel] = value as f32;
+        }
+    }
+    channels
 }
 
 /// What is said of a picture without the colours of a layer: which layers it has.
@@ -146,10 +169,10 @@ fn lacking(picture: &Picture, layer: Option<&str>) -> ImageError {
     }
     let wanted = match layer {
         Some(name) => format!(
-            "no layer `{}` with channels R, G and B or Y",
+            "no layer `{}` with channels R, G and B, X, Y and Z, or Y",
             escaped(name, 60)
         ),
-        None => "no channels R, G and B or Y".to_owned(),
+        None => "no channels R, G and B, X, Y and Z, or Y".to_owned(),
     };
     let names = known
         .iter()
@@ -197,6 +220,44 @@ mod tests {
         assert_eq!(colour(&many, Some("sky")), [4.0, 5.0, 6.0]);
         assert_eq!(colour(&many, Some("view.fog")), [7.0; 3]);
         assert_eq!(colour(&layered(&["Y"]), None), [1.0; 3]);
+    }
+
+    #[test]
+    fn channels_of_xyz_are_colours_and_not_the_grey_of_their_luminance() {
+        let xyz = |prefix: &str, colour: [f32; 3]| {
+            let channels = ["X", "Y", "Z"].into_iter().zip(colour);
+            let layers = channels.map(|(name, value)| Layer {
+                name: format!("{prefix}{name}"),
+                data: vec![value],
+            });
+            let primaries = Attribute::Chromaticities(primaries::REC2020);
+            let picture = Picture {
+                width: 1,
+                height: 1,
+                layers: layers.collect(),
+                attributes: vec![("chromaticities".to_owned(), primaries)],
+            };
+            openexr::encode(&picture).expect("one pixel")
+        };
+        let red = [0.4124, 0.2126, 0.0193];
+        for (bytes, layer, expected) in [
+            (xyz("", red), None, [1.0, 0.0, 0.0]),
+            (xyz("sky.", red), Some("sky"), [1.0, 0.0, 0.0]),
+            (xyz("", [0.9505, 1.0, 1.089]), None, [1.0; 3]),
+        ] {
+            let picture = decode(&bytes, layer).expect("it has this layer");
+            assert_eq!(to_rec709(&picture).expect("no other primaries"), None);
+            let found = CHANNELS.map(|name| picture.layer(name).expect("colours").data[0]);
+            for (found, expected) in found.into_iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-3, "{found}, not {expected}");
+            }
+        }
+        let part = decode(&layered(&["X", "Y"]), None).map(|_| ());
+        let said = part.expect_err("Z is missing").to_string();
+        assert!(
+            said.contains("no channels R, G and B, X, Y and Z"),
+            "{said}"
+        );
     }
 
     #[test]

@@ -4,10 +4,11 @@ use std::io::Cursor;
 use std::path::Path;
 
 use image::{ImageFormat, ImageReader, Limits};
+use tiff::decoder::Decoder as TiffDecoder;
 
 use super::jpeg::check_scans;
+use super::{Attribute, Layer, Picture};
 use super::{ImageError, MOST_BYTES, MOST_PIXELS, check_held, check_size, read_file};
-use super::{Layer, Picture};
 
 /// Formats by what files begin with.
 const KNOWN: &str = "PNG, TIFF and JPEG can be read";
@@ -16,10 +17,14 @@ const KNOWN: &str = "PNG, TIFF and JPEG can be read";
 /// copy.
 const BYTES_A_PIXEL: u64 = 16;
 
+/// The attribute of a picture whose file has further pages.
+pub const MORE_PAGES: &str = "morePages";
+
 /// Reads a PNG, TIFF or JPEG file as grey values, whatever its ending is.
 ///
 /// The picture has one layer `grey`, 0 to 1, as stored: the luma of colours (Rec. 709) without
-/// undoing the curve of sRGB. Where a picture is transparent it is white.
+/// undoing the curve of sRGB. Where a picture is transparent it is white. Of a TIFF the first page is
+/// read; if there are more, [`MORE_PAGES`] is an attribute.
 ///
 /// # Errors
 ///
@@ -69,8 +74,16 @@ pub fn decode_grey(bytes: &[u8]) -> Result<Picture, ImageError> {
             name: "grey".to_owned(),
             data: grey.collect(),
         }],
-        attributes: Vec::new(),
+        attributes: has_more_pages(bytes)
+            .then(|| (MORE_PAGES.to_owned(), Attribute::Int(1)))
+            .into_iter()
+            .collect(),
     })
+}
+
+/// Whether a file is a TIFF with more than one page.
+fn has_more_pages(bytes: &[u8]) -> bool {
+    TiffDecoder::new(Cursor::new(bytes)).is_ok_and(|decoder| decoder.more_images())
 }
 
 fn malformed(error: &dyn std::fmt::Display) -> ImageError {
@@ -135,6 +148,25 @@ mod tests {
         let clear = image::ImageBuffer::from_pixel(4, 4, LumaA([0_u8, 0]));
         let picture = decode_grey(&encoded(&DynamicImage::from(clear), ImageFormat::Png));
         assert_eq!(picture.expect("a picture").layers[0].data, [1.0; 16]);
+    }
+
+    #[test]
+    fn of_a_tiff_with_several_pages_the_first_is_read_and_the_others_are_reported() {
+        use tiff::encoder::{TiffEncoder, colortype::Gray8};
+
+        for pages in [1_u8, 3] {
+            let mut bytes = Cursor::new(Vec::new());
+            let mut encoder = TiffEncoder::new(&mut bytes).expect("a TIFF");
+            for page in 0..pages {
+                let grey = [51 * (page + 1); 4];
+                encoder
+                    .write_image::<Gray8>(2, 2, &grey)
+                    .expect("a small page");
+            }
+            let picture = decode_grey(&bytes.into_inner()).expect("a picture");
+            assert!((picture.layers[0].data[0] - 0.2).abs() < 1e-3);
+            assert_eq!(picture.attribute(MORE_PAGES).is_some(), pages > 1);
+        }
     }
 
     #[test]

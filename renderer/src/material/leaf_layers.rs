@@ -24,6 +24,10 @@ const TABLE_NM: (f64, f64, usize) = (400.0, 10.0, 211);
 /// Structures `N` at which the amount of scattering is tabulated: first, step, number.
 const STRUCTURES: (f64, f64, usize) = (1.0, 0.125, 33);
 
+/// Least thickness of a leaf, in thicknesses of the anatomy. One without water and dry matter has none,
+/// and coefficients along a path, which are optical depths over thickness, must stay finite.
+const LEAST_AMOUNT: f64 = 1e-6;
+
 /// The layers at one wavelength.
 #[derive(Clone, Copy, Debug)]
 struct Row {
@@ -64,7 +68,7 @@ impl LeafLayers {
             .map(|tissue| anatomy.thickness_um(tissue))
             .iter()
             .sum();
-        let amount = leaf.thickness_um() / whole;
+        let amount = (leaf.thickness_um() / whole).max(LEAST_AMOUNT);
         let by_structure = match held {
             Held::Uniform(_) => Vec::new(),
             Held::Map(_) => by_structure(&mean),

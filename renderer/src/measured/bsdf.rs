@@ -14,7 +14,7 @@
 
 use std::collections::BTreeMap;
 
-use leafmodel::document::rows::{Guess, Row, Rows};
+use leafmodel::document::rows::{Field, Guess, Row, Rows};
 
 use super::columns::listed;
 use super::known::{AngleUnit, Known, WavelengthUnit};
@@ -27,6 +27,8 @@ pub use self::energy::Energy;
 
 /// Directions that differ by less are the same, degrees.
 const SAME_DEG: f64 = 0.01;
+/// The greatest θ in radians, half a turn and what rounding adds to it.
+const MOST_RADIANS: f64 = std::f64::consts::PI + 1e-3;
 /// Columns, by what they hold.
 const COLUMNS: [&[&str]; 6] = [
     &["theta_i", "theta_i_deg", "theta_in"],
@@ -157,7 +159,7 @@ pub fn read(text: &str, known: &Known) -> Result<Table, Fault> {
             .find_map(|(end, unit)| lower.ends_with(end).then_some(unit));
     }
     let any = said.into_iter().flatten().next();
-    let is_radian = said.map(|own| own.or(any) == Some(AngleUnit::Radians));
+    let is_radian = said.map(|own| known.angles.or(own).or(any) == Some(AngleUnit::Radians));
     let mut samples = Vec::new();
     for row in rows {
         let Row { line, fields, .. } = row.map_err(|ragged| of_ragged(&ragged))?;
@@ -171,14 +173,12 @@ pub fn read(text: &str, known: &Known) -> Result<Table, Fault> {
                 Fault::at(field.span.clone(), problem, "")
             })?;
         }
-        if known.angles.is_none() {
-            for (angle, _) in numbers
-                .iter_mut()
-                .take(4)
-                .zip(is_radian)
-                .filter(|own| own.1)
-            {
-                *angle = angle.to_degrees();
+        for at in (0..4).filter(|&at| is_radian[at]) {
+            let field = &fields[places[at]];
+            let degrees = in_degrees(numbers[at], at % 2 == 0, &names[places[at]], field)?;
+            // A unit that a person says holds for all and is applied to all.
+            if known.angles.is_none() {
+                numbers[at] = degrees;
             }
         }
         let [theta_i, phi_i, theta_o, phi_o, nm, value] = numbers;
@@ -227,6 +227,23 @@ pub fn read(text: &str, known: &Known) -> Result<Table, Fault> {
     Ok(Table { samples, notes })
 }
 
+/// An angle in radians in degrees; θ is at most half a turn.
+fn in_degrees(angle: f64, is_theta: bool, name: &Field, field: &Field) -> Result<f64, Fault> {
+    let degrees = angle.to_degrees();
+    if is_theta && angle > MOST_RADIANS {
+        let name = name.shown();
+        let problem =
+            format!("{name} is {angle} and in radians, so {degrees:.2}°, allowed is up to 180°");
+        let help = "if the angles are degrees, say --angles degrees";
+        return Err(Fault::at(field.span.clone(), problem, help));
+    }
+    Ok(if is_theta {
+        degrees.min(180.0)
+    } else {
+        degrees
+    })
+}
+
 /// Brings angles into degrees and wavelengths into nm; what was guessed.
 fn to_degrees_and_nm(samples: &mut [Sample], known: &Known, said: Option<AngleUnit>) -> Vec<Guess> {
     let mut notes = Vec::new();
@@ -262,7 +279,7 @@ fn to_degrees_and_nm(samples: &mut [Sample], known: &Known, said: Option<AngleUn
 /// The unit of angles by their sizes. Where none is more than half a turn can be in radians, whole
 /// numbers are degrees and others radians, and a note says so.
 fn angles(samples: &[Sample]) -> (AngleUnit, Option<Guess>) {
-    use std::f64::consts::{PI, TAU};
+    use std::f64::consts::TAU;
     let all = |of: fn(&Direction) -> f64| {
         let both = samples
             .iter()
@@ -271,7 +288,7 @@ fn angles(samples: &[Sample]) -> (AngleUnit, Option<Guess>) {
     };
     let theta = all(|direction| direction.theta).fold(0.0, f64::max);
     let phi = all(|direction| direction.phi).fold(0.0, f64::max);
-    if theta == 0.0 || theta > PI + 1e-3 || phi > TAU + 1e-3 {
+    if theta == 0.0 || theta > MOST_RADIANS || phi > TAU + 1e-3 {
         return (AngleUnit::Degrees, None);
     }
     let is_whole = |angle: f64| angle.fract() == 0.0;

@@ -3,6 +3,7 @@
 use leafmodel::document::rows::Field;
 
 use super::known::{Measure, WavelengthUnit};
+use super::misnomers::{other_axis, other_value};
 
 /// Wavelengths that names of columns may give, nm.
 const BANDS_NM: std::ops::RangeInclusive<f64> = 200.0..=30_000.0;
@@ -12,7 +13,7 @@ const BANDS_UM: std::ops::Range<f64> = 0.2..30.0;
 const LEAST_BANDS: usize = 3;
 
 /// What a word of a name says, in lower case.
-fn measure(word: &str) -> Option<Measure> {
+pub(super) fn measure(word: &str) -> Option<Measure> {
     match word {
         "r" | "rho" | "refl" | "reflect" | "reflectance" | "reflectances" | "reflectivity"
         | "rfl" => Some(Measure::Reflectance),
@@ -66,6 +67,19 @@ pub(super) fn columns(names: &[Field], whole: Option<Measure>) -> Result<Vec<Nam
     }
     let mut columns: Vec<Named> = names.iter().map(|name| column(&name.text)).collect();
     let is_wavelength = |column: &&Named| matches!(column.holds, Column::Wavelength(_));
+    for (i, (name, column)) in names.iter().zip(&columns).enumerate() {
+        let other = match column.holds {
+            Column::Wavelength(_) => other_axis(&name.text),
+            Column::Of(..) => other_value(&name.text),
+            Column::Name | Column::Quantity | Column::Band(..) | Column::Other => {
+                let is_axis = i == 0 && !columns.iter().any(|own| is_wavelength(&own));
+                is_axis.then(|| other_axis(&name.text)).flatten()
+            }
+        };
+        if let Some((what, help)) = other {
+            return Err(format!("the column {} holds {what}: {help}", name.shown()));
+        }
+    }
     if columns.iter().filter(is_wavelength).count() != 1 {
         return Err(format!(
             "one column must hold the wavelengths, named wavelength_nm, nm or um, or columns must be \
@@ -175,7 +189,7 @@ fn band(name: &str) -> Option<(Option<Measure>, f64)> {
 }
 
 /// What a column's name says of it.
-fn column(name: &str) -> Named {
+pub(super) fn column(name: &str) -> Named {
     // Only ASCII changes its case, so that places in both are the same.
     let lower = name.to_ascii_lowercase();
     let words = words(&lower);
@@ -282,7 +296,7 @@ fn measured(name: &str, words: &[(usize, &str)]) -> Column {
 }
 
 /// The words of a name, each with its place.
-fn words(name: &str) -> Vec<(usize, &str)> {
+pub(super) fn words(name: &str) -> Vec<(usize, &str)> {
     let parts = name.split(|c: char| !c.is_alphanumeric());
     // Each part lies within the name.
     let placed = parts.map(|part| (part.as_ptr().addr() - name.as_ptr().addr(), part));

@@ -6,7 +6,7 @@
 use leafmodel::document::rows::{Field, Rows};
 
 use super::Fault;
-use super::series::number;
+use super::series::{number, refuse_other_axis};
 use super::units::{WIDE_GAP, are_micrometres, gaps};
 
 /// Reads a table: rows of wavelength, nm, and the sensitivities of red, green and blue.
@@ -25,6 +25,7 @@ pub fn read(text: &str) -> Result<Vec<(f64, [f64; 3])>, Fault> {
         let found = &row.fields;
         let is_name = |first: &Field| table.number(first).is_none();
         if std::mem::take(&mut names_allowed) && found.first().is_some_and(is_name) {
+            refuse_other_axis(&found[0])?;
             require_order(found)?;
             continue;
         }
@@ -122,6 +123,11 @@ mod tests {
             ("400,0,1,1\n410,0,x,1\n", "x", "a number is wanted"),
             ("0.4,0,1,1\n0.5,0,1,1\n", "0.4", "micrometres"),
             ("nm,b,g,r\n400,0,1,1\n410,0,1,1\n", "b", "the order"),
+            (
+                "THz,r,g,b\n400,0,1,1\n410,0,1,1\n",
+                "THz",
+                "has frequencies",
+            ),
             (
                 "400,0,1,1\n405,0,1,1\n410,0,1,1\n600,0,1,1\n605,0,1,1\n",
                 "600",

@@ -11,9 +11,11 @@ use std::ops::Range;
 use leafmodel::document::encoding::{Decoded, decoded};
 use leafmodel::document::rows::{self, Field, Guess, Rows, Separator};
 
+use super::columns::{Column, column, is_wavelength};
 use super::known::{Known, Overlap, ValueUnit, WavelengthUnit};
 use super::masks::{is_masked, masked_ranges};
-use super::units::{are_micrometres, are_percent, micrometres, percent};
+use super::misnomers::{other_axis, other_value};
+use super::units::{are_micrometres, are_percent, contradiction, falling, micrometres, percent};
 use super::{Fault, Slack, What};
 
 /// How a file of one spectrum is laid out.
@@ -40,6 +42,10 @@ pub struct Series {
     pub notes: Vec<Guess>,
     /// Whether the values are percent because the form says so.
     is_percent: bool,
+    /// Whether the name of the wavelengths says that they are µm.
+    is_um: bool,
+    /// The name of the column of values.
+    name: Option<Field>,
 }
 
 /// First words of a `.sig` file.
@@ -63,11 +69,8 @@ impl Series {
         falls.map_or(Ok(()), |i| {
             let [before, after] = [self.points[i - 1].0, self.points[i].0];
             let problem = format!("has wavelength {after} behind {before}");
-            Err(Fault::at(
-                self.spans[i][0].clone(),
-                problem,
-                "sort the lines",
-            ))
+            let help = falling(before, after, &self.notes).unwrap_or("sort the lines");
+            Err(Fault::at(self.spans[i][0].clone(), problem, help))
         })
     }
 
@@ -85,20 +88,47 @@ impl Series {
         })
     }
 
+    /// Brings wavelengths into nm if their column's name says another unit.
+    pub fn to_nm(&mut self) {
+        if self.is_um {
+            self.points.iter_mut().for_each(|point| point.0 *= 1000.0);
+        }
+    }
+
     /// Brings the spectrum into nm and fractions of 0 to 1; what was guessed, with the notes.
-    pub fn to_nm_and_fractions(&mut self, known: &Known) -> Vec<Guess> {
+    ///
+    /// # Errors
+    ///
+    /// A [`Fault`] if the name of the values says that they are something else.
+    pub fn to_nm_and_fractions(&mut self, known: &Known) -> Result<Vec<Guess>, Fault> {
+        let name = self.name.as_ref();
+        if let Some((field, (what, help))) =
+            name.and_then(|field| Some((field, other_value(&field.text)?)))
+        {
+            let problem = format!("has {what} in the column `{}`", field.shown());
+            return Err(Fault::at(field.span.clone(), problem, help));
+        }
         let mut notes = self.notes.clone();
         let is_um = known.wavelengths.map_or_else(
             || {
+                if self.is_um {
+                    return true;
+                }
                 let is_guess = are_micrometres(self.points.iter().map(|point| point.0));
                 notes.extend(is_guess.then(micrometres));
                 is_guess
             },
             |unit| unit == WavelengthUnit::Micrometres,
         );
+        let percent_name = name.filter(|field| column(&field.text).is_percent);
         let is_percent = known.values.map_or_else(
             || {
-                let is_guess = are_percent(self.points.iter().map(|point| point.1));
+                let values: Vec<f64> = self.points.iter().map(|point| point.1).collect();
+                let is_guess = are_percent(values.iter().copied());
+                if let Some(name) = percent_name {
+                    notes.extend(contradiction(&name.text, &values));
+                    return true;
+                }
                 if self.is_percent {
                     notes.push(Guess {
                         what: "values are percent, as in every .sig file".to_owned(),
@@ -119,7 +149,34 @@ impl Series {
                 point.1 /= 100.0;
             }
         }
-        notes
+        Ok(notes)
+    }
+
+    /// Takes what a line of names says.
+    fn take_names(&mut self, fields: Vec<Field>) -> Result<(), Fault> {
+        let mut fields = fields.into_iter();
+        let Some(first) = fields.next() else {
+            return Ok(());
+        };
+        self.name = fields.next();
+        refuse_other_axis(&first)?;
+        if let Column::Wavelength(unit) = column(&first.text).holds {
+            self.is_um = unit == Some(WavelengthUnit::Micrometres);
+            return Ok(());
+        }
+        let is_second = self.name.as_ref();
+        if is_second.is_some_and(|name| is_wavelength(&name.text)) {
+            let problem = format!("has `{}` before the wavelengths", first.shown());
+            let help = "put the wavelengths into the first column";
+            return Err(Fault::at(first.span, problem, help));
+        }
+        if !first.text.is_empty() {
+            self.notes.push(Guess {
+                what: format!("the column `{}` is taken for wavelengths", first.shown()),
+                otherwise: None,
+            });
+        }
+        Ok(())
     }
 
     /// Joins the detectors of a spectrometer, the wavelengths of each of which rise: where two have
@@ -206,9 +263,11 @@ pub fn series(text: &str, known: &Known) -> Result<Series, Fault> {
         points: Vec::new(),
         spans: Vec::new(),
         is_percent: form == Form::Svc,
+        is_um: false,
+        name: None,
         notes: Vec::new(),
     };
-    let mut names_allowed = form == Form::Table;
+    let mut names_allowed = form != Form::Svc;
     let mut masked = Vec::new();
     for mut row in table.of_any_length() {
         row.cut(columns);
@@ -218,6 +277,7 @@ pub fn series(text: &str, known: &Known) -> Result<Series, Fault> {
                 .first()
                 .is_some_and(|first| table.number(first).is_none());
         if is_names {
+            found.take_names(row.fields)?;
             continue;
         }
         let ([first, .., last], true) = (fields.as_slice(), fields.len() == columns) else {
@@ -255,7 +315,7 @@ pub fn series(text: &str, known: &Known) -> Result<Series, Fault> {
     Ok(found)
 }
 
-/// The form of a text, where its numbers begin, and how many columns they have.
+/// The form of a text, where its names or numbers begin, and how many columns they have.
 fn form(text: &str) -> Result<(Form, usize, usize), Fault> {
     if text.starts_with(SVC) {
         let mut at = 0;
@@ -270,28 +330,23 @@ fn form(text: &str) -> Result<(Form, usize, usize), Fault> {
     }
     let mut at = 0;
     for line in text.split_inclusive('\n').take(200) {
-        at += line.len();
         let first = line
             .split(['\t', ',', ';'])
             .next()
             .unwrap_or_default()
             .trim();
         // Plain tables may name their columns so too: then nothing is above.
-        if first.eq_ignore_ascii_case("wavelength") && at > line.len() {
+        if first.eq_ignore_ascii_case("wavelength") && at > 0 {
             return Ok((Form::Asd, at, 2));
         }
+        at += line.len();
     }
     let is_export = text
         .lines()
         .next()
         .is_some_and(|line| line.starts_with("Wavelength\t"));
     let form = if is_export { Form::Asd } else { Form::Table };
-    let start = if is_export {
-        text.find('\n').map_or(text.len(), |end| end + 1)
-    } else {
-        0
-    };
-    Ok((form, start, 2))
+    Ok((form, 0, 2))
 }
 
 fn wrong_columns(span: Range<usize>, found: usize, wanted: usize) -> Fault {
@@ -302,6 +357,14 @@ fn wrong_columns(span: Range<usize>, found: usize, wanted: usize) -> Fault {
         "a .sig file has wavelength, reference, target and percent"
     };
     Fault::at(span, problem, help)
+}
+
+/// Refuses a first column whose name says that it holds no wavelengths.
+pub(super) fn refuse_other_axis(name: &Field) -> Result<(), Fault> {
+    other_axis(&name.text).map_or(Ok(()), |(what, help)| {
+        let problem = format!("has {what} in the column `{}`", name.shown());
+        Err(Fault::at(name.span.clone(), problem, help))
+    })
 }
 
 pub(super) fn number(table: &Rows<'_>, field: &Field) -> Result<f64, Fault> {

@@ -9,6 +9,8 @@
 
 mod leaves;
 
+use std::collections::BTreeMap;
+
 use leafmodel::document::rows::{Field, Guess, Rows, without_mark};
 use leafmodel::document::source::quoted;
 
@@ -16,7 +18,9 @@ use self::leaves::{Draft, Leaves};
 use super::columns::{Column, Named, columns, is_wavelength, listed};
 use super::known::{Known, Measure, ValueUnit, WavelengthUnit};
 use super::series::Series;
-use super::units::{are_micrometres, are_percent, micrometres, percent};
+use super::units::{
+    self, are_micrometres, are_percent, contradiction, greatest_fraction, micrometres, percent,
+};
 use super::{Fault, Slack, of_ragged};
 
 /// A leaf's spectra, by rising wavelength.
@@ -156,7 +160,7 @@ pub fn read(text: &str, known: &Known) -> Result<Spectra, Fault> {
         });
     }
     let mut drafts = leaves.found;
-    to_nm_and_fractions(&mut drafts, &columns, known, &mut notes);
+    to_nm_and_fractions(&mut drafts, (&names, &columns), known, &mut notes)?;
     let mut leaves = Vec::with_capacity(drafts.len());
     for draft in drafts {
         leaves.extend(draft.leaf(text, known, &mut notes)?);
@@ -209,10 +213,10 @@ fn note(what: String) -> Guess {
 /// by their sizes.
 fn to_nm_and_fractions(
     drafts: &mut [Draft],
-    columns: &[Named],
+    (names, columns): (&[Field], &[Named]),
     known: &Known,
     notes: &mut Vec<Guess>,
-) {
+) -> Result<(), Fault> {
     let says_um = columns
         .iter()
         .any(|column| column.holds == Column::Wavelength(Some(WavelengthUnit::Micrometres)));
@@ -226,28 +230,85 @@ fn to_nm_and_fractions(
             is_guess
         }
     };
-    let says_percent = columns.iter().any(|column| {
-        column.is_percent && matches!(column.holds, Column::Of(..) | Column::Band(..))
-    });
-    let is_percent = match known.values {
-        Some(unit) => unit == ValueUnit::Percent,
-        None if says_percent => true,
-        None => {
-            let is_guess = are_percent(all().flat_map(|point| point.values.into_iter().flatten()));
-            notes.extend(is_guess.then(percent));
-            is_guess
-        }
-    };
-    for point in drafts.iter_mut().flat_map(|draft| &mut draft.points) {
-        if is_um {
+    if is_um {
+        for point in drafts.iter_mut().flat_map(|draft| &mut draft.points) {
             point.nm *= 1000.0;
         }
-        if is_percent {
-            for value in point.values.iter_mut().flatten() {
-                *value /= 100.0;
+    }
+    let percent = which_are_percent(drafts, names, known, notes)?;
+    for (draft, percent) in drafts.iter_mut().zip(percent) {
+        for values in draft.points.iter_mut().map(|point| &mut point.values) {
+            for (value, _) in values.iter_mut().zip(percent).filter(|both| both.1) {
+                *value = value.map(|value| value / 100.0);
             }
         }
     }
+    Ok(())
+}
+
+/// Which measures of each leaf are percent. Columns whose names do not say it are all percent or all
+/// fractions, because one of them alone may be either.
+fn which_are_percent(
+    drafts: &[Draft],
+    names: &[Field],
+    known: &Known,
+    notes: &mut Vec<Guess>,
+) -> Result<Vec<[bool; 3]>, Fault> {
+    if let Some(unit) = known.values {
+        return Ok(vec![[unit == ValueUnit::Percent; 3]; drafts.len()]);
+    }
+    let mut found = vec![[false; 3]; drafts.len()];
+    let mut contradictions: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    let mut unnamed = Vec::new();
+    for (draft, found) in drafts.iter().zip(&mut found) {
+        for measured in draft.measures() {
+            match measured.percent {
+                Some(column) => {
+                    found[measured.of] = true;
+                    let values = contradictions.entry(column).or_default();
+                    values.extend(measured.values);
+                }
+                None => unnamed.push(measured),
+            }
+        }
+    }
+    let is_any_named = !contradictions.is_empty();
+    for (column, values) in contradictions {
+        notes.extend(contradiction(&names[column].text, &values));
+    }
+    let is_percent = are_percent(unnamed.iter().flat_map(|own| &own.values).copied());
+    notes.extend(is_percent.then(percent));
+    let large = unnamed
+        .iter()
+        .find(|own| are_percent(own.values.iter().copied()));
+    let small = unnamed
+        .iter()
+        .find_map(|own| Some((own, greatest_fraction(&own.values)?)));
+    if let (Some(large), Some((small, greatest))) = (large, small) {
+        let most = units::greatest(&large.values);
+        let problem = format!(
+            "{} looks like percent, up to {most}, and {} like fractions, up to {greatest}",
+            large.name, small.name
+        );
+        let help = "write all in one unit; if they are all percent, say --values percent, or in a \
+                    scene `values = \"percent\"`";
+        return Err(Fault::of_file(problem, help));
+    }
+    if let Some((small, greatest)) = small.filter(|_| is_any_named) {
+        notes.push(Guess {
+            what: format!(
+                "{} is taken for fractions, up to {greatest}: only other columns are named percent",
+                small.name
+            ),
+            otherwise: Some(("values", "percent")),
+        });
+    }
+    for (draft, found) in drafts.iter().zip(&mut found) {
+        for measured in draft.measures().filter(|own| own.percent.is_none()) {
+            found[measured.of] = is_percent;
+        }
+    }
+    Ok(found)
 }
 
 /// A leaf of files of one spectrum each, in nm and shares: R of the adaxial face, R of the abaxial

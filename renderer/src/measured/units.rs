@@ -1,11 +1,14 @@
 //! Units of measured spectra, guessed where a file does not say them, and gaps.
 
 use leafmodel::document::rows::Guess;
+use leafmodel::document::source::quoted;
 
 /// Wavelengths below this are micrometres: 0.4 to 2.5 against 400 to 2500.
 const MOST_UM: f64 = 30.0;
 /// Where the upper quarter of all values is above this they are percent.
 const MOST_SHARE: f64 = 1.5;
+/// The greatest fraction, with the noise of measurements.
+const MOST_FRACTION: f64 = 1.05;
 /// A step this many times as long as its neighbours is a gap that no spectrum of a scene may have.
 pub const WIDE_GAP: f64 = 10.0;
 /// A step this many times as long as its neighbours is a gap that is reported.
@@ -40,6 +43,43 @@ pub fn are_percent(values: impl Iterator<Item = f64>) -> bool {
     values.sort_by(f64::total_cmp);
     let upper = values.get(values.len() * 3 / 4);
     upper.is_some_and(|value| *value > MOST_SHARE)
+}
+
+/// The greatest of some values, rounded for a message.
+pub(super) fn greatest(values: &[f64]) -> f64 {
+    let greatest = values.iter().copied().fold(0.0, f64::max);
+    (1e4 * greatest).round() / 1e4
+}
+
+/// The greatest of values that can only be fractions; `None` of values that may be percent, and of
+/// zeros, which are both.
+pub(super) fn greatest_fraction(values: &[f64]) -> Option<f64> {
+    let greatest = greatest(values);
+    (greatest > 0.0 && greatest <= MOST_FRACTION).then_some(greatest)
+}
+
+/// What is said where a column's name says percent and its values are fractions.
+pub(super) fn contradiction(name: &str, values: &[f64]) -> Option<Guess> {
+    let greatest = greatest_fraction(values)?;
+    Some(Guess {
+        what: format!(
+            "the column {} says percent, but its values are at most {greatest}; they are divided by 100",
+            quoted(name)
+        ),
+        otherwise: Some(("values", "fraction")),
+    })
+}
+
+/// What to do about a wavelength behind a greater one if it may be a thousand that was written as
+/// `1,000`; the notes say whether commas were read as decimal marks.
+pub(super) fn falling(before: f64, after: f64, notes: &[Guess]) -> Option<&'static str> {
+    let has_commas = notes
+        .iter()
+        .any(|note| matches!(note.otherwise, Some(("decimal", _))));
+    let is_thousand = has_commas && (before..2.0 * before).contains(&(1000.0 * after));
+    is_thousand.then_some(
+        "a comma within a number is read as its decimal mark, so write 1000 instead of `1,000`",
+    )
 }
 
 /// Gaps in wavelengths that rise: the numbers of the wavelengths behind steps that are more than so

@@ -238,6 +238,20 @@ const SLIPS: &[(&str, &str, [&str; 3])] = &[
     ),
     ("seeds = 0\n", "", ["sweep.toml:3:9", "`seeds` is 0", ""]),
     (
+        "seeds = [4, 9, 4]\n",
+        "",
+        ["sweep.toml", "has the seed 4 twice", ""],
+    ),
+    (
+        "[grid]\na = [0.1, 0.2, 0.10]\n",
+        "",
+        [
+            "sweep.toml:4:16",
+            "has the value 0.1 twice",
+            "each value once",
+        ],
+    ),
+    (
         "[grid]\na = { from = 1, to = 9, count = 99999999 }\n",
         "",
         ["sweep.toml:4:", "outside", "10000000"],
@@ -345,6 +359,45 @@ fn slips_in_words_are_told_with_their_places() {
     }
     let report = over(&["a=1", "a=2"]).expect_err("twice");
     assert!(report.contains("varied twice"), "{report}");
+    for (values, place) in [
+        ("0.1,0.1", "--over:1:7"),
+        ("1,2,1", "--over:1:7"),
+        ("x,y,x", "--over:1:7"),
+    ] {
+        let report = over(&[&format!("a={values}")]).expect_err(values);
+        assert!(
+            report.contains(place) && report.contains("twice"),
+            "{report}"
+        );
+    }
+    for (key, seeds, spp, said) in [
+        (
+            "film.rgb.seed",
+            Some(2),
+            None,
+            "varied twice: by the seeds too",
+        ),
+        ("seed", Some(2), None, "varied twice: by the seeds too"),
+        (
+            "film.spectral.spp",
+            None,
+            Some(4),
+            "is varied, and --spp sets it",
+        ),
+    ] {
+        let axis = [format!("{key}=1,2")];
+        let words = Words {
+            over: &axis,
+            seeds,
+            spp,
+            ..Words::default()
+        };
+        let swept = Sweep::words(Target::Scene("s.toml".into()), "s.toml", &words);
+        let report = swept.expect_err(key).to_string();
+        assert!(report.contains(said), "{report}");
+    }
+    let other = over(&["leaves.oak.seed=1,2", "seeds=1,2"]);
+    assert!(other.is_ok(), "each is a key of its own");
     let many = over(&["a=0..1/9999999", "b=0..1/2"]).expect_err("too many");
     assert!(
         many.contains("19999998 tasks, more than 10000000"),

@@ -88,7 +88,8 @@ fn one_spectrum(file: &Path, known: &Known) -> Result<Series, Failure> {
     let refused = |fault: &crate::measured::Fault| Failure::bad(fault.shown(file, &text));
     let mut series = series::series(&text, known).map_err(|fault| refused(&fault))?;
     series.require_rising().map_err(|fault| refused(&fault))?;
-    for note in series.to_nm_and_fractions(known) {
+    let notes = series.to_nm_and_fractions(known);
+    for note in notes.map_err(|fault| refused(&fault))? {
         eprintln!("note: {}: {note}", file.display());
     }
     let checked = series.require_shares(Slack::NOISE);

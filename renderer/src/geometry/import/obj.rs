@@ -54,7 +54,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawMesh, ImportError> {
                 let [u, v, _] = numbers(&mut words, 1).map_err(wrong)?;
                 uvs.push(Vec2::new(u, v));
             }
-            Some("f") => {
+            Some("f" | "fo") => {
                 face.clear();
                 for word in words {
                     let counts = [positions.len(), uvs.len(), normals.len()];
@@ -78,7 +78,9 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawMesh, ImportError> {
                 }
                 raw.push_face(&face);
             }
-            // Lines, points, groups, materials and free-form surfaces are ignored.
+            // Patches too, by the names that older files have.
+            Some("surf" | "bsp" | "bzp" | "cdp") => raw.free_form += 1,
+            // Lines, points, groups and materials are ignored.
             Some(_) | None => {}
         }
     }
@@ -113,7 +115,7 @@ fn statement(line: &[u8]) -> Cow<'_, str> {
 /// Whether a line begins a statement that is read: others may end in a name with a backslash.
 fn is_read(text: &str) -> bool {
     let word = text.split_ascii_whitespace().next();
-    matches!(word, Some("v" | "vn" | "vt" | "f"))
+    matches!(word, Some("v" | "vn" | "vt" | "f" | "fo"))
 }
 
 /// Three numbers, of which at least `least` must be given; missing ones are 0. Further ones (w,

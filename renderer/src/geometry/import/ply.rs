@@ -43,6 +43,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawMesh, ImportError> {
         match element.name.as_str() {
             "vertex" => vertices(element, &mut values, &mut raw)?,
             "face" => faces(element, &mut values, &mut raw)?,
+            "tristrips" => strips(element, &mut values, &mut raw)?,
             _ => pass_over(element, &mut values)?,
         }
     }
@@ -93,13 +94,62 @@ fn vertices(element: &Element, values: &mut Values, raw: &mut RawMesh) -> Result
     Ok(())
 }
 
+/// Whether a property of a face lists its corners.
+fn is_corners(name: &str) -> bool {
+    name == "vertex_indices" || name == "vertex_index"
+}
+
+/// The vertex of a corner. f64 holds every integer type of the format exactly.
+fn vertex(value: f64) -> Result<u32, String> {
+    if value < 0.0 || value > f64::from(u32::MAX) || value.fract() != 0.0 {
+        return Err(format!("{value} is not the number of a vertex"));
+    }
+    Ok(value as u32)
+}
+
+/// Strips of triangles: each corner makes one with the two before it, until -1 ends a strip.
+fn strips(element: &Element, values: &mut Values, raw: &mut RawMesh) -> Result<(), ImportError> {
+    let lists = element.properties.iter();
+    if !lists.map(|property| &*property.name).any(is_corners) {
+        return Err(values.wrong("the tristrips have no vertex_indices".to_owned()));
+    }
+    for _ in 0..element.count {
+        for property in &element.properties {
+            match property.kind {
+                Kind::List { count, item } if is_corners(&property.name) => {
+                    let mut last = Vec::with_capacity(3);
+                    let mut is_turned = false;
+                    values.list(count, item, |value| {
+                        if value == -1.0 {
+                            last.clear();
+                            is_turned = false;
+                            return Ok(());
+                        }
+                        last.push(vertex(value)?);
+                        if let [a, b, c] = last[..] {
+                            // Every other triangle has its corners the other way round.
+                            let corners = if is_turned { [b, a, c] } else { [a, b, c] };
+                            raw.push_face(&corners);
+                            is_turned = !is_turned;
+                            last.remove(0);
+                        }
+                        Ok(())
+                    })?;
+                }
+                Kind::List { count, item } => values.list(count, item, |_| Ok(()))?,
+                Kind::Scalar(scalar) => {
+                    values.scalar(scalar)?;
+                }
+            }
+        }
+        values.end_of_item()?;
+    }
+    Ok(())
+}
+
 fn faces(element: &Element, values: &mut Values, raw: &mut RawMesh) -> Result<(), ImportError> {
-    let is_corners = |name: &str| name == "vertex_indices" || name == "vertex_index";
-    if !element
-        .properties
-        .iter()
-        .any(|property| is_corners(&property.name))
-    {
+    let lists = element.properties.iter();
+    if !lists.map(|property| &*property.name).any(is_corners) {
         return Err(values.wrong("the faces have no vertex_indices".to_owned()));
     }
     let mut corners = Vec::new();
@@ -109,14 +159,10 @@ fn faces(element: &Element, values: &mut Values, raw: &mut RawMesh) -> Result<()
                 Kind::List { count, item } if is_corners(&property.name) => {
                     corners.clear();
                     values.list(count, item, |value| {
-                        // f64 holds every integer type of the format exactly.
-                        if value < 0.0 || value > f64::from(u32::MAX) || value.fract() != 0.0 {
-                            return Err(format!("{value} is not the number of a vertex"));
-                        }
                         if corners.len() == MOST_CORNERS {
                             return Err(format!("the face has more than {MOST_CORNERS} corners"));
                         }
-                        corners.push(value as u32);
+                        corners.push(vertex(value)?);
                         Ok(())
                     })?;
                     if corners.len() < 3 {

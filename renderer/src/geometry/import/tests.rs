@@ -321,3 +321,62 @@ fn statements_of_an_obj_go_on_behind_a_backslash() {
     );
     assert!(import(b"v 0 0 0\nf 1 1 1 \\", "obj", 1.0).is_err());
 }
+
+#[test]
+fn strips_of_triangles_of_a_ply_are_read_beside_faces_and_alone() {
+    let strips = |faces: &str, more: &str| {
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n\
+             {faces}element tristrips 1\nproperty list int int vertex_indices\nend_header\n\
+             0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n{more}9 0 1 2 3 -1 2 3 4 5\n"
+        )
+    };
+    let alone = import(strips("", "").as_bytes(), "ply", 1.0).expect("four triangles");
+    assert_eq!(
+        alone.triangles(),
+        [[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 3, 5]]
+    );
+    for [a, b, c] in alone
+        .triangles()
+        .iter()
+        .map(|face| face.map(|v| alone.positions()[v as usize]))
+    {
+        assert!(
+            (b - a).cross(c - a).z > 0.0,
+            "all are seen from the same side"
+        );
+    }
+    let header = "element face 1\nproperty list int int vertex_indices\n";
+    let both = import(strips(header, "3 0 3 5\n").as_bytes(), "ply", 1.0).expect("a mesh");
+    assert_eq!(both.triangles().len(), 5);
+    let wrong = strips("", "").replace("-1 2", "-2 2");
+    let refused = import(wrong.as_bytes(), "ply", 1.0).expect_err("no vertex");
+    assert!(
+        refused
+            .to_string()
+            .contains("-2 is not the number of a vertex"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn face_outlines_of_an_obj_are_faces_and_free_form_surfaces_are_counted() {
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    let surface = "cstype bspline\ndeg 1 1\nsurf 0 1 0 1 1 2 4 3\nparm u 0 0 1 1\nend\n";
+    let outline = import(format!("{square}fo 1 2 3 4\n").as_bytes(), "obj", 1.0);
+    let outline = outline.expect("a face");
+    assert_eq!(
+        (outline.triangles().len(), outline.dropped().total()),
+        (2, 0)
+    );
+    let both = import(format!("{square}f 1 2 3\n{surface}").as_bytes(), "obj", 1.0);
+    assert_eq!(
+        both.expect("a face").dropped().to_string(),
+        "1 face left out (0 not finite, 0 without area, 0 duplicate, 1 free-form surfaces, which are not read)"
+    );
+    let alone = import(format!("{square}{surface}").as_bytes(), "obj", 1.0);
+    assert_eq!(
+        alone.map(|_| ()),
+        Err(ImportError::FreeForm { surfaces: 1 })
+    );
+}

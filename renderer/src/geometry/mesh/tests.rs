@@ -37,6 +37,7 @@ fn an_empty_mesh_is_refused() {
                 not_finite: 1,
                 degenerate: 1,
                 duplicate: 0,
+                free_form: 0,
                 first: Some((0, DropCause::NotFinite)),
             },
         }

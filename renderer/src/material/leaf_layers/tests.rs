@@ -175,6 +175,35 @@ fn a_leaf_that_absorbs_nothing_loses_nothing_however_rough_its_faces() {
 }
 
 #[test]
+fn a_leaf_without_water_and_dry_matter_is_that_of_the_ordinates() {
+    let nothing = Contents::NOTHING.with(&[(Constituent::Structure, 1.5)]);
+    let green = nothing.with(&[(Constituent::Chlorophyll, 40.0)]);
+    let hair = nothing.with(&[(Constituent::Water, 1e-30)]);
+    for contents in [nothing, green, hair] {
+        let held = Held::Uniform(contents);
+        let layers = LeafLayers::new(&held, [0.0, 0.0]);
+        let at = ProspectD::coefficients(550.0).expect("in the table");
+        let [exact, _] = LayeredLeaf::new(&contents)
+            .faces(&at, Resolution::FAST)
+            .normal;
+        let found = shares(&layers, &held, 550.0, Vec3::Z, 20_000);
+        for ([value, error], exact) in found.into_iter().zip([exact.reflected, exact.transmitted]) {
+            let z = (value - exact) / error;
+            assert!(z.abs() < 3.5, "{value} ± {error} for {exact}");
+        }
+    }
+    // As `lamina optics --layers` has it.
+    let [reflected, transmitted] = shares(
+        &LeafLayers::new(&Held::Uniform(nothing), [0.0, 0.0]),
+        &Held::Uniform(nothing),
+        550.0,
+        Vec3::Z,
+        20_000,
+    );
+    assert!((reflected[0] - 0.503).abs() < 0.015 && (transmitted[0] - 0.497).abs() < 0.015);
+}
+
+#[test]
 fn a_map_of_one_value_is_the_uniform_leaf() {
     let contents = presets::by_name("sun-green").expect("a preset").contents;
     let map = ContentsTexture::new(4, 4, vec![contents.to_texel(); 16]);

@@ -260,6 +260,26 @@ fn small_angles_are_degrees_if_they_are_whole_or_a_person_or_a_name_says_so() {
     let table = super::read(&mixed, &Known::default()).expect("a good table");
     assert_eq!(table.samples[2].incident.theta, three);
     assert_eq!(table.samples[2].scattered.theta, 2.0);
+    // Degrees under a name, or with a flag, that says radians.
+    let degrees = whole.replace("3,0,2,0", "3,0,30,0");
+    let named = degrees.replace("theta_o,", "theta_o_rad,");
+    for (text, angles, name) in [
+        (&named, None, "theta_o_rad"),
+        (&degrees, Some(AngleUnit::Radians), "theta_o"),
+    ] {
+        let known = Known {
+            angles,
+            ..Known::default()
+        };
+        let fault = super::read(text, &known).expect_err("no angle");
+        let said = format!(
+            "x.csv, line 4: {name} is 30 and in radians, so 1718.87°, allowed is up to 180°: if the \
+             angles are degrees, say --angles degrees"
+        );
+        assert_eq!(fault.shown(std::path::Path::new("x.csv"), text), said);
+    }
+    let read = read(&named, Some(AngleUnit::Degrees));
+    assert_eq!(read, (3.0, vec![]));
 }
 
 #[test]

@@ -9,6 +9,11 @@ fn points(text: &str) -> Vec<(f64, f64)> {
     read(text).expect("a good file").points
 }
 
+fn converted(found: &mut Series, known: &Known) -> Vec<Guess> {
+    let notes = found.to_nm_and_fractions(known);
+    notes.expect("values of the right kind")
+}
+
 fn shown(notes: &[Guess]) -> Vec<String> {
     notes.iter().map(ToString::to_string).collect()
 }
@@ -31,7 +36,7 @@ const SIG: &str = "/*** Spectra Vista SIG Data ***/\r\nname= oak.sig\r\n\
 fn a_sig_file_gives_its_ratio_as_a_fraction_and_says_so() {
     let mut found = read(SIG).expect("a good file");
     assert_eq!(found.form, Form::Svc);
-    let notes = shown(&found.to_nm_and_fractions(&Known::default()));
+    let notes = shown(&converted(&mut found, &Known::default()));
     assert_eq!(notes.len(), 1, "{notes:?}");
     assert_eq!(found.points, [(450.1, 0.05), (550.2, 0.12), (800.3, 0.48)]);
     let without = SIG.replace("data=", "date=");
@@ -123,8 +128,8 @@ fn wavelengths_may_fall_and_bands_may_be_masked() {
 #[test]
 fn flags_count_more_than_guesses() {
     let read = |known: Known| {
-        let mut found = series("um R\n0.4 5\n0.5 10\n0.8 50\n", &known).expect("a good file");
-        let notes = shown(&found.to_nm_and_fractions(&known));
+        let mut found = series("0.4 5\n0.5 10\n0.8 50\n", &known).expect("a good file");
+        let notes = shown(&converted(&mut found, &known));
         (found.points[1], notes.len())
     };
     let plain = Known::default();
@@ -163,12 +168,82 @@ fn an_export_of_an_asd_is_read_with_and_without_its_header() {
 
 #[test]
 fn micrometres_and_percent_are_recognised_and_reported() {
-    let mut found = read("um R\n0.4 5\n0.5 10\n0.8 50\n").expect("a good file");
-    let notes = found.to_nm_and_fractions(&Known::default());
+    let mut found = read("0.4 5\n0.5 10\n0.8 50\n").expect("a good file");
+    let notes = converted(&mut found, &Known::default());
     assert_eq!(notes, [micrometres(), percent()]);
     assert_eq!(found.points, [(400.0, 0.05), (500.0, 0.1), (800.0, 0.5)]);
     let mut plain = read("400 0.5\n500 0.6\n").expect("a good file");
-    assert!(plain.to_nm_and_fractions(&Known::default()).is_empty());
+    assert!(converted(&mut plain, &Known::default()).is_empty());
+}
+
+#[test]
+fn the_line_of_names_says_units_and_what_is_no_wavelength_or_reflectance() {
+    // (the text, the second point, words of its notes)
+    for (text, point, said) in [
+        ("um,R\n0.4,0.1\n0.5,0.2\n", (500.0, 0.2), ""),
+        (
+            "Wavelength [µm]\tR (%)\n0.4\t1\n0.5\t2\n",
+            (500.0, 0.02),
+            "",
+        ),
+        (
+            "Wavelength\tReflectance (%)\n400\t0.5\n500\t1.5\n",
+            (500.0, 0.015),
+            "",
+        ),
+        (
+            "# a lamp\nnm;value\n400;0,1\n500;0,2\n",
+            (500.0, 0.2),
+            "decimal",
+        ),
+        (
+            "nm,R [%]\n400,0.1\n500,0.2\n",
+            (500.0, 0.002),
+            "says percent, but",
+        ),
+        (
+            "Licht,R\n400,0.1\n500,0.2\n",
+            (500.0, 0.2),
+            "`Licht` is taken",
+        ),
+        (",R\n400,0.1\n500,0.2\n", (500.0, 0.2), ""),
+    ] {
+        let mut found = read(text).expect("a good file");
+        let notes = shown(&converted(&mut found, &Known::default()));
+        assert_eq!(found.points[1], point, "{text}");
+        assert_eq!(notes.len(), usize::from(!said.is_empty()), "{notes:?}");
+        assert!(notes.iter().all(|note| note.contains(said)), "{notes:?}");
+    }
+    for (text, said) in [
+        (
+            "frequency_THz,R\n400,0.1\n500,0.2\n",
+            "x.csv, line 1: has frequencies in the column `frequency_THz`: write wavelengths in nm",
+        ),
+        (
+            "# FTIR\nwavenumber (cm-1);Reflectance\n4000;0,1\n5000;0,2\n",
+            "x.csv, line 2: has wavenumbers in the column `wavenumber (cm-1)`",
+        ),
+        (
+            "nm,log(1/R)\n400,0.1\n500,0.2\n",
+            "x.csv, line 1: has absorbances in the column `log(1/R)`",
+        ),
+        (
+            "R,nm\n0.1,400\n0.2,500\n",
+            "x.csv, line 1: has `R` before the wavelengths",
+        ),
+        (
+            "nm;R\n980;0.1\n990;0.1\n1,000;0.2\n",
+            "x.csv, line 4: has wavelength 1 behind 990: a comma within a number is read as its \
+             decimal mark, so write 1000",
+        ),
+    ] {
+        let found = read(text).and_then(|mut found| {
+            found.to_nm_and_fractions(&Known::default())?;
+            found.require_rising()
+        });
+        let shown = found.expect_err(text).shown(Path::new("x.csv"), text);
+        assert!(shown.starts_with(said), "{shown}");
+    }
 }
 
 #[test]

@@ -10,6 +10,7 @@ use crate::measured::Fault;
 use crate::measured::columns::{Column, Named, measure_of_cell};
 use crate::measured::known::{Known, Measure};
 use crate::measured::masks::{is_masked, masked_ranges};
+use crate::measured::units::falling;
 
 /// Leaves while lines are read.
 pub(super) struct Leaves<'k> {
@@ -30,6 +31,19 @@ pub(super) struct Draft {
     numbers: HashMap<u64, usize>,
     /// Measures that have a column.
     has: [bool; 3],
+    /// The column of each measure whose name says percent.
+    percent: [Option<usize>; 3],
+}
+
+/// A measure of a leaf.
+pub(super) struct Measured {
+    /// Which.
+    pub(super) of: usize,
+    /// As messages name it.
+    pub(super) name: String,
+    pub(super) values: Vec<f64>,
+    /// The column whose name says that the values are percent.
+    pub(super) percent: Option<usize>,
 }
 
 /// What was measured of a leaf at a wavelength, by measure; nothing where that was masked.
@@ -119,6 +133,9 @@ impl<'k> Leaves<'k> {
                 self.found.len() - 1
             });
             self.found[i].put(measure, nm, value, row.line)?;
+            if column.is_percent {
+                self.found[i].percent[measure as usize].get_or_insert(at);
+            }
         }
         Ok(())
     }
@@ -133,6 +150,24 @@ impl<'k> Leaves<'k> {
 }
 
 impl Draft {
+    /// The measures that were read: the name of each, its values, and the column that says percent.
+    pub(super) fn measures(&self) -> impl Iterator<Item = Measured> + '_ {
+        let there = (0..3).filter(move |&of| self.has[of]);
+        there.map(move |of| Measured {
+            of,
+            name: match (self.name.as_str(), ["R", "abaxial R", "T"][of]) {
+                ("", word) => word.to_owned(),
+                (leaf, word) => format!("{}: {word}", quoted(leaf)),
+            },
+            values: self
+                .points
+                .iter()
+                .filter_map(|point| point.values[of])
+                .collect(),
+            percent: self.percent[of],
+        })
+    }
+
     fn put(
         &mut self,
         measure: Measure,
@@ -179,10 +214,9 @@ impl Draft {
             } else {
                 (after, before)
             };
-            let problem = format!(
-                "wavelength {} after {}: sort the lines so that wavelengths rise or fall",
-                second.nm, first.nm
-            );
+            let help = falling(first.nm, second.nm, notes)
+                .unwrap_or("sort the lines so that wavelengths rise or fall");
+            let problem = format!("wavelength {} after {}: {help}", second.nm, first.nm);
             return Err(Fault::in_line(text, second.line, problem, ""));
         }
         let name = if self.name.is_empty() {

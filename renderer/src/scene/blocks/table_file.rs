@@ -56,18 +56,19 @@ pub(super) fn bytes(
 
 fn rows_of(cx: &Context, path: &str, at: &Place, bytes: &[u8], guess: bool) -> Option<Rows> {
     let text = &*text(cx, path, at, bytes)?;
-    let mut found = match series::series(text, &Known::default()) {
-        Ok(found) => found,
-        Err(fault) => {
-            report(cx, path, at, text, &fault);
-            return None;
-        }
-    };
-    let notes = if guess {
-        found.to_nm_and_fractions(&Known::default())
-    } else {
-        found.notes.clone()
-    };
+    let known = Known::default();
+    let read = series::series(text, &known).and_then(|mut found| {
+        let notes = if guess {
+            found.to_nm_and_fractions(&known)?
+        } else {
+            found.to_nm();
+            std::mem::take(&mut found.notes)
+        };
+        Ok((found, notes))
+    });
+    let (found, notes) = read
+        .map_err(|fault| report(cx, path, at, text, &fault))
+        .ok()?;
     for note in notes {
         let help = match note.otherwise {
             Some(("decimal", _)) => "if that is wrong, write numbers with points",
