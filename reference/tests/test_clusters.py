@@ -162,9 +162,16 @@ def test_an_interrupted_call_leaves_no_program(tmp_path: Path) -> None:
     # A shell that runs the tests in its background lets them ignore it.
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
-        started = start([*LONG, "--out", tmp_path / "x"])
-        timer = threading.Timer(1, lambda: os.kill(os.getpid(), signal.SIGINT))
-        timer.start()
+        started = start([*LONG, "--checkpoint-every", "0.1", "--out", tmp_path / "x"])
+
+        def interrupt() -> None:
+            # Once there is something to save.
+            until = time.monotonic() + 60
+            while not (tmp_path / "x.checkpoint").exists() and time.monotonic() < until:
+                time.sleep(0.1)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        threading.Thread(target=interrupt).start()
         with pytest.raises(KeyboardInterrupt):
             started.result()
     finally:
