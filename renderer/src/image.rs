@@ -47,6 +47,7 @@ use std::path::{Path, PathBuf};
 
 use image::ImageDecoder as _;
 use image::metadata::Orientation;
+use leafmodel::document::whole_file;
 use thiserror::Error;
 
 pub use compare::{ChannelComparison, Comparison, compare};
@@ -229,13 +230,7 @@ fn read_file(
         path: path.to_owned(),
         source,
     };
-    let length = std::fs::metadata(path).map_err(refuse)?.len();
-    if length > MOST_BYTES {
-        return Err(refuse(io::Error::other(format!(
-            "{length} bytes; the most is {MOST_BYTES}"
-        ))));
-    }
-    let bytes = std::fs::read(path).map_err(refuse)?;
+    let bytes = whole_file::read(path, MOST_BYTES).map_err(refuse)?;
     decode(&bytes).map_err(|source| ImageError::Contents {
         path: path.to_owned(),
         source: Box::new(source),

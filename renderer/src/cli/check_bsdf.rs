@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
 
+use leafmodel::document::whole_file;
 use serde_json::{Value as Json, json};
 
 use crate::checkpoint::PROGRAM;
@@ -32,7 +33,7 @@ pub(super) fn run(arguments: &CheckBsdfArguments) -> Result<(), Failure> {
     let file = &arguments.table;
     let outputs: Vec<&Path> = out.into_iter().collect();
     check_outputs(&outputs, std::slice::from_ref(file), "the command")?;
-    let bytes = std::fs::read(file)
+    let bytes = whole_file::read(file, whole_file::MOST_BYTES)
         .map_err(|error| Failure::bad(format!("{}: {error}", file.display())))?;
     let text = series::text(&bytes).map_err(|fault| Failure::bad(fault.shown(file, "")))?;
     let mut known = arguments.reading.known();

@@ -1,7 +1,6 @@
 //! Files of a scene: read once, checked before they are decoded.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
@@ -9,6 +8,7 @@ use glam::DMat3;
 use thiserror::Error;
 
 use leafmodel::document::assets::{Assets, Raster, Triangles};
+use leafmodel::document::whole_file;
 use leafmodel::memory;
 use leafmodel::optics::{Constituent, Texel};
 
@@ -24,20 +24,12 @@ const MOST_BYTES: u64 = 4 << 30;
 #[derive(Debug, Error)]
 pub enum AssetError {
     /// It cannot be read.
-    #[error("{file} cannot be read: {source}")]
+    #[error("{file}: {source}")]
     Read {
         /// The file.
         file: PathBuf,
         /// What the system says.
         source: std::io::Error,
-    },
-    /// It is too large.
-    #[error("{file} has {bytes} bytes, more than {MOST_BYTES}")]
-    TooLarge {
-        /// The file.
-        file: PathBuf,
-        /// Its size.
-        bytes: u64,
     },
     /// It is not a valid picture.
     #[error(transparent)]
@@ -99,20 +91,12 @@ pub struct RgbPicture {
 ///
 /// # Errors
 ///
-/// [`AssetError`] if it cannot be read or is too large.
+/// [`AssetError::Read`] if it cannot be read, also because it is too large.
 pub fn read(file: &Path) -> Result<Vec<u8>, AssetError> {
-    let failed = |source| AssetError::Read {
+    whole_file::read(file, MOST_BYTES).map_err(|source| AssetError::Read {
         file: file.to_owned(),
         source,
-    };
-    let bytes = fs::metadata(file).map_err(failed)?.len();
-    if bytes > MOST_BYTES {
-        return Err(AssetError::TooLarge {
-            file: file.to_owned(),
-            bytes,
-        });
-    }
-    fs::read(file).map_err(failed)
+    })
 }
 
 /// What a channel may hold.

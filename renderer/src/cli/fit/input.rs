@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use leafmodel::document::source::quoted;
+use leafmodel::document::whole_file;
 
 use crate::cli::Failure;
 use crate::cli::arguments::FitArguments;
@@ -46,7 +47,8 @@ fn gaps(leaf: &Leaf) -> Vec<String> {
 }
 
 fn read(file: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(file).map_err(|error| Failure::bad(format!("{}: {error}", file.display())))
+    whole_file::read(file, whole_file::MOST_BYTES)
+        .map_err(|error| Failure::bad(format!("{}: {error}", file.display())))
 }
 
 fn of_table(file: &Path, known: &Known) -> Result<Vec<Leaf>, Failure> {

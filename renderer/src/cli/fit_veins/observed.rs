@@ -4,6 +4,7 @@ use std::path::Path;
 
 use leafmodel::document::nearest::nearest;
 use leafmodel::document::source::quoted;
+use leafmodel::document::whole_file;
 use leafmodel::inference::{Observation, Role};
 use leafmodel::measure::fitting::{FITTED, HELD_OUT, possible};
 use serde_json::{Map, Value};
@@ -142,13 +143,7 @@ fn number(key: &str, value: &Value) -> Result<Option<f64>, String> {
 fn members(path: &Path) -> Result<Map<String, Value>, Failure> {
     let shown = path.display();
     let refused = |error: std::io::Error| Failure::bad(format!("{shown}: {error}"));
-    let size = std::fs::metadata(path).map_err(refused)?.len();
-    if size > MOST_BYTES {
-        return Err(Failure::bad(format!(
-            "{shown} has {size} bytes, more than the {MOST_BYTES} that are read"
-        )));
-    }
-    let text = std::fs::read_to_string(path).map_err(refused)?;
+    let text = whole_file::read_utf8(path, MOST_BYTES).map_err(refused)?;
     let value = serde_json::from_str::<Value>(&text).map_err(|error| {
         Failure::bad(format!(
             "{shown}:{}:{}: not JSON: {error}",

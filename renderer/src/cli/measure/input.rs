@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use leafmodel::document::encoding::{Decoded, decoded};
+use leafmodel::document::whole_file;
 use leafmodel::import::{self, Draft, Fault, FaultKind, Format, ImportError, Imported, Wanted};
 use leafmodel::measure::{Blade, Known};
 use leafmodel::shape::outline::Outline;
@@ -260,7 +261,7 @@ fn margin(path: &Path, arguments: &ReadingArguments) -> Result<Outline, Failure>
 /// The text of a file; a note says so if its encoding is a guess.
 pub(in crate::cli) fn text_of(path: &Path) -> Result<String, Failure> {
     let bad = |error: &dyn std::fmt::Display| Failure::bad(format!("{}: {error}", path.display()));
-    let bytes = std::fs::read(path).map_err(|error| bad(&error))?;
+    let bytes = whole_file::read(path, whole_file::MOST_BYTES).map_err(|error| bad(&error))?;
     let Decoded { text, is_guessed } = decoded(&bytes).map_err(|error| bad(&error))?;
     if is_guessed {
         eprintln!(

@@ -12,6 +12,7 @@ use leafmodel::document::nearest::nearest;
 use leafmodel::document::report::DocumentErrors;
 use leafmodel::document::rows::{Field, Form, Rows, without_mark};
 use leafmodel::document::source::{Sources, escaped};
+use leafmodel::document::whole_file;
 use leafmodel::optics::{Constituent, Contents, ProspectD};
 
 use super::leaf::{self, Chosen};
@@ -45,8 +46,8 @@ pub(super) fn run(arguments: &OpticsArguments, table: &Path, out: &Path) -> Resu
         }
         check_outputs(&[out], &[table.to_owned()], "the command")?;
     }
-    let bytes = std::fs::read_to_string(table);
-    let text = bytes.map_err(|error| Failure::bad(format!("{}: {error}", table.display())))?;
+    let text = whole_file::read_utf8(table, whole_file::MOST_BYTES);
+    let text = text.map_err(|error| Failure::bad(format!("{}: {error}", table.display())))?;
     let leaves = read(
         &leaf::choose(arguments)?,
         arguments.form.form(),
