@@ -27,6 +27,7 @@
 pub mod animation;
 pub mod atomic;
 pub mod card;
+pub mod claimed;
 pub mod colours;
 pub mod compare;
 pub mod display;

@@ -15,7 +15,7 @@ use leafmodel::optics::{Constituent, Texel};
 use crate::geometry;
 use crate::image::{ImageError, Picture, colours, openexr, portable_network};
 use crate::material::contents_texture::ContentsTexture;
-use crate::scene::model::{self, Container, Model, ModelError};
+use crate::scene::model::{self, Claims, Container, Files, Model, ModelError};
 
 /// Largest file that is read, bytes.
 const MOST_BYTES: u64 = 4 << 30;
@@ -403,14 +403,39 @@ pub fn model(
     scale: f64,
     colours: bool,
 ) -> Result<Model, AssetError> {
+    opened(file, beside, |container, files| {
+        model::read(container, files, scale, colours)
+    })
+}
+
+/// What such a model claims to have.
+///
+/// # Errors
+///
+/// As [`model`].
+pub fn claims_of_model(
+    file: &Path,
+    beside: &[(String, PathBuf)],
+    colours: bool,
+) -> Result<Claims, AssetError> {
+    opened(file, beside, |container, files| {
+        model::claims(container, files, colours)
+    })
+}
+
+/// What `read_model` makes of a glTF file and the files beside it.
+fn opened<T>(
+    file: &Path,
+    beside: &[(String, PathBuf)],
+    read_model: impl for<'a> FnOnce(&Container<'a>, Files<'a>) -> Result<T, ModelError>,
+) -> Result<T, AssetError> {
     let bytes = read(file)?;
     let others = beside.iter();
     let others = others.map(|(name, file)| Ok((name, read(file)?)));
     let others = others.collect::<Result<BTreeMap<_, _>, AssetError>>()?;
     let bytes_of = |name: &str| others.get(&name.to_owned()).map(Vec::as_slice);
-    let model = Container::open(&bytes)
-        .and_then(|container| model::read(&container, &bytes_of, scale, colours));
-    model.map_err(|source| AssetError::Model {
+    let found = Container::open(&bytes).and_then(|container| read_model(&container, &bytes_of));
+    found.map_err(|source| AssetError::Model {
         file: file.to_owned(),
         source,
     })

@@ -26,11 +26,13 @@ mod textures;
 #[cfg(test)]
 mod tests;
 
+use std::io::Cursor;
+
 use leafmodel::document::source::escaped;
 use thiserror::Error;
 
 use crate::geometry::{MeshError, TriangleMesh};
-use crate::image::ImageError;
+use crate::image::{ImageError, claimed};
 use crate::material::colour_map::ColourMap;
 
 pub use container::{Container, FileKind};
@@ -107,6 +109,40 @@ pub struct Model {
 
 /// Bytes of a file that a glTF file names, by its name as written there.
 pub type Files<'a> = &'a dyn Fn(&str) -> Option<&'a [u8]>;
+
+/// What a model will have, known before any of it is decoded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Claims {
+    /// Triangles of all nodes.
+    pub triangles: u64,
+    /// Memory of its pictures while they are read, bytes.
+    pub pictures: f64,
+}
+
+/// What a model claims to have; its pictures count only if `colours` are asked for.
+///
+/// # Errors
+///
+/// [`ModelError`], with the place in the file.
+pub fn claims<'a>(
+    container: &Container<'a>,
+    files: Files<'a>,
+    colours: bool,
+) -> Result<Claims, ModelError> {
+    let root = container.root();
+    let mut pictures = 0.0;
+    if colours {
+        let buffers = container.buffers(files)?;
+        for number in textures::images(root) {
+            let bytes = |bytes: &[u8]| Ok(claimed::bytes(Cursor::new(bytes)));
+            pictures += pictures::picture(root, number, &buffers, files, bytes)?;
+        }
+    }
+    Ok(Claims {
+        triangles: surfaces::claimed(root)?,
+        pictures,
+    })
+}
 
 /// Reads a model; `scale` is metres per unit of the file. `files` gives the bytes of each of
 /// [`Container::files`]. Pictures are decoded only if `colours` are asked for.
