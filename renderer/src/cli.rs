@@ -69,7 +69,7 @@ use clap::FromArgMatches;
 use crate::scene::load::{self, Loaded};
 use arguments::{Arguments, Command, ExportCommand, GREETING, SceneArguments};
 use leafmodel::document::path;
-use leafmodel::document::report::{DocumentErrors, Warning};
+use leafmodel::document::report::{DocumentErrors, SHOWN, Warning};
 use leafmodel::document::source::printable;
 use places::check_writable;
 
@@ -268,13 +268,26 @@ fn load_scene(arguments: &SceneArguments) -> Result<Loaded, Failure> {
 
 /// Prints warnings.
 fn warn(warnings: &[Warning]) {
-    eprint!("{}", reported(warnings, colour()));
+    let texts = warnings.iter().map(|warning| warning.render(colour()));
+    eprint!("{}", listed("warning", texts));
 }
 
-/// Warnings, each on lines of its own.
-fn reported(warnings: &[Warning], colour: bool) -> String {
-    let lines = warnings.iter().map(|warning| warning.render(colour) + "\n");
-    lines.collect()
+/// Prints notes.
+fn note(notes: impl IntoIterator<Item = impl std::fmt::Display>) {
+    let lines = notes.into_iter().map(|note| format!("note: {note}"));
+    eprint!("{}", listed("note", lines));
+}
+
+/// Texts of a kind, each on lines of its own; of many the first ones, and how many more there are.
+fn listed(kind: &str, texts: impl Iterator<Item = String>) -> String {
+    let mut texts = texts.fuse();
+    let mut listed: String = texts.by_ref().take(SHOWN).map(|text| text + "\n").collect();
+    match texts.count() {
+        0 => {}
+        1 => listed += &format!("… and 1 more {kind}\n"),
+        more => listed += &format!("… and {more} more {kind}s\n"),
+    }
+    listed
 }
 
 #[cfg(test)]
@@ -291,7 +304,8 @@ mod tests {
         let loaded = load::parse(scene, "scene.toml", Path::new("."), &[]);
         let loaded = loaded.unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(loaded.warnings.len(), 2);
-        let text = reported(&loaded.warnings, false);
+        let texts = loaded.warnings.iter().map(|warning| warning.render(false));
+        let text = listed("warning", texts);
         let first: Vec<&str> = text
             .lines()
             .filter(|line| line.contains("warning"))
@@ -302,5 +316,15 @@ mod tests {
             "{text}"
         );
         assert!(text.ends_with('\n'), "{text}");
+    }
+
+    #[test]
+    fn of_many_notes_the_first_are_listed_and_the_others_counted() {
+        let texts = |count: usize| listed("note", (0..count).map(|number| format!("{number}")));
+        assert_eq!(texts(2), "0\n1\n");
+        assert!(texts(SHOWN).ends_with("98\n99\n"));
+        assert!(texts(SHOWN + 1).ends_with("99\n… and 1 more note\n"));
+        assert_eq!(texts(100_000).lines().count(), SHOWN + 1);
+        assert!(texts(100_000).ends_with("… and 99900 more notes\n"));
     }
 }

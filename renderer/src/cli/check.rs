@@ -6,7 +6,7 @@ use leafmodel::document::error::{DocumentError, LocatedError};
 use crate::cli::arguments::{CheckArguments, SceneArguments};
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, load_scene, needs, say, warn};
+use crate::cli::{Failure, load_scene, needs, note, say, warn};
 use crate::geometry;
 use crate::scene::assets;
 use crate::scene::description::{Description, Held, Mesh, Named, Reflectance};
@@ -114,13 +114,6 @@ fn read_files(description: &Description) -> Result<(), Failure> {
         }
     }
     Ok(())
-}
-
-/// Prints notes.
-fn note(notes: Vec<String>) {
-    for note in notes {
-        eprintln!("note: {note}");
-    }
 }
 
 /// Builds the scene and prints its size.

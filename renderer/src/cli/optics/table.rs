@@ -19,7 +19,7 @@ use super::leaf::{self, Chosen};
 use super::warn_of_mixtures;
 use crate::cli::arguments::OpticsArguments;
 use crate::cli::places::check_outputs;
-use crate::cli::{Failure, note_output, say};
+use crate::cli::{Failure, note, note_output, say};
 use crate::image::atomic;
 
 /// Names of the column that names leaves.
@@ -150,9 +150,7 @@ fn read(chosen: &Chosen, form: Form, file: &Path, text: &str) -> Result<Leaves, 
             help: "write names of columns into its first line, and a line for each leaf".to_owned(),
         });
     }
-    for guess in rows.guesses() {
-        eprintln!("note: {guess}");
-    }
+    note(rows.guesses());
     let (sources, errors, _) = cx.into_parts();
     if errors.is_empty() {
         Ok(leaves)
