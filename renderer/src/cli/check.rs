@@ -49,7 +49,9 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         let _signals = Signals::listen()?;
         return tell_world(scene, &description, *memory);
     }
+    let patience = Patience::reading();
     read_files(&description)?;
+    drop(patience);
     let film = &description.film;
     let mut parts = vec![
         counted(description.objects.len(), "object", "objects"),
