@@ -64,7 +64,7 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use clap::FromArgMatches;
+use clap::{CommandFactory, FromArgMatches};
 
 use crate::scene::load::{self, Loaded};
 use arguments::{Arguments, Command, ExportCommand, GREETING, SceneArguments};
@@ -111,9 +111,9 @@ impl From<DocumentErrors> for Failure {
 pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str) -> ExitCode {
     signals::survive_file_limits();
     let line: Vec<OsString> = arguments.into_iter().collect();
-    let matches = Arguments::grammar()
+    let matches = Arguments::command()
         .version(version)
-        .try_get_matches_from(&line);
+        .try_get_matches_from(Arguments::joined(line.iter().cloned()));
     let arguments = match matches.and_then(|matches| Arguments::from_arg_matches(&matches)) {
         Ok(arguments) => arguments,
         Err(error) => {

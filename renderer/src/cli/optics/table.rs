@@ -216,6 +216,7 @@ fn unknown(name: &Field, chosen: &Chosen) -> DocumentError {
         key: name.shown(),
         block: "the table".to_owned(),
         nearest: nearest(&name.text, known()).map(str::to_owned),
+        unit: None,
         known: known().collect::<Vec<_>>().join(", "),
     }
 }
