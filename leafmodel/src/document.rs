@@ -34,5 +34,6 @@ pub mod source;
 pub mod tree;
 pub mod value_kind;
 pub mod values;
+pub mod whole_file;
 pub mod write;
 pub mod written;

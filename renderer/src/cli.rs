@@ -65,12 +65,12 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use clap::FromArgMatches;
+use clap::{CommandFactory, FromArgMatches};
 
 use crate::scene::load::{self, Loaded};
 use arguments::{Arguments, Command, ExportCommand, GREETING, SceneArguments};
 use leafmodel::document::path;
-use leafmodel::document::report::{DocumentErrors, Warning};
+use leafmodel::document::report::{DocumentErrors, SHOWN, Warning};
 use leafmodel::document::source::printable;
 use places::check_writable;
 
@@ -112,9 +112,9 @@ impl From<DocumentErrors> for Failure {
 pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str) -> ExitCode {
     signals::survive_file_limits();
     let line: Vec<OsString> = arguments.into_iter().collect();
-    let matches = Arguments::grammar()
+    let matches = Arguments::command()
         .version(version)
-        .try_get_matches_from(&line);
+        .try_get_matches_from(Arguments::joined(line.iter().cloned()));
     let arguments = match matches.and_then(|matches| Arguments::from_arg_matches(&matches)) {
         Ok(arguments) => arguments,
         Err(error) => {
@@ -269,13 +269,26 @@ fn load_scene(arguments: &SceneArguments) -> Result<Loaded, Failure> {
 
 /// Prints warnings.
 fn warn(warnings: &[Warning]) {
-    eprint!("{}", reported(warnings, colour()));
+    let texts = warnings.iter().map(|warning| warning.render(colour()));
+    eprint!("{}", listed("warning", texts));
 }
 
-/// Warnings, each on lines of its own.
-fn reported(warnings: &[Warning], colour: bool) -> String {
-    let lines = warnings.iter().map(|warning| warning.render(colour) + "\n");
-    lines.collect()
+/// Prints notes.
+fn note(notes: impl IntoIterator<Item = impl std::fmt::Display>) {
+    let lines = notes.into_iter().map(|note| format!("note: {note}"));
+    eprint!("{}", listed("note", lines));
+}
+
+/// Texts of a kind, each on lines of its own; of many the first ones, and how many more there are.
+fn listed(kind: &str, texts: impl Iterator<Item = String>) -> String {
+    let mut texts = texts.fuse();
+    let mut listed: String = texts.by_ref().take(SHOWN).map(|text| text + "\n").collect();
+    match texts.count() {
+        0 => {}
+        1 => listed += &format!("… and 1 more {kind}\n"),
+        more => listed += &format!("… and {more} more {kind}s\n"),
+    }
+    listed
 }
 
 #[cfg(test)]
@@ -292,7 +305,8 @@ mod tests {
         let loaded = load::parse(scene, "scene.toml", Path::new("."), &[]);
         let loaded = loaded.unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(loaded.warnings.len(), 2);
-        let text = reported(&loaded.warnings, false);
+        let texts = loaded.warnings.iter().map(|warning| warning.render(false));
+        let text = listed("warning", texts);
         let first: Vec<&str> = text
             .lines()
             .filter(|line| line.contains("warning"))
@@ -303,5 +317,15 @@ mod tests {
             "{text}"
         );
         assert!(text.ends_with('\n'), "{text}");
+    }
+
+    #[test]
+    fn of_many_notes_the_first_are_listed_and_the_others_counted() {
+        let texts = |count: usize| listed("note", (0..count).map(|number| format!("{number}")));
+        assert_eq!(texts(2), "0\n1\n");
+        assert!(texts(SHOWN).ends_with("98\n99\n"));
+        assert!(texts(SHOWN + 1).ends_with("99\n… and 1 more note\n"));
+        assert_eq!(texts(100_000).lines().count(), SHOWN + 1);
+        assert!(texts(100_000).ends_with("… and 99900 more notes\n"));
     }
 }

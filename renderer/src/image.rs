@@ -27,6 +27,7 @@
 pub mod animation;
 pub mod atomic;
 pub mod card;
+pub mod claimed;
 pub mod colours;
 pub mod compare;
 pub mod display;
@@ -42,12 +43,12 @@ pub mod scan;
 pub mod tone;
 pub mod white;
 
-use std::fs::File;
-use std::io::{self, Read as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use image::ImageDecoder as _;
 use image::metadata::Orientation;
+use leafmodel::document::whole_file;
 use thiserror::Error;
 
 pub use compare::{ChannelComparison, Comparison, compare};
@@ -231,20 +232,7 @@ fn read_file(
         path: path.to_owned(),
         source,
     };
-    let file = File::open(path).map_err(refuse)?;
-    let length = file.metadata().map_err(refuse)?.len();
-    let mut bytes = Vec::new();
-    if length <= MOST_BYTES {
-        // Devices and pipes have no length.
-        let mut file = file.take(MOST_BYTES + 1);
-        file.read_to_end(&mut bytes).map_err(refuse)?;
-    }
-    let length = length.max(bytes.len() as u64);
-    if length > MOST_BYTES {
-        return Err(refuse(io::Error::other(format!(
-            "{length} bytes; the most is {MOST_BYTES}"
-        ))));
-    }
+    let bytes = whole_file::read(path, MOST_BYTES).map_err(refuse)?;
     decode(&bytes).map_err(|source| ImageError::Contents {
         path: path.to_owned(),
         source: Box::new(source),

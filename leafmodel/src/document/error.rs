@@ -38,6 +38,8 @@ pub enum DocumentError {
         block: String,
         /// The key that was probably meant.
         nearest: Option<String>,
+        /// What makes the value one of that key, if its unit is another.
+        unit: Option<String>,
         /// All keys that the block has.
         known: String,
     },
@@ -152,6 +154,8 @@ pub enum DocumentError {
     BadName {
         /// The name as written.
         name: String,
+        /// What names are made of here.
+        allowed: &'static str,
     },
     /// A choice among words, and another word.
     #[error("`{key}` is \"{word}\", it must be one of {known}")]

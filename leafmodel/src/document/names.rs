@@ -12,7 +12,7 @@ use super::value_kind::Kind;
 use super::values::{listed, text_at};
 
 /// Longest name of a block or scene, in characters.
-const LONGEST: usize = 100;
+pub(super) const LONGEST: usize = 100;
 /// Longest name of a scene, in bytes: systems allow 255 for a file with its ending.
 pub const LONGEST_FILE: usize = 200;
 
@@ -98,8 +98,11 @@ pub fn is_title(name: &str) -> bool {
 /// Reports a name of a scene that is none.
 pub fn require_title(cx: &Context, name: &str, at: &Place) {
     if !is_title(name) {
-        let name = escaped(name, QUOTED);
-        cx.error(at, DocumentError::BadName { name });
+        let error = DocumentError::BadName {
+            name: escaped(name, QUOTED),
+            allowed: "letters and digits of any script, `_` and `-`",
+        };
+        cx.error(at, error);
     }
 }
 
@@ -108,6 +111,7 @@ pub fn require_name(cx: &Context, name: &str, at: &Place) {
     if !is_name(name) {
         let error = DocumentError::BadName {
             name: escaped(name, QUOTED),
+            allowed: "the letters A-Z and a-z, digits, `_` and `-`",
         };
         cx.error(at, error);
     }

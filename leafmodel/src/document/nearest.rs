@@ -26,12 +26,12 @@ pub fn nearest<'c>(
         let allowed = (written.len().max(other.len()) / 3).max(1);
         // A shared start counts as one slip, however long the unit that is missing.
         let distance = if starts { distance.min(1) } else { distance };
-        let first_word = other.iter().position(|letter| ['-', '_'].contains(letter));
-        let distance = match first_word {
-            Some(end) if written.len() >= 4 && edit_distance(&written, &other[..end]) == 1 => {
-                distance.min(2)
-            }
-            _ => distance,
+        let mut words = (0..other.len()).filter(|end| ['-', '_'].contains(&other[*end]));
+        let is_start = |end: usize| edit_distance(&written, &other[..end]) == 1;
+        let distance = if written.len() >= 4 && words.any(is_start) {
+            distance.min(2)
+        } else {
+            distance
         };
         if distance <= allowed && best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, candidate));
@@ -40,24 +40,62 @@ pub fn nearest<'c>(
     best.map(|(_, candidate)| candidate)
 }
 
+/// Units of length, and how many powers of ten of a metre each is.
+const LENGTHS: [(&str, i32); 6] = [
+    ("km", 3),
+    ("m", 0),
+    ("cm", -2),
+    ("mm", -3),
+    ("um", -6),
+    ("nm", -9),
+];
+
+/// What has to be done to the value of a key to make it that of another one, whose name differs by its
+/// unit of length alone.
+pub(super) fn other_unit(written: &str, meant: &str) -> Option<String> {
+    let power = |unit: &str| {
+        let found = LENGTHS.iter().find(|(known, _)| *known == unit);
+        found.map(|(_, power)| *power)
+    };
+    let (stem, from) = written.rsplit_once('_')?;
+    let (other, to) = meant.rsplit_once('_')?;
+    let powers = power(from)? - power(to)?;
+    let factor = 10_u64.pow(powers.unsigned_abs());
+    let what = if powers < 0 { "divide" } else { "multiply" };
+    let to = to.replace('u', "µ");
+    (stem == other && powers != 0).then(|| format!("It is in {to}: {what} the value by {factor}"))
+}
+
 /// Most names that are suggested at once.
 const SUGGESTED: usize = 4;
 
-/// The names that somebody meant who wrote a word that is none of them, as a message has them between
-/// backticks: those that hold the word, at their end first (`oak` is `white-oak` or `red-oak`); else
-/// the one that is spelled nearly so; else those whose description has the word.
+/// The names that somebody meant who wrote what is none of them, as a message has them between
+/// backticks: those that hold most of its words, at their end first (`oak` is `white-oak` or
+/// `red-oak`, `silver birch` is `birch` or `silver-maple`); else the one that is spelled nearly so; else
+/// those whose description has the word.
 pub fn meant<'c>(
     written: &str,
     candidates: impl Iterator<Item = (&'c str, &'c str)> + Clone,
 ) -> Option<String> {
     let word = written.to_lowercase();
-    let has = |text: &str| {
-        let mut words = text.split(|letter: char| !letter.is_alphanumeric());
-        words.any(|other| other.to_lowercase() == word)
+    let words_of = |text: &str| -> Vec<String> {
+        let words = text.split(|letter: char| !letter.is_alphanumeric());
+        let words = words.filter(|word| !word.is_empty());
+        words.map(str::to_lowercase).collect()
     };
+    let has = |text: &str| words_of(text).contains(&word);
+    let wanted = words_of(written);
     let names = || candidates.clone().map(|(name, _)| name);
-    let mut found: Vec<&str> = names().filter(|name| has(name)).collect();
-    found.sort_by_key(|name| !name.ends_with(&word));
+    let held = |name: &str| {
+        let words = words_of(name);
+        wanted.iter().filter(|word| words.contains(word)).count()
+    };
+    let most = names().map(held).max().unwrap_or(0);
+    let mut found: Vec<&str> = names()
+        .filter(|name| most > 0 && held(name) == most)
+        .collect();
+    let last = wanted.last().map_or("", String::as_str);
+    found.sort_by_key(|name| !name.ends_with(last));
     if found.is_empty() {
         found.extend(nearest(written, names()));
     }
@@ -114,6 +152,8 @@ mod tests {
         let presets = ["birch-yellow", "oak-yellow-brown"];
         assert_eq!(nearest("brich", presets), Some("birch-yellow"));
         assert_eq!(nearest("bri", presets), None);
+        let measures = ["vein_length", "vein_density_mm_per_mm2"];
+        assert_eq!(nearest("vein_densty", measures), Some(measures[1]));
     }
 
     #[test]
@@ -131,6 +171,29 @@ mod tests {
         assert_eq!(meant("poplr").as_deref(), Some("poplar"));
         assert_eq!(meant("lobes").as_deref(), Some("white-oak` or `red-oak"));
         assert_eq!(meant("cactus"), None);
+        assert_eq!(meant("White oak").as_deref(), Some("white-oak"));
+        let some = "white-oak`, `red-oak` or `oak-litter";
+        assert_eq!(meant("silver oak").as_deref(), Some(some));
+    }
+
+    #[test]
+    fn another_unit_of_length_is_named_with_its_factor() {
+        let told = |written: &str, meant: &str| other_unit(written, meant).unwrap_or_default();
+        assert_eq!(
+            told("width_mm", "width_m"),
+            "It is in m: divide the value by 1000"
+        );
+        assert_eq!(
+            told("length_m", "length_mm"),
+            "It is in mm: multiply the value by 1000"
+        );
+        assert_eq!(
+            told("grain_mm", "grain_um"),
+            "It is in µm: multiply the value by 1000"
+        );
+        assert_eq!(told("width_m", "width_m"), "");
+        assert_eq!(told("widht_mm", "width_m"), "");
+        assert_eq!(told("angle_rad", "angle_deg"), "");
     }
 
     #[test]

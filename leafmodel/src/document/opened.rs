@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::Read;
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -75,10 +76,13 @@ impl Opened {
         let source = sources.add(shown, text);
         let cx = Context::new(sources, folder.to_owned());
         let (parsed, syntax) = DeTable::parse_recoverable(text);
-        let syntax = syntax
+        let mut syntax: Vec<LocatedError> = syntax
             .iter()
             .map(|error| syntax_error(text, source, error.message(), error.span()))
             .collect();
+        if let Some(error) = is_json(text, source) {
+            syntax = vec![error];
+        }
         let mut tree = Table::from_toml(source, parsed.into_inner());
         if !overridden.is_empty() {
             let schema = schema();
@@ -161,9 +165,28 @@ fn with_syntax(
         elsewhere
             || (written && located.error.is_about_a_value() && !broken.contains(&line_of(located)))
     });
-    // One slip often gives several errors in its line: the first says enough.
+    // One slip often gives several errors in its line: the first says enough. So does a header that is
+    // there twice for all keys below it.
     syntax.sort_by_key(order);
     syntax.dedup_by_key(|located| line_of(located));
+    let mut block: Range<usize> = 0..0;
+    syntax.retain(|located| {
+        let start = located.at.as_ref().map_or(0, |at| at.span.start);
+        let is_twice = matches!(located.error, DocumentError::Duplicate { .. });
+        if is_twice && block.contains(&start) {
+            return false;
+        }
+        let line = ends
+            .get(line_of(located).wrapping_sub(1))
+            .map_or(0, |end| end + 1);
+        if is_twice && text[line..].trim_start().starts_with('[') {
+            let next = text[start..]
+                .find("\n[")
+                .map_or(text.len(), |at| start + at);
+            block = start + 1..next;
+        }
+        true
+    });
     syntax.extend(kept);
     syntax.sort_by_key(order);
     syntax
@@ -177,11 +200,29 @@ fn order(located: &LocatedError) -> (usize, usize) {
         .map_or((usize::MAX, 0), |at| (at.source, at.span.start))
 }
 
+/// The one error of a text that begins as JSON does, and as TOML never does.
+fn is_json(text: &str, source: usize) -> Option<LocatedError> {
+    let start = text.len() - text.trim_start().len();
+    text[start..].starts_with('{').then(|| LocatedError {
+        error: DocumentError::Syntax {
+            message: "this is JSON, and such files are written in TOML".to_owned(),
+            help: Some(
+                "write `{ \"film\": { \"rgb\": { \"spp\": 16 } } }` as the line `[film.rgb]` with `spp = 16` below it"
+                    .to_owned(),
+            ),
+        },
+        at: Some(Place {
+            source,
+            span: start..start + 1,
+        }),
+    })
+}
+
 fn syntax_error(
     text: &str,
     source: usize,
     message: &str,
-    span: Option<std::ops::Range<usize>>,
+    span: Option<Range<usize>>,
 ) -> LocatedError {
     let span = span.unwrap_or(text.len()..text.len());
     let error = if message == "duplicate key" {

@@ -9,7 +9,7 @@ use std::cell::{Cell, RefCell};
 use super::context::{Context, ENOUGH, KnownKey, QUOTED};
 use super::error::{DocumentError, NONE};
 use super::limits::Limits;
-use super::nearest::nearest;
+use super::nearest::{nearest, other_unit};
 use super::source::{Place, escaped};
 use super::tree::{Entry, Node, Table, Value};
 use super::values::{listed, number_at, text_at, wrong_type};
@@ -168,6 +168,12 @@ impl<'a> Block<'a> {
             if known.contains(&entry.key.as_str()) {
                 continue;
             }
+            let meant = nearest(&entry.key, variants.iter().copied());
+            // A key of the block that should be around it: that this lacks is the error.
+            let is_inside = meant.is_none() && entry.node.table().is_none();
+            if is_inside && matches!(chosen, Choice::None) && kept.is_none() {
+                continue;
+            }
             strangers = true;
             if self.cx.is_full() {
                 break;
@@ -175,7 +181,7 @@ impl<'a> Block<'a> {
             let error = DocumentError::UnknownVariant {
                 variant: escaped(&entry.key, QUOTED),
                 block: self.title(),
-                nearest: nearest(&entry.key, variants.iter().copied()).map(str::to_owned),
+                nearest: meant.map(str::to_owned),
                 known: listed(variants.iter().copied()),
             };
             self.cx.error(&entry.key_at, error);
@@ -297,6 +303,7 @@ impl<'a> Block<'a> {
                 key: escaped(&entry.key, QUOTED),
                 block: self.title(),
                 nearest: meant.map(str::to_owned),
+                unit: meant.and_then(|meant| other_unit(&entry.key, meant)),
                 known: listed(known.iter().copied()),
             };
             self.cx.error(&entry.key_at, error);

@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-use super::context::Remark;
+use super::context::{ENOUGH, Remark};
 use super::error::{DocumentError, LocatedError};
 use super::source::{Place, Sources, line_of_byte};
 
-/// Most errors that are written out.
-const SHOWN: usize = 100;
+/// Most errors, warnings or notes that are written out.
+pub const SHOWN: usize = 100;
 /// Most bytes of a line on either side of the piece meant.
 const AROUND: usize = 400;
 
@@ -67,6 +67,9 @@ impl DocumentErrors {
             text.push_str(&rendered(remark, &self.sources, colour));
             text.push_str("\n\n");
         }
+        if let Some(more) = self.remarks.len().checked_sub(SHOWN + 1) {
+            text.extend(["… and ", &(more + 1).to_string(), " more warnings\n\n"]);
+        }
         for located in self.errors.iter().take(SHOWN) {
             let piece = Piece {
                 level: Level::ERROR,
@@ -80,15 +83,18 @@ impl DocumentErrors {
             text.push_str("\n\n");
         }
         let count = self.errors.len();
+        // Reading ends with that many.
+        let at_least = if count >= ENOUGH { "at least " } else { "" };
         if count > SHOWN {
-            text.extend(["… and ", &(count - SHOWN).to_string(), " more\n\n"]);
+            let more = (count - SHOWN).to_string();
+            text.extend(["… and ", at_least, &more, " more\n\n"]);
         }
         let name = self
             .sources
             .get(0)
             .map_or("", |source| source.name.as_str());
         let errors = if count == 1 { "error" } else { "errors" };
-        text.extend([name, ": ", &count.to_string(), " ", errors]);
+        text.extend([name, ": ", at_least, &count.to_string(), " ", errors]);
         text
     }
 }

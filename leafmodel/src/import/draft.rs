@@ -30,6 +30,8 @@ pub struct Draft {
     /// Edges to nodes that the file does not hold: the edge's own place in the file, and the name
     /// of the node.
     pub(super) loose: Vec<(String, String)>,
+    /// Places in the file of edges with radii that are no lengths, by the number of the edge.
+    pub(super) bad_radii: BTreeMap<usize, String>,
     /// Corners of each margin, with base and apex where they are given.
     pub(super) margins: Vec<DraftMargin>,
     /// Whether edges have a direction.
@@ -82,6 +84,12 @@ pub(super) struct DraftMargin {
 }
 
 impl DraftEdge {
+    /// A radius that is no length, if it has one.
+    pub(super) fn bad_radius(&self) -> Option<f64> {
+        let mut radii = self.radii.iter().flatten();
+        radii.find(|r| !(r.is_finite() && **r > 0.0)).copied()
+    }
+
     pub(super) fn between(from: u32, to: u32) -> Self {
         Self {
             ends: [from, to],

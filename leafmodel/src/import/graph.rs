@@ -345,13 +345,17 @@ impl Builder {
     }
 
     /// Ends an edge whose nodes have names or numbers.
-    pub(super) fn edge_is_done(&mut self, _place: impl Fn() -> String) {
+    pub(super) fn edge_is_done(&mut self, place: impl Fn() -> String) {
         // A radius at one end alone holds for both.
         if let Some(edge) = self.draft.edges.last_mut() {
             edge.radii = match edge.radii {
                 [Some(only), None] | [None, Some(only)] => [Some(only); 2],
                 both => both,
             };
+            if edge.bad_radius().is_some() {
+                let number = self.draft.edges.len() - 1;
+                self.draft.bad_radii.insert(number, place());
+            }
         }
     }
 

@@ -175,12 +175,7 @@ impl Draft {
         }
         let mut radii = Fault::new(FaultKind::BadRadius);
         for (number, edge) in self.edges.iter().enumerate() {
-            let bad = edge
-                .radii
-                .iter()
-                .flatten()
-                .find(|r| !(r.is_finite() && **r > 0.0));
-            if let Some(bad) = bad {
+            if let Some(bad) = edge.bad_radius() {
                 let [from, to] = edge.ends.map(|end| {
                     if end == ABSENT {
                         "?".to_owned()
@@ -189,7 +184,9 @@ impl Draft {
                     }
                 });
                 radii.named(|| {
-                    format!("edge {number} from node {from} to {to} has the radius {bad}")
+                    let place = self.bad_radii.get(&number);
+                    let place = place.map_or_else(String::new, |place| format!("{place}: "));
+                    format!("{place}edge {number} from node {from} to {to} has the radius {bad}")
                 });
             }
         }

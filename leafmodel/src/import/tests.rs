@@ -257,7 +257,7 @@ fn each_bad_file_is_refused_by_a_sentence_that_names_its_place() {
     let negative = NETWORKX.replace(">8<", ">-8<");
     assert!(
         refused(Format::GraphMl, &negative, None)
-            .contains("edge 1 from node right to fork has the radius -4")
+            .contains("(1): line 12: edge 1 from node right to fork has the radius -4")
     );
     let bare = NETWORKX.replace("<data key=\"d1\">0</data>", "");
     assert!(
@@ -279,6 +279,8 @@ fn each_bad_file_is_refused_by_a_sentence_that_names_its_place() {
     assert!(refused(Format::Table, "from,to\n1,2\n", None).contains("--nodes FILE.csv"));
     let places = "from_x_mm,from_y_mm,to_x_mm,to_y_mm,order\n0,0,0,1,0\n";
     assert!(refused(Format::Table, places, None).starts_with("line 2: order is \"0\""));
+    let nan = "from_x_mm,from_y_mm,to_x_mm,to_y_mm,radius_mm\n0,0,0,1,0.1\n0,1,0,2,nan\n";
+    assert!(refused(Format::Table, nan, None).contains("line 3: edge 1 from node 1 to 2"));
     assert!(
         refused(
             Format::Table,

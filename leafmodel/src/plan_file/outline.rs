@@ -21,7 +21,7 @@ use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::{Contour, OutlinePlanError};
 use crate::shape::contour_curve::{ContourCurve, ControlPoint};
 use crate::shape::cubic_margin::CubicMargin;
-use crate::shape::outline::Outline;
+use crate::shape::outline::{Outline, OutlineError};
 use crate::shape::specimen::Specimen;
 use crate::shape::svg_path::{SvgContour, SvgError, SvgReading};
 use crate::shape::teeth::ToothWave;
@@ -412,6 +412,13 @@ fn report(keys: &Keys<'_>, error: &OutlinePlanError) {
         OutlinePlanError::SvgEnd { end, .. } => (
             &["outline", "svg", end],
             "name a point of the contour by its coordinates in the file, y down",
+        ),
+        OutlinePlanError::Svg {
+            problem: OutlineError::NoMidrib,
+            ..
+        } => (
+            &["outline", "svg", "apex"],
+            "name two different points, the foot of the midrib and its tip",
         ),
         OutlinePlanError::Svg { .. } => (
             &["outline", "svg", "path"],

@@ -108,18 +108,29 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// The command line as the program reads it: every value may be a negative number, so that its
-    /// range is named instead of a flag that nobody meant.
-    pub fn grammar() -> clap::Command {
-        fn with_negative_numbers(command: clap::Command) -> clap::Command {
-            command
-                .mut_args(|arg| {
-                    let takes_values = arg.get_action().takes_values();
-                    arg.allow_negative_numbers(takes_values)
-                })
-                .mut_subcommands(with_negative_numbers)
+    /// A line as the program reads it: a value that begins as a negative number does (`-3`, `-5%`,
+    /// `-5..3`) is joined to the option before it, so that the range of the option is named instead of
+    /// a flag that nobody meant.
+    pub fn joined(line: impl IntoIterator<Item = impl Into<OsString>>) -> Vec<OsString> {
+        let is_option = |word: &OsString| {
+            let word = word.as_encoded_bytes();
+            word.starts_with(b"--") && word.len() > 2 && !word.contains(&b'=')
+        };
+        let is_negative = |word: &OsString| match word.as_encoded_bytes() {
+            [b'-', b'.', digit, ..] | [b'-', digit, ..] => digit.is_ascii_digit(),
+            _ => false,
+        };
+        let mut joined: Vec<OsString> = Vec::new();
+        for word in line.into_iter().map(Into::into) {
+            match joined.last_mut() {
+                Some(option) if is_option(option) && is_negative(&word) => {
+                    option.push("=");
+                    option.push(word);
+                }
+                Some(_) | None => joined.push(word),
+            }
         }
-        with_negative_numbers(Self::command())
+        joined
     }
 
     /// The arguments of a line, the program's name first.
@@ -127,10 +138,10 @@ impl Arguments {
     /// # Errors
     ///
     /// What is wrong with it, or what it asks to be printed.
-    pub fn of_line<W: Into<OsString> + Clone>(
-        line: impl IntoIterator<Item = W>,
+    pub fn of_line(
+        line: impl IntoIterator<Item = impl Into<OsString>>,
     ) -> Result<Self, clap::Error> {
-        Self::from_arg_matches(&Self::grammar().try_get_matches_from(line)?)
+        Self::from_arg_matches(&Self::command().try_get_matches_from(Self::joined(line))?)
     }
 }
 

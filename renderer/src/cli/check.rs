@@ -6,7 +6,7 @@ use leafmodel::document::error::{DocumentError, LocatedError};
 use crate::cli::arguments::{CheckArguments, SceneArguments};
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, load_scene, needs, say, warn};
+use crate::cli::{Failure, load_scene, needs, note, say, warn};
 use crate::geometry;
 use crate::scene::assets;
 use crate::scene::description::{Description, Held, Mesh, Named, Reflectance};
@@ -49,7 +49,9 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         let _signals = Signals::listen()?;
         return tell_world(scene, &description, *memory);
     }
+    let patience = Patience::reading();
     read_files(&description)?;
+    drop(patience);
     let film = &description.film;
     let mut parts = vec![
         counted(description.objects.len(), "object", "objects"),
@@ -114,13 +116,6 @@ fn read_files(description: &Description) -> Result<(), Failure> {
         }
     }
     Ok(())
-}
-
-/// Prints notes.
-fn note(notes: Vec<String>) {
-    for note in notes {
-        eprintln!("note: {note}");
-    }
 }
 
 /// Builds the scene and prints its size.

@@ -11,7 +11,7 @@ use crate::cli::arguments::CheckBsdfArguments;
 use crate::cli::columns::in_columns;
 use crate::cli::places::check_outputs;
 use crate::cli::texts::text_of;
-use crate::cli::{Failure, say};
+use crate::cli::{Failure, note, say};
 use crate::image::atomic;
 use crate::measured::bsdf::{self, Check};
 
@@ -37,9 +37,7 @@ pub(super) fn run(arguments: &CheckBsdfArguments) -> Result<(), Failure> {
     known.angles = arguments.angles;
     let table =
         bsdf::read(&text, &known).map_err(|fault| Failure::bad(fault.shown(file, &text)))?;
-    for note in &table.notes {
-        eprintln!("note: {note}");
-    }
+    note(&table.notes);
     let check = table.check();
     if check.is_isotropic {
         eprintln!("note: light comes from one azimuth: the surface is taken to be isotropic");

@@ -30,7 +30,7 @@ use crate::cli::arguments::CompareNetworksArguments;
 use crate::cli::measure::{has_ending, is_json};
 use crate::cli::places::check_outputs;
 use crate::cli::progress::Patience;
-use crate::cli::{Failure, say};
+use crate::cli::{Failure, note, say};
 use crate::image::atomic;
 
 /// Groups whose names are a title.
@@ -112,9 +112,7 @@ pub(super) fn run(arguments: &CompareNetworksArguments) -> Result<(), Failure> {
     if let Some(path) = &arguments.values {
         files.push((path, tables::values(&findings)?));
     }
-    for note in &findings.notes {
-        eprintln!("note: {note}");
-    }
+    note(&findings.notes);
     say(words::text(&findings));
     for line in words::conclusions(&findings) {
         eprintln!("{line}");

@@ -17,7 +17,7 @@ use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::FitVeinsArguments;
 use crate::cli::places::Lock;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, check_writable, say, stats};
+use crate::cli::{Failure, check_writable, note, say, stats};
 use crate::image::atomic;
 use crate::scene::fingerprint::fnv1a;
 
@@ -31,9 +31,7 @@ pub(super) fn run(arguments: &FitVeinsArguments) -> Result<(), Failure> {
         arguments.seed,
     );
     let problem = problem.map_err(Failure::bad)?;
-    for note in observed.notes.iter().chain(&grower.notes(&observed)) {
-        eprintln!("note: {note}");
-    }
+    note(observed.notes.iter().chain(&grower.notes(&observed)));
     let folder = arguments.out.as_path();
     let refused = |error| Failure::system(format!("{}: {error}", folder.display()));
     std::fs::create_dir_all(folder).map_err(refused)?;

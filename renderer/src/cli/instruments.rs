@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use crate::cli::arguments::InstrumentsArguments;
 use crate::cli::progress::{BETWEEN_LINES, Patience};
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, needs, places, say, warn};
+use crate::cli::{Failure, needs, note, places, say, warn};
 use crate::image::atomic;
 use crate::instruments::{
     Budget, CutPaths, Effort, MOST_TURNS, Row, Watch, notes, read_out_watched, sets_of,
@@ -148,9 +148,7 @@ fn measure(
         });
     };
     let world = build(arguments, scene, &sampler)?;
-    for note in &world.notes {
-        eprintln!("note: {note}");
-    }
+    note(&world.notes);
     signals.begin_work();
     let time = arguments.time.map(Duration::from_secs_f64);
     let until = time.map(|time| Instant::now() + time);
@@ -158,9 +156,8 @@ fn measure(
     for (place, &number) in chosen.iter().enumerate() {
         let started = Instant::now();
         let name = &scene.instruments[number].name;
-        for note in notes(&world, scene, number) {
-            eprintln!("note: {name}: {note}");
-        }
+        let own = notes(&world, scene, number).into_iter();
+        note(own.map(|note| format!("{name}: {note}")));
         let progress = Rays::new(name, budget);
         let watch = Watch {
             until,

@@ -7,7 +7,7 @@ use crate::cli::arguments::MergeArguments;
 use crate::cli::picture_files::{self, stem_of, with_ending};
 use crate::cli::places::{Lock, check_outputs};
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, say};
+use crate::cli::{Failure, note, say};
 use crate::integrator::layers::Layout;
 use crate::integrator::render::{Ended, Rendered};
 use crate::spectrum::WavelengthSampler;
@@ -34,8 +34,6 @@ pub(super) fn run(arguments: &MergeArguments) -> Result<(), Failure> {
     for path in outputs {
         say(path.display());
     }
-    for note in rendered.notes() {
-        eprintln!("note: {note}");
-    }
+    note(rendered.notes());
     Ok(())
 }

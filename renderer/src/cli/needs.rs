@@ -1,10 +1,16 @@
 //! Memory that a render, an export or the growth of a leaf needs, said before it begins.
 
+use std::path::PathBuf;
+
 use crate::cli::Failure;
 use crate::film::Film;
 use crate::geometry::scatter::{Amount, Volume};
+use crate::image::claimed;
 use crate::integrator::layers::Layout;
-use crate::scene::description::{Description, Drop, Lump, Mesh, Object, ObjectShape, StrewnOn};
+use crate::scene::assets;
+use crate::scene::description::{
+    Description, Drop, Held, Lump, Mesh, Object, ObjectShape, Reflectance, StrewnOn,
+};
 use crate::scene::world::memory::{OF_A_TRIANGLE, OF_AN_INSTANCE};
 use crate::spectrum::WavelengthSampler;
 
@@ -18,8 +24,8 @@ const OF_A_PLACE: f64 = 2.0 * OF_AN_INSTANCE;
 const COPIES: f64 = 3.0;
 
 /// Fails if a scene, once grown and built, and its picture need more memory than `allowed` (GiB),
-/// or than the machine has free, or has a film that cannot be made. Meshes and pictures that are
-/// read are not counted here, but when they have been read.
+/// or than the machine has free, or has a film that cannot be made. Meshes of OBJ and PLY files are
+/// not counted here, but when they have been read.
 pub(super) fn check(scene: &Description, allowed: Option<f64>) -> Result<(), Failure> {
     let film = &scene.film;
     let layout = Layout::new(&WavelengthSampler::new(&film.kind));
@@ -47,21 +53,39 @@ pub(super) fn check_geometry(
 
 /// Memory of what a scene builds and grows, bytes, with what it is for.
 fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure> {
-    let meshes = scene.meshes.iter().map(|mesh| match mesh.value {
-        Mesh::Sphere { segments, .. }
-        | Mesh::Drop(Drop { segments, .. })
-        | Mesh::Lump(Lump { segments, .. }) => {
-            f64::from(segments) * f64::from(segments) * OF_A_TRIANGLE
-        }
-        Mesh::Terrain(ref terrain) => {
-            let [across, along] = terrain.squares();
-            2.0 * across * along * OF_A_TRIANGLE
-        }
-        Mesh::Masonry(ref wall) => 2.0 * wall.squares() * OF_A_TRIANGLE,
-        Mesh::Disc { segments, .. } => f64::from(segments) * OF_A_TRIANGLE,
-        Mesh::Axes(ref axes) => axes.triangles.len() as f64 * OF_A_TRIANGLE,
-        Mesh::Rectangle { .. } | Mesh::Box { .. } | Mesh::File { .. } | Mesh::Gltf { .. } => 0.0,
-    });
+    let mut pictures = of_pictures(scene);
+    let meshes = scene
+        .meshes
+        .iter()
+        .enumerate()
+        .map(|(number, mesh)| match mesh.value {
+            Mesh::Sphere { segments, .. }
+            | Mesh::Drop(Drop { segments, .. })
+            | Mesh::Lump(Lump { segments, .. }) => {
+                f64::from(segments) * f64::from(segments) * OF_A_TRIANGLE
+            }
+            Mesh::Terrain(ref terrain) => {
+                let [across, along] = terrain.squares();
+                2.0 * across * along * OF_A_TRIANGLE
+            }
+            Mesh::Masonry(ref wall) => 2.0 * wall.squares() * OF_A_TRIANGLE,
+            Mesh::Disc { segments, .. } => f64::from(segments) * OF_A_TRIANGLE,
+            Mesh::Axes(ref axes) => axes.triangles.len() as f64 * OF_A_TRIANGLE,
+            Mesh::Gltf {
+                ref file,
+                ref beside,
+                ..
+            } => {
+                // Reading reports what is wrong with it.
+                let claims = assets::claims_of_model(file, beside, scene.wanted_of(number));
+                claims.map_or(0.0, |claims| {
+                    pictures += claims.pictures;
+                    claims.triangles as f64 * OF_A_TRIANGLE
+                })
+            }
+            Mesh::Rectangle { .. } | Mesh::Box { .. } | Mesh::File { .. } => 0.0,
+        });
+    let meshes: f64 = meshes.fold(0.0, |sum, bytes| sum + bytes);
     let places = scene.objects.iter().map(|object| {
         let own = object.value.instances.as_ref().map_or(1, Vec::len);
         let strewn = object.value.strewn.as_ref();
@@ -93,11 +117,31 @@ fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure>
     // The sums start from 0, since an empty sum is -0.
     let sum = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, |sum, bytes| sum + bytes);
     Ok(vec![
-        (sum(&mut { meshes }), "meshes"),
+        (meshes, "meshes"),
+        (pictures, "pictures that are read"),
         (sum(&mut { places }), "places of objects"),
         (sum(&mut { kept }) + sum(&mut growing.into_iter()), "leaves"),
         (bodies, "bodies"),
     ])
+}
+
+/// Memory of the pictures of materials and lights while they are read, bytes.
+fn of_pictures(scene: &Description) -> f64 {
+    let materials = scene.materials.iter().flat_map(|material| {
+        let reflectance = match material.value.reflectance() {
+            Some(Reflectance::Picture { file, .. }) => Some(file),
+            Some(Reflectance::Even(_) | Reflectance::OfMesh(_)) | None => None,
+        };
+        let held = match material.value.held() {
+            Some(Held::Map { file, .. }) => Some(file),
+            Some(Held::Contents { .. }) | None => None,
+        };
+        reflectance.into_iter().chain(held)
+    });
+    let lights = scene.lights.iter();
+    let lights = lights.filter_map(|light| light.value.picture().map(|(file, _)| file));
+    let files = materials.map(PathBuf::as_path).chain(lights);
+    files.fold(0.0, |sum, file| sum + claimed::bytes_of_file(file))
 }
 
 /// About the number of leaves in a volume: of discs, since the areas of other shapes are known only

@@ -23,7 +23,7 @@ pub(super) struct Reporter {
 /// Prints a line every ten seconds about work whose length nobody knows, until it is dropped.
 pub(super) struct Patience {
     grown: Arc<AtomicUsize>,
-    at_rest: Arc<AtomicUsize>,
+    at_rest: Arc<[AtomicUsize; 2]>,
     most_bytes: Option<f64>,
     /// Nothing is sent: the thread ends when this is dropped.
     _until: Sender<()>,
@@ -35,6 +35,11 @@ impl Patience {
         Self::new(work, 0, None)
     }
 
+    /// About the reading of a scene's files.
+    pub(super) fn reading() -> Self {
+        Self::new("reading meshes and pictures", 0, None)
+    }
+
     /// About the building of a scene with so many leaves, which may take `memory` GiB, or what is
     /// free.
     pub(super) fn building(leaves: usize, memory: Option<f64>) -> Self {
@@ -44,22 +49,30 @@ impl Patience {
 
     fn new(work: &'static str, leaves: usize, most_bytes: Option<f64>) -> Self {
         let (until, dropped) = channel();
-        let [grown, at_rest] = [(); 2].map(|()| Arc::new(AtomicUsize::new(0)));
-        let counted = [&grown, &at_rest].map(Arc::clone);
+        let grown = Arc::new(AtomicUsize::new(0));
+        let at_rest = Arc::new([(); 2].map(|()| AtomicUsize::new(0)));
+        let (leaves_grown, things) = (Arc::clone(&grown), Arc::clone(&at_rest));
         std::thread::spawn(move || {
             let started = Instant::now();
+            let mut before = 0;
             while dropped.recv_timeout(BETWEEN_LINES) == Err(RecvTimeoutError::Timeout) {
                 let seconds = started.elapsed().as_secs_f64();
-                let [grown, at_rest] = counted
-                    .each_ref()
-                    .map(|count| count.load(Ordering::Relaxed));
+                let grown = leaves_grown.load(Ordering::Relaxed);
+                let [at_rest, all] = things.each_ref().map(|count| count.load(Ordering::Relaxed));
                 let mut line = format!("{work}: {seconds:.0} s");
                 if leaves > 0 {
                     line += &format!(", {grown} of {leaves} leaves");
                 }
                 if at_rest > 0 {
-                    line += &format!(", {at_rest} things at rest");
+                    line += &format!(", {at_rest} of {all} things at rest");
                 }
+                // The heap gets higher and things slower, so only the last ones count.
+                if let Some(last) = at_rest.checked_sub(before).filter(|last| *last > 0) {
+                    let left = all.saturating_sub(at_rest) as f64 / last as f64;
+                    let seconds = left * BETWEEN_LINES.as_secs_f64();
+                    line += &format!(", about {seconds:.0} s to go");
+                }
+                before = at_rest;
                 eprintln!("{line}");
             }
         });
@@ -80,6 +93,47 @@ impl Patience {
             wavelengths: None,
             most_bytes: self.most_bytes,
         }
+    }
+}
+
+/// Prints a line every ten seconds about work of so many steps.
+pub(super) struct Steps {
+    /// Their name, in the plural.
+    what: &'static str,
+    all: u32,
+    done: u32,
+    started: Instant,
+    last_line: Instant,
+}
+
+impl Steps {
+    pub(super) fn new(what: &'static str, all: u32) -> Self {
+        let now = Instant::now();
+        Self {
+            what,
+            all,
+            done: 0,
+            started: now,
+            last_line: now,
+        }
+    }
+
+    /// So many more are done.
+    pub(super) fn tell(&mut self, more: usize) {
+        self.done += more as u32;
+        if self.last_line.elapsed() < BETWEEN_LINES {
+            return;
+        }
+        self.last_line = Instant::now();
+        let elapsed = self.started.elapsed().as_secs_f64();
+        let left = f64::from(self.all.saturating_sub(self.done));
+        eprintln!(
+            "{} of {} {} after {elapsed:.0} s, about {:.0} s to go",
+            self.done,
+            self.all,
+            self.what,
+            elapsed * left / f64::from(self.done.max(1))
+        );
     }
 }
 

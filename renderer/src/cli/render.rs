@@ -20,7 +20,7 @@ use crate::cli::arguments::{RenderArguments, SceneArguments};
 use crate::cli::picture_files;
 use crate::cli::progress::{Patience, Reporter};
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, load_scene, needs, say, stats};
+use crate::cli::{Failure, load_scene, needs, note, say, stats};
 use crate::image::ImageError;
 use crate::integrator::caption::Caption;
 use crate::integrator::layers::Layout;
@@ -51,9 +51,7 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
     let world = pool.install(|| build_world(&scene, arguments, &patience))?;
     drop(patience);
     plan.heading.caption = Caption::of(&scene, &world.view, &world.light_colours);
-    for note in &world.notes {
-        eprintln!("note: {note}");
-    }
+    note(&world.notes);
     let build_seconds = started.elapsed().as_secs_f64();
     // It counts from where an earlier run ended.
     let spent = plan.before.as_ref().map(|begun| begun.elapsed);
@@ -191,9 +189,7 @@ impl Traced<'_> {
         if goes_on {
             eprintln!("{}", how_to_go_on(&self.files.checkpoint, self.line));
         }
-        for note in notes {
-            eprintln!("note: {note}");
-        }
+        note(notes);
         // More than one rejected sample in a million is not due to rounding.
         if rejected as f64 > 1e-6 * drawn as f64 {
             return Err(Failure::system(

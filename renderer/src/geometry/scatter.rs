@@ -266,10 +266,11 @@ impl Scatter {
         others: impl IntoIterator<Item = [DVec3; 3]>,
         bodies: &[Body],
     ) -> Result<Vec<Strewn>, ScatterError> {
-        self.places_told(ground, others, bodies, Most::UNBOUND, &|| {})
+        self.places_told(ground, others, bodies, Most::UNBOUND, &|_| {})
     }
 
-    /// As [`Scatter::places`], for at most so many things; `told` is called for each thing that has come to rest.
+    /// As [`Scatter::places`], for at most so many things; `told` is called for each thing that has
+    /// come to rest, with the number of those that are wanted.
     ///
     /// # Errors
     ///
@@ -284,7 +285,7 @@ impl Scatter {
         others: impl IntoIterator<Item = [DVec3; 3]>,
         bodies: &[Body],
         most: Most,
-        told: &dyn Fn(),
+        told: &dyn Fn(usize),
     ) -> Result<Vec<Strewn>, ScatterError> {
         assert!(!bodies.is_empty(), "something is strewn");
         let rests = matches!(self.rest, Rest::Settled { .. });
@@ -339,7 +340,7 @@ impl Scatter {
                     let body = &bodies[shape];
                     match pile.settle(body, turn * scale, point.truncate(), gap) {
                         Ok((turn, at)) => {
-                            told();
+                            told(wanted);
                             DAffine3::from_mat3_translation(turn, at - turn * body.middle())
                         }
                         Err(why) => {

@@ -44,7 +44,7 @@ pub fn decode(bytes: &[u8], layer: Option<&str>) -> Result<Picture, ImageError> 
             what: what.to_owned(),
         })
     };
-    let is_exr = bytes.starts_with(b"\x76\x2f\x31\x01");
+    let is_exr = bytes.starts_with(openexr::MAGIC);
     if layer.is_some() && !is_exr {
         return malformed("only an EXR has layers: leave `layer` out");
     }

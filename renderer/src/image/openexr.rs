@@ -3,7 +3,7 @@
 mod deflate;
 
 use std::any::Any;
-use std::io::{Cursor, Write};
+use std::io::{BufRead, Cursor, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
@@ -20,6 +20,9 @@ use super::{
     Attribute, ImageError, Layer, MOST_BYTES, MOST_EXPANSION, MOST_TEXTURE_BYTES, Picture, atomic,
     check_held, check_size,
 };
+
+/// The first bytes of each file.
+pub(super) const MAGIC: &[u8] = &magic_number::BYTES;
 
 /// Attributes that describe the structure of the file. They cannot be set and are not reported.
 const STRUCTURAL: [&str; 15] = [
@@ -276,7 +279,7 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
 /// As [`decode`], within so many bytes of memory.
 pub(super) fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageError> {
     let malformed = |what: String| ImageError::Malformed { what };
-    if !bytes.starts_with(&magic_number::BYTES) {
+    if !bytes.starts_with(MAGIC) {
         return Err(malformed("it is no EXR".to_owned()));
     }
     let meta =
@@ -344,6 +347,18 @@ pub(super) fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageErr
         layers,
         attributes: header.map(attributes).unwrap_or_default(),
     })
+}
+
+/// Bytes that a file takes while its colours are made: the values of all channels, and a map of
+/// three; 0 of a damaged one.
+pub(super) fn claimed_bytes(file: impl BufRead) -> f64 {
+    let meta = guard(|| MetaData::read_from_buffered(file, false));
+    let headers = meta.map(|meta| meta.headers).unwrap_or_default();
+    let of_header = headers.iter().map(|header| {
+        let pixels = header.layer_size.0 as f64 * header.layer_size.1 as f64;
+        pixels * 4.0 * (header.channels.list.len() as f64 + 3.0)
+    });
+    of_header.sum()
 }
 
 /// The name of the first part of a file, whose channels keep their names.

@@ -20,6 +20,9 @@ const CHROMATICITIES: [u32; 8] = [31270, 32900, 64000, 33000, 30000, 60000, 1500
 /// The exponent 1/2.2 times 100 000, which stands for the curve of sRGB where it is not known.
 const GAMMA: u32 = 45455;
 
+/// Greatest size of a profile of colours, bytes.
+pub(super) const MOST_PROFILE: u64 = 64 << 20;
+
 /// Where the first chunk ends: signature 8, then the header chunk of 13 + 12 bytes.
 const AFTER_HEADER: usize = 8 + 25;
 
@@ -159,10 +162,11 @@ pub fn decode_as(bytes: &[u8], stored: Stored) -> Result<Picture, ImageError> {
 
 /// What a file says of its values.
 fn encoding(bytes: &[u8]) -> Result<Encoding, ImageError> {
-    let reader = png::Decoder::new(Cursor::new(bytes)).read_info();
-    let reader = reader.map_err(|error| ImageError::Malformed {
-        what: error.to_string(),
-    })?;
+    let limits = png::Limits {
+        bytes: MOST_PROFILE as usize,
+    };
+    let reader = png::Decoder::new_with_limits(Cursor::new(bytes), limits).read_info();
+    let reader = reader.map_err(|error| damaged(&error))?;
     let info = reader.info();
     if let Some(points) = info.coding_independent_code_points {
         let codes = [
@@ -174,6 +178,15 @@ fn encoding(bytes: &[u8]) -> Result<Encoding, ImageError> {
     }
     if let Some(profile) = &info.icc_profile {
         return Encoding::of_profile(profile);
+    }
+    // The decoder passes over a profile that it cannot use.
+    if has_profile(bytes) {
+        return Err(ImageError::Malformed {
+            what: format!(
+                "its profile of colours (iCCP) is damaged or larger than {} MiB: save it without, in sRGB",
+                MOST_PROFILE >> 20
+            ),
+        });
     }
     if info.srgb.is_some() {
         return Ok(Encoding::srgb());
@@ -189,6 +202,28 @@ fn encoding(bytes: &[u8]) -> Result<Encoding, ImageError> {
     }
     let power = 100_000.0 / f64::from(gamma);
     Ok(Encoding::even(move |value| libm::pow(value, power), points))
+}
+
+/// Whether a chunk `iCCP` stands before the pixels of a valid file.
+fn has_profile(mut chunks: &[u8]) -> bool {
+    chunks = chunks.get(8..).unwrap_or_default();
+    // Length, kind, data, checksum.
+    while let Some((length, rest)) = chunks.split_first_chunk::<4>() {
+        match rest.get(..4) {
+            Some(b"iCCP") => return true,
+            None | Some(b"IDAT") => return false,
+            Some(_) => {}
+        }
+        let length = u32::from_be_bytes(*length) as usize;
+        chunks = rest.get(length.saturating_add(8)..).unwrap_or_default();
+    }
+    false
+}
+
+fn damaged(error: &png::DecodingError) -> ImageError {
+    ImageError::Malformed {
+        what: error.to_string(),
+    }
 }
 
 /// Reads grey or alpha of a PNG file as written, 0 to 1, as a picture with one layer, `grey` or
@@ -239,22 +274,16 @@ fn decode_unturned(bytes: &[u8], channels: u64) -> Result<(DynamicImage, Orienta
     let malformed = |error: image::ImageError| ImageError::Malformed {
         what: error.to_string(),
     };
-    let reader = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
-    let (width, height) = reader().into_dimensions().map_err(malformed)?;
-    let (across, down) = (u64::from(width), u64::from(height));
+    let mut header = png::Decoder::new(Cursor::new(bytes));
+    let header = header.read_header_info().map_err(|error| damaged(&error))?;
+    let (across, down) = (u64::from(header.width), u64::from(header.height));
     check_size(across, down, channels, 12, MOST_TEXTURE_BYTES)?;
-    // The header, which was just read, is always in the same place: depth, then kind of colour.
-    let stored = u64::from(bytes[24])
-        * match bytes[25] {
-            2 => 3,
-            4 => 2,
-            6 => 4,
-            _ => 1,
-        };
+    let stored = header.bits_per_pixel() as u64;
     check_held(across * down / 8 * stored, bytes.len())?;
-    let mut reader = reader();
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
     let mut limits = Limits::default();
-    limits.max_alloc = Some(MOST_BYTES);
+    // The decoder holds a row at a time, besides what stands before the pixels.
+    limits.max_alloc = Some(8 * across + MOST_PROFILE);
     reader.limits(limits);
     super::turned(reader).map_err(malformed)
 }

@@ -357,6 +357,11 @@ impl Rendered {
             let lost = if missing.is_infinite() {
                 "the light that they would have found has no bound, because a light has no extent"
                     .to_owned()
+            } else if missing > mean && mean > 0.0 {
+                format!(
+                    "how much light is missing is not known, since its bound ({missing:.2e}) is above the \
+                     mean of the picture ({mean:.2e}): raise that limit, and see what changes"
+                )
             } else if mean > 0.0 {
                 let percent = 100.0 * missing / mean;
                 format!("at most {missing:.2e} is missing of a mean of {mean:.2e} ({percent:.2} %)")

@@ -8,6 +8,7 @@ pub struct Texels {
     width: usize,
     height: usize,
     colours: Box<[[f32; 3]]>,
+    greatest: [f32; 3],
 }
 
 /// Greatest number of a texel, of either sign.
@@ -25,10 +26,14 @@ pub enum Beyond {
 impl Texels {
     /// A picture from finite texels, `width` per row.
     pub fn new(texels: Vec<[f32; 3]>, width: usize) -> Self {
+        let greatest = texels.iter().fold([0.0_f32; 3], |most, texel| {
+            std::array::from_fn(|i| most[i].max(texel[i]))
+        });
         Self {
             width,
             height: texels.len() / width,
             colours: texels.into(),
+            greatest,
         }
     }
 
@@ -44,10 +49,7 @@ impl Texels {
 
     /// The greatest red, green and blue of all.
     pub fn greatest(&self) -> [f32; 3] {
-        let texels = self.colours.iter();
-        texels.fold([0.0; 3], |most, texel| {
-            std::array::from_fn(|i| most[i].max(texel[i]))
-        })
+        self.greatest
     }
 
     /// Prefetches the texels around a place that is roughly this.

@@ -1,7 +1,6 @@
 //! Files of a scene: read once, checked before they are decoded.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
@@ -9,13 +8,14 @@ use glam::DMat3;
 use thiserror::Error;
 
 use leafmodel::document::assets::{Assets, Raster, Triangles};
+use leafmodel::document::whole_file;
 use leafmodel::memory;
 use leafmodel::optics::{Constituent, Texel};
 
 use crate::geometry;
 use crate::image::{ImageError, Picture, colours, openexr, portable_network};
 use crate::material::contents_texture::ContentsTexture;
-use crate::scene::model::{self, Container, Model, ModelError, Wanted};
+use crate::scene::model::{self, Claims, Container, Files, Model, ModelError, Wanted};
 
 /// Largest file that is read, bytes.
 const MOST_BYTES: u64 = 4 << 30;
@@ -24,20 +24,12 @@ const MOST_BYTES: u64 = 4 << 30;
 #[derive(Debug, Error)]
 pub enum AssetError {
     /// It cannot be read.
-    #[error("{file} cannot be read: {source}")]
+    #[error("{file}: {source}")]
     Read {
         /// The file.
         file: PathBuf,
         /// What the system says.
         source: std::io::Error,
-    },
-    /// It is too large.
-    #[error("{file} has {bytes} bytes, more than {MOST_BYTES}")]
-    TooLarge {
-        /// The file.
-        file: PathBuf,
-        /// Its size.
-        bytes: u64,
     },
     /// It is not a valid picture.
     #[error(transparent)]
@@ -99,20 +91,12 @@ pub struct RgbPicture {
 ///
 /// # Errors
 ///
-/// [`AssetError`] if it cannot be read or is too large.
+/// [`AssetError::Read`] if it cannot be read, also because it is too large.
 pub fn read(file: &Path) -> Result<Vec<u8>, AssetError> {
-    let failed = |source| AssetError::Read {
+    whole_file::read(file, MOST_BYTES).map_err(|source| AssetError::Read {
         file: file.to_owned(),
         source,
-    };
-    let bytes = fs::metadata(file).map_err(failed)?.len();
-    if bytes > MOST_BYTES {
-        return Err(AssetError::TooLarge {
-            file: file.to_owned(),
-            bytes,
-        });
-    }
-    fs::read(file).map_err(failed)
+    })
 }
 
 /// What a channel may hold.
@@ -419,14 +403,39 @@ pub fn model(
     scale: f64,
     wanted: Wanted,
 ) -> Result<Model, AssetError> {
+    opened(file, beside, |container, files| {
+        model::read(container, files, scale, wanted)
+    })
+}
+
+/// What such a model claims to have.
+///
+/// # Errors
+///
+/// As [`model`].
+pub fn claims_of_model(
+    file: &Path,
+    beside: &[(String, PathBuf)],
+    wanted: Wanted,
+) -> Result<Claims, AssetError> {
+    opened(file, beside, |container, files| {
+        model::claims(container, files, wanted)
+    })
+}
+
+/// What `read_model` makes of a glTF file and the files beside it.
+fn opened<T>(
+    file: &Path,
+    beside: &[(String, PathBuf)],
+    read_model: impl for<'a> FnOnce(&Container<'a>, Files<'a>) -> Result<T, ModelError>,
+) -> Result<T, AssetError> {
     let bytes = read(file)?;
     let others = beside.iter();
     let others = others.map(|(name, file)| Ok((name, read(file)?)));
     let others = others.collect::<Result<BTreeMap<_, _>, AssetError>>()?;
     let bytes_of = |name: &str| others.get(&name.to_owned()).map(Vec::as_slice);
-    let model = Container::open(&bytes)
-        .and_then(|container| model::read(&container, &bytes_of, scale, wanted));
-    model.map_err(|source| AssetError::Model {
+    let found = Container::open(&bytes).and_then(|container| read_model(&container, &bytes_of));
+    found.map_err(|source| AssetError::Model {
         file: file.to_owned(),
         source,
     })

@@ -25,12 +25,14 @@ mod textures;
 #[cfg(test)]
 mod tests;
 
+use std::io::Cursor;
+
 use leafmodel::document::source::escaped;
 use thiserror::Error;
 
 use self::pictures::Pictures;
 use crate::geometry::{MeshError, TriangleMesh};
-use crate::image::ImageError;
+use crate::image::{ImageError, claimed};
 use crate::material::colour_map::ColourMap;
 use crate::material::model::Finish;
 
@@ -132,6 +134,41 @@ pub struct Model {
 
 /// Bytes of a file that a glTF file names, by its name as written there.
 pub type Files<'a> = &'a dyn Fn(&str) -> Option<&'a [u8]>;
+
+/// What a model will have, known before any of it is decoded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Claims {
+    /// Triangles of all nodes.
+    pub triangles: u64,
+    /// Memory of its pictures while they are read, bytes.
+    pub pictures: f64,
+}
+
+/// What a model claims to have; its pictures count only if anything of them is wanted.
+///
+/// # Errors
+///
+/// [`ModelError`], with the place in the file.
+pub fn claims<'a>(
+    container: &Container<'a>,
+    files: Files<'a>,
+    wanted: Wanted,
+) -> Result<Claims, ModelError> {
+    let root = container.root();
+    let mut pictures = 0.0;
+    if wanted != Wanted::default() {
+        let buffers = container.buffers(files)?;
+        let all = Pictures::new(root, &buffers, files);
+        for number in textures::images(root) {
+            let bytes = |bytes: &[u8]| Ok(claimed::bytes(Cursor::new(bytes)));
+            pictures += all.decode(number, bytes)?;
+        }
+    }
+    Ok(Claims {
+        triangles: surfaces::claimed(root)?,
+        pictures,
+    })
+}
 
 /// Reads a model; `scale` is metres per unit of the file. `files` gives the bytes of each of
 /// [`Container::files`]. Only the pictures are decoded that are needed for what is `wanted`.

@@ -119,8 +119,8 @@ pub struct BuildOptions<'a> {
     pub cache: Option<&'a PlantCache>,
     /// Counts the leaves that have grown.
     pub grown: Option<&'a AtomicUsize>,
-    /// Counts what has come to rest of all that falls.
-    pub at_rest: Option<&'a AtomicUsize>,
+    /// Counts what has come to rest, and of how many things it has.
+    pub at_rest: Option<&'a [AtomicUsize; 2]>,
     /// Wavelengths of paths that are not the film's.
     pub wavelengths: Option<&'a WavelengthSampler>,
     /// Most memory that meshes with their trees and the places of objects may take, bytes.

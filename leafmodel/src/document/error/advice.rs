@@ -1,6 +1,7 @@
 //! What reports say of an error beside its message: code, label, and what to write instead.
 
 use super::{DocumentError, NONE};
+use crate::document::names::LONGEST;
 
 impl DocumentError {
     /// The stable name of the kind of error, shown in brackets.
@@ -55,7 +56,15 @@ impl DocumentError {
                  `-D 'picture.tone=\"filmic\"'`"
                     .to_owned()
             }
-            Self::UnknownKey { nearest, known, .. } => meant(nearest, known, "keys here"),
+            Self::UnknownKey {
+                nearest,
+                unit,
+                known,
+                ..
+            } => {
+                let help = meant(nearest, known, "keys here");
+                unit.iter().fold(help, |help, unit| format!("{help} {unit}"))
+            }
             Self::UnknownVariant { nearest, known, .. } => meant(nearest, known, "kinds"),
             Self::MissingKey { wanted, .. } => format!("add {wanted}"),
             Self::NotOne { found, .. } if found == NONE => "add one of them".to_owned(),
@@ -75,9 +84,7 @@ impl DocumentError {
                 kind,
                 ..
             } => meant(nearest, known, &plural(kind)),
-            Self::BadName { .. } => {
-                "use the letters A-Z and a-z, digits, `_` and `-`, at most 100 of them".to_owned()
-            }
+            Self::BadName { allowed, .. } => format!("use {allowed}, at most {LONGEST} of them"),
             Self::UnknownWord { nearest, known, .. } => meant(nearest, known, "choices"),
             Self::PathOutside { .. } => {
                 "copy the file into the scene's folder and name it by its path from there, or allow \

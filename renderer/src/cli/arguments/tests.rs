@@ -6,7 +6,7 @@ fn parsed(line: &str) -> Result<Arguments, clap::Error> {
 
 #[test]
 fn the_command_line_has_no_contradictions() {
-    Arguments::grammar().debug_assert();
+    Arguments::command().debug_assert();
     assert_eq!(GREETING.lines().count(), 5);
 }
 
@@ -96,6 +96,16 @@ fn a_negative_number_gets_the_range_of_its_option() {
             "must be from 0 to",
         ),
         ("lamina render a.toml --size 7", "640x480"),
+        ("lamina render a.toml --size -8x8", "640x480"),
+        ("lamina render a.toml --noise -1e-3", "must be from 0 to 1"),
+        (
+            "lamina instruments a.toml --out a.csv --error -1e-3",
+            "must be from 0 to 1",
+        ),
+        (
+            "lamina instruments a.toml --out a.csv --error -5%",
+            "must be from 0 to 100",
+        ),
     ] {
         let error = parsed(line).expect_err(line).to_string();
         assert!(error.contains(range), "{error}");

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use leafmodel::document::source::quoted;
 
-use crate::cli::Failure;
 use crate::cli::arguments::FitArguments;
 use crate::cli::texts::text_of;
+use crate::cli::{Failure, note};
 use crate::measured::Slack;
 use crate::measured::known::Known;
 use crate::measured::series::{self, Series};
@@ -31,9 +31,7 @@ pub(super) fn leaves(arguments: &FitArguments) -> Result<Vec<Leaf>, Failure> {
         Some(file) => of_table(file, &known)?,
         None => vec![of_single_files(arguments)?],
     };
-    for note in leaves.iter().flat_map(gaps) {
-        eprintln!("note: {note}");
-    }
+    note(leaves.iter().flat_map(gaps));
     Ok(leaves)
 }
 
@@ -50,9 +48,7 @@ fn of_table(file: &Path, known: &Known) -> Result<Vec<Leaf>, Failure> {
     let text = text_of(file)?;
     let refused = |fault: &crate::measured::Fault| Failure::bad(fault.shown(file, &text));
     let found = spectra::read(&text, known).map_err(|fault| refused(&fault))?;
-    for note in &found.notes {
-        eprintln!("note: {note}");
-    }
+    note(&found.notes);
     for leaf in &found.leaves {
         let checked = leaf.check(&text, Slack::NOISE);
         checked.map_err(|fault| refused(&fault))?;

@@ -101,7 +101,11 @@ impl Grower {
             Failure::bad(format!("--free {error}: write {key}=LO..HI with LO < HI"))
         })?;
         let with = |value: f64| self.plan(&[setting(key, value)]);
-        with(low)?;
+        // Keys are looked up as those of --set.
+        with(low).map_err(|failure| match failure {
+            Failure::BadInput(text) => Failure::BadInput(text.replacen("--set ", "--free ", 1)),
+            Failure::System(_) | Failure::Interrupted => failure,
+        })?;
         with(high)?;
         // No multiple of a simple fraction: between whole numbers it is none.
         let between = low + 0.381_966 * (high - low);

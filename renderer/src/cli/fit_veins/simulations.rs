@@ -4,7 +4,6 @@
 //! again asks for the same leaves; those that the table has are not grown again.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -12,6 +11,7 @@ use std::time::{Duration, Instant};
 
 use csv::Writer;
 use leafmodel::document::rows::{Decimal, Form, Rows, Separator};
+use leafmodel::document::whole_file;
 use leafmodel::inference::{Draw, Outcome, Problem};
 use rayon::prelude::*;
 
@@ -175,7 +175,7 @@ fn header(problem: &Problem) -> Vec<String> {
 
 /// The simulations in a file, none if there is no file. Rows that are damaged count as none.
 fn read(path: &Path, identity: &str, problem: &Problem) -> Result<Grown, Failure> {
-    let text = match fs::read_to_string(path) {
+    let text = match whole_file::read_utf8(path, whole_file::MOST_BYTES) {
         Ok(text) => text,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Grown::new()),
         Err(error) => return Err(Failure::system(format!("{}: {error}", path.display()))),

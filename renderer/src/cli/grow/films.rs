@@ -10,6 +10,7 @@ use tempfile::NamedTempFile;
 use super::outputs::{Kind, Outputs};
 use crate::cli::Failure;
 use crate::cli::arguments::GrowArguments;
+use crate::cli::progress::Steps;
 use crate::export::drawing::Drawing;
 use crate::image::animation::{Animation, Format, Timing};
 
@@ -42,6 +43,8 @@ pub(super) fn check(outputs: &Outputs) -> Result<(), Failure> {
 pub(super) struct Films {
     all: Vec<Film>,
     count: u32,
+    /// Frames that are drawn.
+    drawn: Steps,
     timing: Timing,
 }
 
@@ -70,6 +73,7 @@ impl Films {
         Self {
             all: films.collect(),
             count,
+            drawn: Steps::new("frames", count),
             timing: Timing {
                 frames_per_second: arguments.fps,
                 last_frame_seconds: arguments.hold,
@@ -112,6 +116,7 @@ impl Films {
                 }
             }
         }
+        self.drawn.tell(frames.len());
         Ok(())
     }
 

@@ -19,7 +19,7 @@ use super::warn_of_mixtures;
 use crate::cli::arguments::OpticsArguments;
 use crate::cli::places::check_outputs;
 use crate::cli::texts::text_of;
-use crate::cli::{Failure, note_output, say};
+use crate::cli::{Failure, note, note_output, say};
 use crate::image::atomic;
 
 /// Names of the column that names leaves.
@@ -148,9 +148,7 @@ fn read(chosen: &Chosen, form: Form, file: &Path, text: &str) -> Result<Leaves, 
             help: "write names of columns into its first line, and a line for each leaf".to_owned(),
         });
     }
-    for guess in rows.guesses() {
-        eprintln!("note: {guess}");
-    }
+    note(rows.guesses());
     let (sources, errors, _) = cx.into_parts();
     if errors.is_empty() {
         Ok(leaves)
@@ -216,6 +214,7 @@ fn unknown(name: &Field, chosen: &Chosen) -> DocumentError {
         key: name.shown(),
         block: "the table".to_owned(),
         nearest: nearest(&name.text, known()).map(str::to_owned),
+        unit: None,
         known: known().collect::<Vec<_>>().join(", "),
     }
 }

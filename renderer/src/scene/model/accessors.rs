@@ -59,11 +59,6 @@ impl<'a> Accessors<'a> {
         Self { root, buffers }
     }
 
-    /// How many elements an accessor claims to have.
-    pub(super) fn claimed(&self, index: Index<Accessor>) -> u64 {
-        self.root.accessors[index.value()].count.0
-    }
-
     /// Vectors of `N` numbers, of the elements that are `used`: floats, or integers, which stand for
     /// shares if they are normalised.
     pub(super) fn vectors<const N: usize>(

@@ -212,6 +212,16 @@ fn check(root: &Root) -> Result<(), ModelError> {
     match first {
         None => Ok(()),
         Some((path, error)) => {
+            let is_source = path.starts_with("textures[") && path.ends_with(".source");
+            let mut used = root.extensions_used.iter();
+            if let Some(extension) = used.find(|name| is_source && !is_usable(name)) {
+                let what = format!(
+                    "is missing: the picture may be in the extension {}, which is not read; save the \
+                     file with PNG or JPEG pictures",
+                    shown(extension)
+                );
+                return Err(ModelError::invalid(path, what));
+            }
             let what = match error {
                 Error::IndexOutOfBounds => "names what is not there",
                 Error::Invalid => "is not what glTF allows there",

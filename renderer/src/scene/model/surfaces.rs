@@ -55,7 +55,8 @@ pub(super) fn patches(
         };
         for (part, primitive) in root.meshes[mesh.value()].primitives.iter().enumerate() {
             let place = format!("meshes[{}].primitives[{part}]", mesh.value());
-            let Some(corners) = corners(primitive, accessors, &place, &mut triangles, left_out)?
+            let Some(corners) =
+                corners(root, primitive, accessors, &place, &mut triangles, left_out)?
             else {
                 continue;
             };
@@ -122,23 +123,43 @@ fn local(node: &Node) -> DMat4 {
     )
 }
 
+/// How many corners a primitive claims to have.
+fn claimed_corners(root: &Root, primitive: &Primitive) -> u64 {
+    let positions = attribute(primitive, Semantic::Positions);
+    let listed = primitive.indices.or(positions);
+    listed.map_or(0, |of| root.accessors[of.value()].count.0)
+}
+
+/// The same in triangles; a strip has one for each vertex.
+fn claimed_triangles(root: &Root, primitive: &Primitive) -> u64 {
+    let corners = claimed_corners(root, primitive);
+    match primitive.mode {
+        Checked::Valid(Mode::Triangles) => corners / 3,
+        Checked::Valid(_) | Checked::Invalid => corners,
+    }
+}
+
+/// How many triangles all nodes together claim to have.
+pub(super) fn claimed(root: &Root) -> Result<u64, ModelError> {
+    let nodes = placed(root, DMat4::IDENTITY)?.into_iter();
+    let meshes = nodes.filter_map(|(node, _)| node.mesh);
+    let primitives = meshes.flat_map(|mesh| &root.meshes[mesh.value()].primitives);
+    Ok(primitives
+        .map(|primitive| claimed_triangles(root, primitive))
+        .fold(0, u64::saturating_add))
+}
+
 /// The vertices of a primitive's triangles; `None` if it has none.
 fn corners(
+    root: &Root,
     primitive: &Primitive,
     accessors: &Accessors<'_>,
     place: &str,
     triangles: &mut u64,
     left_out: &mut BTreeSet<String>,
 ) -> Result<Option<Vec<[u32; 3]>>, ModelError> {
-    let claimed = match (primitive.indices, attribute(primitive, Semantic::Positions)) {
-        (Some(of), _) | (None, Some(of)) => accessors.claimed(of),
-        (None, None) => 0,
-    };
-    // A strip has one for each vertex.
-    *triangles = triangles.saturating_add(match primitive.mode {
-        Checked::Valid(Mode::Triangles) => claimed / 3,
-        Checked::Valid(_) | Checked::Invalid => claimed,
-    });
+    let claimed = claimed_corners(root, primitive);
+    *triangles = triangles.saturating_add(claimed_triangles(root, primitive));
     if *triangles > MOST_TRIANGLES {
         let what = format!("the scene has more than {MOST_TRIANGLES} triangles up to here");
         return Err(ModelError::invalid(place, what));

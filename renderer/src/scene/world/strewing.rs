@@ -37,8 +37,8 @@ pub(super) struct Strewing<'a> {
     pieces: &'a Pieces,
     objects: &'a [Named<Object>],
     memory: Memory,
-    /// Counts what has come to rest.
-    at_rest: Option<&'a AtomicUsize>,
+    /// Counts what has come to rest, and of how many things it has.
+    at_rest: Option<&'a [AtomicUsize; 2]>,
     /// Places found so far.
     found: Places,
 }
@@ -52,7 +52,7 @@ impl<'a> Strewing<'a> {
         meshes: &'a [TriangleMesh],
         pieces: &'a Pieces,
         objects: &'a [Named<Object>],
-        (most_bytes, at_rest): (Option<f64>, Option<&'a AtomicUsize>),
+        (most_bytes, at_rest): (Option<f64>, Option<&'a [AtomicUsize; 2]>),
     ) -> Result<Self, WorldError> {
         let mut memory = Memory::new(most_bytes);
         memory.take_meshes(meshes)?;
@@ -161,8 +161,12 @@ impl<'a> Strewing<'a> {
         };
         let body = |shape: &ObjectShape| Body::of(self.parts(*shape, object.to_world));
         let bodies: Vec<Body> = shapes.iter().map(body).collect();
-        let tell = || {
-            if let Some(at_rest) = self.at_rest {
+        let before = self
+            .at_rest
+            .map_or(0, |[at_rest, _]| at_rest.load(Ordering::Relaxed));
+        let tell = |wanted: usize| {
+            if let Some([at_rest, all]) = self.at_rest {
+                all.store(before + wanted, Ordering::Relaxed);
                 at_rest.fetch_add(1, Ordering::Relaxed);
             }
         };
