@@ -3,7 +3,6 @@
 use leafmodel::document::rows::Field;
 
 use super::known::{Measure, WavelengthUnit};
-use super::misnomers::{other_axis, other_value};
 
 /// Wavelengths that names of columns may give, nm.
 const BANDS_NM: std::ops::RangeInclusive<f64> = 200.0..=30_000.0;
@@ -67,19 +66,6 @@ pub(super) fn columns(names: &[Field], whole: Option<Measure>) -> Result<Vec<Nam
     }
     let mut columns: Vec<Named> = names.iter().map(|name| column(&name.text)).collect();
     let is_wavelength = |column: &&Named| matches!(column.holds, Column::Wavelength(_));
-    for (i, (name, column)) in names.iter().zip(&columns).enumerate() {
-        let other = match column.holds {
-            Column::Wavelength(_) => other_axis(&name.text),
-            Column::Of(..) => other_value(&name.text),
-            Column::Name | Column::Quantity | Column::Band(..) | Column::Other => {
-                let is_axis = i == 0 && !columns.iter().any(|own| is_wavelength(&own));
-                is_axis.then(|| other_axis(&name.text)).flatten()
-            }
-        };
-        if let Some((what, help)) = other {
-            return Err(format!("the column {} holds {what}: {help}", name.shown()));
-        }
-    }
     if columns.iter().filter(is_wavelength).count() != 1 {
         return Err(format!(
             "one column must hold the wavelengths, named wavelength_nm, nm or um, or columns must be \

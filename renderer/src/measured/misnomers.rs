@@ -1,7 +1,29 @@
 //! Names of columns that hold something else than wavelengths, reflectances and transmittances, but
 //! stand where those are wanted.
 
-use super::columns::{measure, words};
+use leafmodel::document::rows::Field;
+
+use super::columns::{Column, column, is_wavelength, measure, words};
+
+/// Why the columns of a table of leaves cannot be read, if one holds something else than its name
+/// is taken for.
+pub(super) fn refuse(names: &[Field]) -> Result<(), String> {
+    let has_wavelengths = names.iter().any(|name| is_wavelength(&name.text));
+    for (i, name) in names.iter().enumerate() {
+        let other = match column(&name.text).holds {
+            Column::Of(..) => other_value(&name.text),
+            Column::Wavelength(_) => other_axis(&name.text),
+            Column::Name | Column::Quantity | Column::Band(..) | Column::Other => {
+                let is_axis = i == 0 && !has_wavelengths;
+                is_axis.then(|| other_axis(&name.text)).flatten()
+            }
+        };
+        if let Some((what, help)) = other {
+            return Err(format!("the column {} holds {what}: {help}", name.shown()));
+        }
+    }
+    Ok(())
+}
 
 /// What a column of this name holds instead of wavelengths, and how those follow from it.
 pub(super) fn other_axis(name: &str) -> Option<Other> {

@@ -17,6 +17,7 @@ use leafmodel::document::source::quoted;
 use self::leaves::{Draft, Leaves};
 use super::columns::{Column, Named, columns, is_wavelength, listed};
 use super::known::{Known, Measure, ValueUnit, WavelengthUnit};
+use super::misnomers;
 use super::series::Series;
 use super::units::{
     self, are_micrometres, are_percent, contradiction, greatest_fraction, micrometres, percent,
@@ -130,7 +131,8 @@ pub fn read(text: &str, known: &Known) -> Result<Spectra, Fault> {
         Some(Err(ragged)) => return Err(of_ragged(&ragged)),
         None => return Err(Fault::of_file("is empty: it has no line of names", "")),
     };
-    let columns = columns(&names, known.quantity).map_err(|what| Fault::of_file(what, ""))?;
+    let columns = misnomers::refuse(&names).and_then(|()| columns(&names, known.quantity));
+    let columns = columns.map_err(|what| Fault::of_file(what, ""))?;
     let mut leaves = Leaves::new(known);
     for row in rows {
         let row = row.map_err(|ragged| of_ragged(&ragged))?;
@@ -283,6 +285,7 @@ fn which_are_percent(
         .find(|own| are_percent(own.values.iter().copied()));
     let small = unnamed
         .iter()
+        .filter(|own| own.fits_fractions)
         .find_map(|own| Some((own, greatest_fraction(&own.values)?)));
     if let (Some(large), Some((small, greatest))) = (large, small) {
         let most = units::greatest(&large.values);

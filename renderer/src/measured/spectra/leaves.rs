@@ -44,6 +44,8 @@ pub(super) struct Measured {
     pub(super) values: Vec<f64>,
     /// The column whose name says that the values are percent.
     pub(super) percent: Option<usize>,
+    /// Whether the values may be fractions beside percent.
+    pub(super) fits_fractions: bool,
 }
 
 /// What was measured of a leaf at a wavelength, by measure; nothing where that was masked.
@@ -165,6 +167,16 @@ impl Draft {
                 .filter_map(|point| point.values[of])
                 .collect(),
             percent: self.percent[of],
+            fits_fractions: self.fits_fractions(of),
+        })
+    }
+
+    /// Whether a measure may be fractions beside percent: R + T is at most 1 then.
+    fn fits_fractions(&self, of: usize) -> bool {
+        let other = [2, 2, 0][of];
+        self.points.iter().all(|point| {
+            let [own, other] = [of, other].map(|of| point.values[of].unwrap_or(0.0));
+            own + other / 100.0 <= 1.0
         })
     }
 

@@ -80,6 +80,10 @@ fn columns_in_percent_beside_fractions_are_refused_unless_their_names_say_it() {
           --values percent)"
         ]
     );
+    // With T as fractions R + T would be above 1, so all are percent.
+    let dark = "nm,R,T\n400,5,1\n500,10,1\n800,45,1\n";
+    let leaf = &parsed(dark, Slack::NOISE).expect("a good table").leaves[0];
+    assert_eq!((leaf.reflectance[2], leaf.transmittance[2]), (0.45, 0.01));
     // Nothing goes through: zeros are zeros in both units.
     let opaque = "nm,R,T\n400,5,0\n500,10,0\n800,45,0\n";
     let leaf = &parsed(opaque, Slack::NOISE).expect("a good table").leaves[0];
