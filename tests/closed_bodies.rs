@@ -2,8 +2,10 @@
 //! is lost.
 
 use glam::{Vec2, Vec3};
+use renderer::bsdf::coat_table::{Bloom, CoatTable};
 use renderer::bsdf::dielectric::Dielectric;
 use renderer::bsdf::leaf::{Coat, LeafBsdf, Tissue};
+use renderer::bsdf::metallic_roughness::MetallicRoughness;
 use renderer::bsdf::{Bsdf, View};
 use renderer::geometry::frame::Frame;
 use renderer::geometry::{Ray, SurfacePoint};
@@ -222,6 +224,24 @@ fn a_white_furnace_is_as_bright_within_a_leaf_around_it() {
     }
 }
 
+#[test]
+fn a_white_furnace_is_as_bright_within_a_closed_blade() {
+    // Halfway between the faces, which are 2 mm apart.
+    let within = [0.0, 0.0136, -0.0034];
+    let coated = BLADE.replace("eta = 1\n", "eta = 1.45\n");
+    for (name, blade, allowed) in [("bare", BLADE, 1e-5), ("coated", &coated, BY_COATS)] {
+        for up in [1.0, -1.0] {
+            let towards = [0.0, 0.0136, up];
+            let text = head(within, towards, 120.0, 64) + blade + SKY;
+            let what = format!("a {name} closed blade, {up}");
+            // From outside the sky would be seen on one side.
+            let open = picture_of(&text, 0).film.map(|pixel| pixel.alpha() < 1.0);
+            assert!(!open.contains(&true), "{what}");
+            assert_furnace(&what, &text, allowed);
+        }
+    }
+}
+
 /// A picture of a sphere of 16 segments from afar by light that is scattered once, and its greatest
 /// pixel.
 fn lit_sphere(material: &str, sun: &str) -> (Vec<f64>, f64) {
@@ -389,6 +409,21 @@ fn light_near_a_tilted_triangle_is_drawn_as_its_density_says_and_keeps_its_energ
     let opaque = LeafBsdf::new(&coats, Tissue::opaque(Lanes::splat(0.9)));
     assert_closed("plastic", &Bsdf::Leaf(opaque));
     assert_closed("diffuse", &Bsdf::Diffuse(Lanes::splat(0.8)));
+    let coats = [1.5, f32::INFINITY].map(|eta| {
+        let table = CoatTable::of(eta);
+        (eta, Bloom::new(0.0, &table), table)
+    });
+    let [coat, mirror] = coats
+        .each_ref()
+        .map(|(eta, bare, table)| table.coat(*eta, [0.3; 2], bare));
+    let metal = MetallicRoughness {
+        colour: Lanes::splat(0.8),
+        metallic: 0.5,
+        coat,
+        mirror,
+        slope: Vec2::new(0.3, -0.2),
+    };
+    assert_closed("paint and metal", &Bsdf::Metallic(metal));
     let glass = Dielectric {
         eta: 1.5,
         alpha: 0.4,

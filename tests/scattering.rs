@@ -1,9 +1,13 @@
 //! The BSDFs: drawn as their densities say, reciprocal, without gain or loss.
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3};
 use renderer::bsdf::Bsdf;
+use renderer::bsdf::coat_table::{Bloom, CoatTable};
 use renderer::bsdf::dielectric::Dielectric;
 use renderer::bsdf::leaf::{Coat, LeafBsdf, Tissue};
+use renderer::bsdf::metallic_roughness::MetallicRoughness;
 use renderer::sampling::stream::Stream;
 use renderer::spectrum::Lanes;
 use support::chi_square::{ChiSquare, sidak};
@@ -92,7 +96,8 @@ fn unlike_coats_leave_both_reflectances_and_the_transmittance_as_they_are_and_lo
     let none = || Coat::new(1.0, 1.0, 1.0);
     let pairs = [
         [Coat::new(1.5, 0.1, 0.1), none()],
-        [none(), Coat::new(1.6, 0.2, 0.4)],
+        [none(), Coat::new(2.0, 0.05, 0.4)],
+        [Coat::new(1.6, 0.4, 0.2), Coat::new(1.5, 0.1, 0.1)],
         [Coat::new(2.5, 0.9, 0.9), none()],
         [Coat::new(1.3, 0.3, 0.3), Coat::new(1.6, 0.6, 0.2)],
     ];
@@ -284,13 +289,38 @@ const OBLIQUE: [Vec3; 4] = [
     Vec3::new(0.48, -0.6, -0.64),
 ];
 
+/// Coats of any roughness for a surface between paint and metal: of paint, and of all light.
+fn model() -> [(f32, Arc<CoatTable>, Bloom); 2] {
+    [1.5, f32::INFINITY].map(|eta| {
+        let table = CoatTable::of(eta);
+        let bare = Bloom::new(0.0, &table);
+        (eta, table, bare)
+    })
+}
+
+/// Half metal, on a slope.
+fn tilted(model: &[(f32, Arc<CoatTable>, Bloom); 2]) -> Bsdf<'_, 8> {
+    let [coat, mirror] = model
+        .each_ref()
+        .map(|(eta, table, bare)| table.coat(*eta, [0.3; 2], bare));
+    Bsdf::Metallic(MetallicRoughness {
+        colour: Lanes::from_fn(|lane| 0.1 * lane as f32),
+        metallic: 0.5,
+        coat,
+        mirror,
+        slope: Vec2::new(0.3, -0.2),
+    })
+}
+
 #[test]
 fn every_bsdf_is_sampled_as_its_density_says() {
     let glossy = [Coat::new(1.45, 0.15, 0.3), Coat::new(1.4, 0.5, 0.5)];
     let matt = coats(0.6);
     let glaze = Coat::new(1.5, 0.1, 0.1);
     let glaze = [glaze.clone(), glaze];
-    let cases: [(&str, Bsdf<'_, 8>); 6] = [
+    let model = model();
+    let cases: [(&str, Bsdf<'_, 8>); 7] = [
+        ("tilted paint and metal", tilted(&model)),
         ("glazed body", Bsdf::Leaf(coated(&glaze, 0.3))),
         ("diffuse", Bsdf::Diffuse(Lanes::splat(0.5))),
         ("glossy leaf", Bsdf::Leaf(leaf(&glossy, 0.1, 0.08))),

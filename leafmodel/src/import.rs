@@ -48,6 +48,7 @@ pub use self::draft::Draft;
 pub use self::error::ImportError;
 pub use self::faults::{Fault, FaultKind};
 pub use self::ready::{Imported, Wanted};
+use crate::document::rows::Form;
 
 /// A format of networks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,13 +96,27 @@ impl Format {
 ///
 /// [`ImportError`] if the text does not follow its format.
 pub fn read(format: Format, text: &str, nodes: Option<&str>) -> Result<Draft, ImportError> {
+    read_written(format, text, nodes, Form::default())
+}
+
+/// As [`read`], where more may be known of how tables are written.
+///
+/// # Errors
+///
+/// As [`read`].
+pub fn read_written(
+    format: Format,
+    text: &str,
+    nodes: Option<&str>,
+    form: Form,
+) -> Result<Draft, ImportError> {
     if is_blank(text) {
         return Err(ImportError::Empty);
     }
     let draft = match format {
         Format::GraphMl => graphml::read(text)?,
         Format::Json => json::read(text)?,
-        Format::Table => tables::read(text, nodes)?,
+        Format::Table => tables::read(text, nodes, form)?,
         Format::Svg => strokes::read(text)?,
         Format::Gml => gml::read(text)?,
         Format::Neighbours => adjacency::read(text)?,
@@ -123,7 +138,7 @@ pub fn read_margin(format: Format, text: &str) -> Result<Draft, ImportError> {
         Format::Svg => strokes::read_margin(text)?,
         Format::Json => json::read_margin(text)?,
         Format::GraphMl => graphml::read(text)?,
-        Format::Table => tables::read(text, None)?,
+        Format::Table => tables::read(text, None, Form::default())?,
         Format::Gml => gml::read(text)?,
         Format::Neighbours => adjacency::read(text)?,
     };

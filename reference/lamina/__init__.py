@@ -21,12 +21,13 @@ from lamina.checking import Problem, check
 from lamina.grown import Grown, frames, grow
 from lamina.measured import instruments, read_figures, to_netcdf
 from lamina.parts import render_in_parts
-from lamina.program import LaminaError, Value, program, run, version
+from lamina.program import Folders, LaminaError, Value, program, run, version
 from lamina.rendered import read, render
 from lamina.spectra import optics
 from lamina.sweeping import sweep
 
 __all__ = [
+    "Folders",
     "Grown",
     "LaminaError",
     "Problem",

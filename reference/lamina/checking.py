@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from lamina.program import LaminaError, Value, overrides, run
+from lamina.program import Folders, LaminaError, Value, allowing, overrides, run
 
 HEAD = re.compile(r"^(error|warning)\[(?P<code>[\w:]+)\]: (?P<text>.*)$")
 PLACE = re.compile(r"^\s*--> (?P<file>.*?)(?::(?P<line>\d+):(?P<column>\d+))?$")
@@ -32,14 +32,16 @@ class Problem:
     """What would be right."""
 
 
-def check(scene: str | Path, values: Mapping[str, Value] | None = None) -> list[Problem]:
+def check(
+    scene: str | Path, values: Mapping[str, Value] | None = None, *, allow: Folders = ()
+) -> list[Problem]:
     """All errors of a scene, or of a file of leaves; an empty list if there are none.
 
-    `values` sets keys as `lamina check -D` does. Raises LaminaError for a call that the program
-    does not understand, and for whatever is no error of the file.
+    `values` sets keys as `lamina check -D` does; `allow` is as in `render`. Raises LaminaError for
+    a call that the program does not understand, and for whatever is no error of the file.
     """
     try:
-        run(["check", str(scene), *overrides("-D", values)])
+        run(["check", str(scene), *overrides("-D", values), *allowing(allow)])
     except LaminaError as failure:
         problems = problems_of(str(failure))
         if not problems:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lamina.extras import require
-from lamina.program import Value, overrides, run
+from lamina.program import Folders, Value, allowing, overrides, run
 
 if TYPE_CHECKING:
     import networkx
@@ -78,20 +78,24 @@ class Grown:
 
 
 def grow(
-    leaf: str | Path, values: Mapping[str, Value] | None = None, *, mesh: bool = False
+    leaf: str | Path,
+    values: Mapping[str, Value] | None = None,
+    *,
+    mesh: bool = False,
+    allow: Folders = (),
 ) -> Grown:
     """Grows a leaf.
 
     `leaf` is a preset's name (`lamina grow --list`), a file of leaves, or `FILE.toml#NAME`;
     `values` sets keys of its plan as `lamina grow --set` does. `mesh` makes the blade in space too,
-    which takes longer. Raises LaminaError.
+    which takes longer. `allow` is as in `render`. Raises LaminaError.
     """
     with tempfile.TemporaryDirectory() as folder:
         network, measures = Path(folder, "leaf.json"), Path(folder, "measures.json")
         blade = Path(folder, "leaf.obj")
         files = [str(network), *([str(blade)] if mesh else [])]
         run(
-            ["grow", str(leaf), *overrides("--set", values)]
+            ["grow", str(leaf), *overrides("--set", values), *allowing(allow)]
             + ["--out", *files, "--measure", str(measures)]
         )
         measured = json.loads(measures.read_text(encoding="utf-8"))
@@ -99,14 +103,20 @@ def grow(
         return leaf_of(network, measured, vertices, faces)
 
 
-def frames(leaf: str | Path, count: int, values: Mapping[str, Value] | None = None) -> list[Grown]:
+def frames(
+    leaf: str | Path,
+    count: int,
+    values: Mapping[str, Value] | None = None,
+    *,
+    allow: Folders = (),
+) -> list[Grown]:
     """A leaf at `count` times of its growth; the last one is the grown leaf.
 
     Arguments are those of `grow`; the leaves are without measures. Raises LaminaError.
     """
     with tempfile.TemporaryDirectory() as folder:
         out = str(Path(folder, "leaf.json"))
-        setting = overrides("--set", values)
+        setting = [*overrides("--set", values), *allowing(allow)]
         run(["grow", str(leaf), *setting, "--frames", str(count), "--out", out])
         files = sorted(Path(folder).glob("leaf-*.json"))
         return [leaf_of(file, {}, None, None) for file in files]

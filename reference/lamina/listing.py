@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from lamina.program import Value, overrides, start, written
+from lamina.program import Folders, Value, allowing, overrides, start, written
 
 
 @dataclass(frozen=True)
@@ -37,9 +37,10 @@ def flags(
     values: Mapping[str, Value] | None,
     spp: int | None,
     noise: float | None,
+    allow: Folders,
 ) -> list[str]:
     """What a call adds to a sweep file, as flags of `lamina sweep`."""
-    words = overrides("-D", values)
+    words = [*overrides("-D", values), *allowing(allow)]
     for key, members in (over or {}).items():
         words += ["--over", f"{key}={','.join(written(key, member) for member in members)}"]
     for flag, value in (("--seeds", seeds), ("--spp", spp), ("--noise", noise)):

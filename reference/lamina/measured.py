@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 from lamina.extras import require
-from lamina.program import LaminaError, Value, overrides, run
+from lamina.program import Folders, LaminaError, Value, allowing, overrides, run
 
 Row = dict[str, object]
 
@@ -42,16 +42,18 @@ def instruments(
     error: float | str | None = None,
     seed: int = 1,
     only: Iterable[str] = (),
+    allow: Folders = (),
 ) -> dict[str, xr.Dataset]:
     """What the instruments of a scene measure: a dataset for each, by its name.
 
     `values` set keys of the scene, `rays`, `error`, `seed` and `only` are the options of `lamina
-    instruments`; an error of "1%" is relative. Raises LaminaError for what the program refuses.
+    instruments`; an error of "1%" is relative. `allow` is as in `render`. Raises LaminaError for
+    what the program refuses.
     """
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "figures.json")
         arguments: list[str | Path] = ["instruments", scene, "--out", file, "--seed", str(seed)]
-        arguments += overrides("-D", values)
+        arguments += [*overrides("-D", values), *allowing(allow)]
         for name, value in (("--rays", rays), ("--error", error)):
             if value is not None:
                 arguments += [name, str(value)]

@@ -12,7 +12,7 @@ import xarray as xr
 
 from lamina.extras import require
 from lamina.listing import list_tasks
-from lamina.program import LaminaError, Value, overrides, program, run
+from lamina.program import Folders, LaminaError, Value, allowing, overrides, program, run
 from lamina.progress import bar
 from lamina.rendered import read
 
@@ -30,6 +30,7 @@ def render_in_parts(
     parts: int,
     seed: int | None = None,
     threads: int = 1,
+    allow: Folders = (),
     progress: bool | None = None,
 ) -> xr.Dataset:
     """Renders a scene in `parts` ranges of its `spp` samples on the workers of a client of Dask
@@ -38,8 +39,9 @@ def render_in_parts(
     `out` is the stem of the EXR and the PNG, which have the bytes of a render in one go. Workers
     need the folder of `out`: parts go into `OUT.parts` and stay there until the picture is whole,
     so that a call after a failure does only what is not done. Each part grows the scene's leaves
-    again. `progress` shows a bar of the parts that are done, or none; by default it is shown in
-    terminals and notebooks. Raises LaminaError, and ValueError for more parts than samples.
+    again. `allow` is as in `render`; workers need those folders too. `progress` shows a bar of the
+    parts that are done, or none; by default it is shown in terminals and notebooks. Raises
+    LaminaError, and ValueError for more parts than samples.
     """
     require("sweep", "lamina.render_in_parts")
     from distributed import as_completed
@@ -50,7 +52,7 @@ def render_in_parts(
     stem = stem.with_suffix("") if stem.suffix in (".exr", ".png") else stem
     folder = stem.with_name(stem.name + ".parts")
     folder.mkdir(parents=True, exist_ok=True)
-    words = overrides("-D", values)
+    words = [*overrides("-D", values), *allowing(allow)]
     # The identity tells scenes apart; the seed is that of the listing, not of the render.
     listing = list_tasks(scene, [*words, "--seeds", "1"], folder / "scene")
     name = f"{listing.ids[0]:016x}-{'scene' if seed is None else seed}"

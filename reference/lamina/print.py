@@ -54,7 +54,7 @@ from lamina.kept_print import (
     remembered_mean,
 )
 from lamina.noise import LEAST_SAMPLES, PERCENT, relative_error, summary
-from lamina.program import LaminaError, program
+from lamina.program import LaminaError, allowing, program
 from lamina.twins import noise_told_by_others
 
 USUAL_TWINS = 4
@@ -88,6 +88,7 @@ def run_program(options: argparse.Namespace, seed: int, *words: object) -> dict[
     line += ["--cache", str(options.out / "cache"), "--out", f"{stem}.jpg", "--stats", str(stats)]
     line += [str(word) for word in words]
     line += [word for key in options.overrides for word in ("-D", key)]
+    line += allowing(options.allow)
     try:
         status = subprocess.run(line, check=False, stdout=subprocess.DEVNULL).returncode
     except OSError as error:
@@ -281,6 +282,13 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
         default=[],
         metavar="KEY=VALUE",
         help="override a value of the scene, as `lamina render` does",
+    )
+    parser.add_argument(
+        "--allow",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="a folder outside of the scene's own whose files it may name, as in `lamina render`",
     )
     options = parser.parse_args(words)
     if options.twins is not None and options.twins < LEAST_TWINS:

@@ -6,7 +6,7 @@ import json
 import os
 import shutil
 import sysconfig
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from subprocess import PIPE, Popen
@@ -26,6 +26,9 @@ Value = (
     | Mapping[str, "Value"]
 )
 """What a key of a scene or leaf file may be set to: arrays are lists, paths are text."""
+
+Folders = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
+"""Folders outside of a scene's own whose files it may name: one, or several."""
 
 
 class LaminaError(RuntimeError):
@@ -159,6 +162,12 @@ def overrides(flag: str, values: Mapping[str, Value] | None) -> list[str]:
     for key, value in (values or {}).items():
         arguments += [flag, f"{key}={written(key, value)}"]
     return arguments
+
+
+def allowing(folders: Folders) -> list[str]:
+    """Arguments that let documents name files in folders, whichever folder a worker is in."""
+    several = [folders] if isinstance(folders, str | os.PathLike) else folders
+    return [word for folder in several for word in ("--allow", str(Path(folder).absolute()))]
 
 
 def written(key: str, value: Value) -> str:

@@ -12,7 +12,7 @@ import OpenImageIO as oiio
 import xarray as xr
 
 from lamina.conventions import PIXELS, WAVELENGTH, about, without_fill_values
-from lamina.program import Value, overrides, run
+from lamina.program import Folders, Value, allowing, overrides, run
 
 # Spectral EXR layout of Fichet, Pacanowski and Wilkie (JCGT 10:3, 2021): emissive, unpolarised; the
 # decimal point is a comma.
@@ -50,14 +50,16 @@ def render(
     seconds: float | None = None,
     seed: int | None = None,
     threads: int | None = None,
+    allow: Folders = (),
 ) -> xr.Dataset:
     """Renders a scene and gives its picture.
 
     `values` sets keys as `lamina render -D` does: `{"film.rgb.size": [320, 240]}`. `out` keeps the
-    EXR and the PNG under this stem; without it they are deleted once they are read. The other
-    arguments are the program's flags. See `read` for what is in the picture. Raises LaminaError.
+    EXR and the PNG under this stem; without it they are deleted once they are read. `allow` names
+    folders outside of the scene's own whose files it may name too. The other arguments are the
+    program's flags. See `read` for what is in the picture. Raises LaminaError.
     """
-    arguments = ["render", str(scene), *overrides("-D", values)]
+    arguments = ["render", str(scene), *overrides("-D", values), *allowing(allow)]
     flags = {
         "--spp": spp,
         "--noise": noise,

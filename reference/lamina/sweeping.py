@@ -15,7 +15,7 @@ from lamina.conventions import measured
 from lamina.extras import require
 from lamina.grown import numbers_of
 from lamina.listing import Listing, flags, list_tasks, tasks_at
-from lamina.program import LaminaError, Value, program, run
+from lamina.program import Folders, LaminaError, Value, program, run
 from lamina.progress import bar
 from lamina.rendered import read
 
@@ -46,13 +46,14 @@ def sweep(
     noise: float | None = None,
     batch: int | None = None,
     threads: int | None = None,
+    allow: Folders = (),
     progress: bool | None = None,
 ) -> xr.Dataset:
     """Does the tasks of a sweep and gives their results.
 
     `what` is a sweep file; or, with `over` (values by key) or `seeds`, a scene, which is rendered,
-    or a leaf, which is grown and measured. `values`, `spp` and `noise` are the same for all tasks.
-    The program expands the sweep: `lamina sweep --list`.
+    or a leaf, which is grown and measured. `values`, `spp` and `noise` are the same for all tasks;
+    `allow` is as in `render`. The program expands the sweep: `lamina sweep --list`.
 
     With a `client` of Dask distributed its workers do the tasks, `threads` each (1); without one
     this process does, with all processors. Workers need this package, the program in the same
@@ -73,7 +74,7 @@ def sweep(
 
     place = Path(store).resolve()
     place.parent.mkdir(parents=True, exist_ok=True)
-    words = flags(over, seeds, values, spp, noise)
+    words = flags(over, seeds, values, spp, noise, allow)
     listing = list_tasks(what, words, place.with_name(place.name + ".tasks"))
     command = str(program())
     if place.exists():

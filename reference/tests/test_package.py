@@ -13,6 +13,8 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -346,6 +348,35 @@ def test_problems_of_a_scene_are_told_with_their_places() -> None:
     found = lamina.check(FLAT, wrong)
     assert [problem.code for problem in found] == ["scene::wrong_type", "scene::out_of_range"]
     assert problems_of("nothing of the kind") == []
+
+
+def test_files_elsewhere_are_read_where_their_folder_is_allowed(tmp_path: Path) -> None:
+    spectrum, drawing = tmp_path / "flat.csv", tmp_path / "margin.svg"
+    spectrum.write_text("300,0.1\n2600,0.1\n")
+    drawing.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0L10-20L0-50L-10-20Z"/></svg>'
+    )
+    within = tmp_path / "within"
+    within.mkdir()
+    scene, leaf = within / "bench.toml", within / "leaf.toml"
+    scene.write_text(BENCH)
+    leaf.write_text(
+        'format = 1\n[leaves.leaf]\npreset = "cherry"\nlength_mm = 10\n'
+        'outline = { svg = { path = "../margin.svg" } }\n'
+    )
+    sky: dict[str, lamina.Value] = {"lights.sky.constant.radiance_w_m2_sr_nm": {"file": spectrum}}
+    soil: dict[str, lamina.Value] = {"materials.soil.diffuse.reflectance": {"file": spectrum}}
+    calls: list[Callable[[lamina.Folders], object]] = [
+        lambda allow: lamina.render(FLAT, SMALL | sky, spp=1, allow=allow),
+        lambda allow: lamina.instruments(scene, soil, rays=512, only=["ball"], allow=allow),
+        lambda allow: lamina.grow(leaf, allow=allow),
+        lambda allow: lamina.frames(leaf, 2, allow=allow),
+    ]
+    for call in calls:
+        assert "--allow DIR" in str(refused(partial(call, ())))
+        assert call(tmp_path)
+    assert [problem.code for problem in lamina.check(FLAT, sky)] == ["scene::path_outside"]
+    assert lamina.check(FLAT, sky, allow=[within, tmp_path]) == []
 
 
 def test_what_the_program_refuses_is_an_error_with_its_words() -> None:

@@ -186,6 +186,29 @@ def test_a_render_in_parts_is_the_render_in_one_go_though_a_worker_is_killed() -
         assert not parts.exists()
 
 
+def test_workers_read_files_elsewhere_where_their_folder_is_allowed() -> None:
+    flat = ROOT / "scenes" / "flat-leaf" / "scene.toml"
+    with folder() as made, cluster() as client:
+        (made / "sky.csv").write_text("300,0.1\n2600,0.1\n")
+        sky = {"lights.sky.constant.radiance_w_m2_sr_nm": {"file": made / "sky.csv"}}
+        here = os.path.relpath(made)
+        client.run(os.chdir, "/")
+        pictures = lamina.sweep(
+            flat, client, store=made / "s.zarr", values=SMALL | sky, seeds=1, spp=1, allow=here
+        )
+        assert bool(pictures.done.all())
+        picture = lamina.render_in_parts(
+            flat,
+            SMALL | sky,
+            client=client,
+            out=made / "picture",
+            spp=2,
+            parts=2,
+            allow=[here],
+        )
+        assert picture.radiance.shape[:2] == (8, 12)
+
+
 def test_failures_are_told_when_the_rest_is_done() -> None:
     with folder() as made:
         place = made / "s.zarr"

@@ -39,6 +39,7 @@ mod known;
 pub mod leaf;
 pub mod leaf_face;
 pub mod leaf_tissue;
+pub mod metallic_roughness;
 pub mod relief;
 
 use crate::sampling::warp;
@@ -46,6 +47,7 @@ use dielectric::Dielectric;
 use fluorescence::FluorescenceView;
 use leaf::{LeafBsdf, LeafView};
 use leaf_face::FaceView;
+use metallic_roughness::{MetallicRoughness, MetallicView};
 use relief::{ReliefBsdf, ReliefFace, ReliefView};
 
 /// A sampled direction, with the weight of light from it.
@@ -72,6 +74,8 @@ pub enum Bsdf<'a, const N: usize> {
     Leaf(LeafBsdf<'a, N>),
     /// A leaf with a relief.
     Relief(ReliefBsdf<'a, N>),
+    /// A surface between paint and metal.
+    Metallic(MetallicRoughness<'a, N>),
 }
 
 /// The value of a BSDF for a pair of directions, with its sampling density.
@@ -107,6 +111,8 @@ pub enum View<'a, const N: usize> {
     Leaf(LeafView<'a, N>),
     /// A leaf with a relief.
     Relief(ReliefView<'a, N>),
+    /// A surface between paint and metal.
+    Metallic(MetallicView<'a, N>),
     /// A leaf that emits what light of other wavelengths excites.
     Fluorescence(FluorescenceView<'a>),
     /// A face of a leaf whose inside is followed.
@@ -142,6 +148,7 @@ impl<const N: usize> View<'_, N> {
             },
             Self::Leaf(leaf) => leaf.scatter(wi),
             Self::Relief(relief) => relief.scatter(wi),
+            Self::Metallic(surface) => surface.scatter(wi),
             Self::Fluorescence(leaf) => leaf.scatter(wi),
             Self::Face(face) => face.scatter(wi),
         }
@@ -171,6 +178,7 @@ impl<const N: usize> View<'_, N> {
             }
             Self::Leaf(leaf) => leaf.sample(lobe, u),
             Self::Relief(relief) => relief.sample(lobe, u),
+            Self::Metallic(surface) => surface.sample(lobe, u),
             Self::Fluorescence(leaf) => leaf.sample(u),
             Self::Face(face) => face.sample(lobe, u),
         }
@@ -193,6 +201,7 @@ impl<'a, const N: usize> Bsdf<'a, N> {
             }),
             Self::Leaf(leaf) => Some(View::Leaf(leaf.view(wo))),
             Self::Relief(relief) => relief.seen_from(wo).map(View::Relief),
+            Self::Metallic(surface) => surface.seen_from(wo).map(View::Metallic),
         }
     }
 
@@ -205,7 +214,7 @@ impl<'a, const N: usize> Bsdf<'a, N> {
                 faces,
                 grains,
             }),
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Relief(_) => self,
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Relief(_) | Self::Metallic(_) => self,
         }
     }
 
@@ -229,7 +238,7 @@ impl<'a, const N: usize> Bsdf<'a, N> {
     /// from `wi` to `wo`; 1 but for light that enters or leaves a transparent medium.
     pub fn flux_over_radiance(&self, wo: Vec3, wi: Vec3) -> f32 {
         match self {
-            Self::Diffuse(_) | Self::Leaf(_) | Self::Relief(_) => 1.0,
+            Self::Diffuse(_) | Self::Leaf(_) | Self::Relief(_) | Self::Metallic(_) => 1.0,
             Self::Dielectric(dielectric) => dielectric.flux_over_radiance(wo, wi),
         }
     }
@@ -237,7 +246,7 @@ impl<'a, const N: usize> Bsdf<'a, N> {
     /// Whether the BSDF is specular only, so that light samples contribute nothing.
     pub fn is_specular(&self) -> bool {
         match self {
-            Self::Diffuse(_) | Self::Leaf(_) | Self::Relief(_) => false,
+            Self::Diffuse(_) | Self::Leaf(_) | Self::Relief(_) | Self::Metallic(_) => false,
             Self::Dielectric(dielectric) => dielectric.is_smooth(),
         }
     }
@@ -250,6 +259,7 @@ impl<'a, const N: usize> Bsdf<'a, N> {
             Self::Dielectric(_) => Lanes::ONE,
             Self::Leaf(leaf) => leaf.albedo(wo),
             Self::Relief(relief) => relief.albedo(wo),
+            Self::Metallic(surface) => surface.albedo(),
         }
     }
 
@@ -260,6 +270,7 @@ impl<'a, const N: usize> Bsdf<'a, N> {
                 Vec3::new(0.0, 0.0, 1.0_f32.copysign(wo.z))
             }
             Self::Relief(relief) => relief.normal(wo),
+            Self::Metallic(surface) => surface.normal(wo),
         }
     }
 }

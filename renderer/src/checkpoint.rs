@@ -37,7 +37,7 @@ use crate::integrator::render::{Begun, Job};
 use crate::spectrum::WavelengthSampler;
 
 /// The first bytes of a file.
-const MAGIC: [u8; 16] = *b"lamina sums  9\n\n";
+const MAGIC: [u8; 16] = *b"lamina sums 10\n\n";
 
 /// Why a checkpoint cannot be read.
 #[derive(Debug, Error)]

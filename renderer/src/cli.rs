@@ -54,6 +54,7 @@ mod shell;
 mod signals;
 mod stats;
 mod sweep;
+mod texts;
 mod tonemap;
 mod trace;
 

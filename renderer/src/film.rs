@@ -33,11 +33,13 @@ mod batches;
 mod block;
 mod features;
 mod fixed;
+mod halves;
 mod moments;
 mod packed;
 mod pixel;
 #[cfg(test)]
 mod tests;
+mod variance;
 
 use std::sync::{Mutex, PoisonError};
 
@@ -51,10 +53,12 @@ pub use fixed::MOST as MOST_RADIANCE;
 pub use moments::Moments;
 pub use packed::{DamagedRow, RowSums};
 pub use pixel::Pixel;
+pub use variance::Series;
 
 use batches::{OpenBatches, Squares, series_of};
 use block::{Faults, MISSING_ONE};
 use features::{Coverage, Words};
+use halves::Halves;
 
 /// Greatest number of pixels of a film.
 pub const MOST_PIXELS: u64 = 1 << 28;
@@ -114,6 +118,8 @@ pub struct Film {
     squares: Vec<Squares>,
     /// For each block the batches of which it has some samples but not all; mostly none.
     open: Vec<OpenBatches>,
+    /// For each block the sums over both halves of its samples.
+    halves: Vec<Halves>,
     /// Layout of the remaining words of each pixel.
     words: Words,
     wide: Vec<i64>,
@@ -147,6 +153,7 @@ impl Film {
             moments: vec![Moments::default(); pixels * channels],
             squares: vec![Squares::default(); pixels * series_of(channels)],
             open: vec![OpenBatches::default(); blocks],
+            halves: vec![Halves::default(); blocks],
             wide: vec![0; pixels * words.wide],
             narrow: vec![0; pixels * words.narrow],
             words,
@@ -180,12 +187,13 @@ impl Film {
         Ok(bytes)
     }
 
-    /// Memory of a pixel, bytes; each block needs 28 more, and for each open batch eight per pixel for
+    /// Memory of a pixel, bytes; each block needs 68 more, and for each open batch eight per pixel for
     /// luminance and for each channel.
     pub fn bytes_a_pixel(channels: usize, sums: &[Sum]) -> usize {
         let features: usize = sums.iter().map(|sum| sum.bytes()).sum();
         channels * size_of::<Moments>()
             + series_of(channels) * size_of::<Squares>()
+            + channels * halves::BYTES
             + Coverage::BYTES
             + features
     }
@@ -263,6 +271,7 @@ impl Film {
             .drawn
             .par_chunks_mut(across)
             .zip(self.open.par_chunks_mut(across))
+            .zip(self.halves.par_chunks_mut(across))
             .zip(self.moments.par_chunks_mut(row_pixels * channels))
             .zip(self.squares.par_chunks_mut(row_pixels * series))
             .zip(chunks_or_nothing(
@@ -272,18 +281,19 @@ impl Film {
             ))
             .zip(self.narrow.par_chunks_mut(row_pixels * words.narrow));
         rows.enumerate().for_each(
-            |(row, (((((drawn, open), moments), squares), wide), narrow))| {
+            |(row, ((((((drawn, open), halves), moments), squares), wide), narrow))| {
                 let y = row as u32 * BLOCK_SIDE;
                 let pixels = (BLOCK_SIDE * BLOCK_SIDE.min(height - y)) as usize;
                 let blocks = drawn
                     .par_iter_mut()
                     .zip(open)
+                    .zip(halves)
                     .zip(moments.par_chunks_mut(pixels * channels))
                     .zip(squares.par_chunks_mut(pixels * series))
                     .zip(chunks_or_nothing(wide, pixels * words.wide, across))
                     .zip(narrow.par_chunks_mut(pixels * words.narrow));
                 blocks.enumerate().for_each(
-                    |(column, (((((drawn, open), moments), squares), wide), narrow))| {
+                    |(column, ((((((drawn, open), halves), moments), squares), wide), narrow))| {
                         let x = column as u32 * BLOCK_SIDE;
                         let mut block = Block {
                             number: row * across + column,
@@ -299,6 +309,7 @@ impl Film {
                             wide,
                             narrow,
                             open,
+                            halves,
                             faults: Faults::default(),
                         };
                         expose(&mut block);
@@ -331,6 +342,7 @@ impl Film {
         merge_each(&mut self.squares, &other.squares, |own, other| {
             own.add(other.bits());
         });
+        merge_each(&mut self.halves, &other.halves, Halves::merge);
         merge_each(&mut self.wide, &other.wide, |own, other| *own += other);
         merge_each(&mut self.narrow, &other.narrow, |own, other| *own += other);
         for block in 0..self.open.len() {

@@ -42,7 +42,8 @@ pub mod scan;
 pub mod tone;
 pub mod white;
 
-use std::io;
+use std::fs::File;
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use image::ImageDecoder as _;
@@ -50,6 +51,7 @@ use image::metadata::Orientation;
 use thiserror::Error;
 
 pub use compare::{ChannelComparison, Comparison, compare};
+pub use encoding::Stored;
 
 /// Greatest number of pixels of a picture.
 pub const MOST_PIXELS: u64 = 1 << 28;
@@ -229,13 +231,20 @@ fn read_file(
         path: path.to_owned(),
         source,
     };
-    let length = std::fs::metadata(path).map_err(refuse)?.len();
+    let file = File::open(path).map_err(refuse)?;
+    let length = file.metadata().map_err(refuse)?.len();
+    let mut bytes = Vec::new();
+    if length <= MOST_BYTES {
+        // Devices and pipes have no length.
+        let mut file = file.take(MOST_BYTES + 1);
+        file.read_to_end(&mut bytes).map_err(refuse)?;
+    }
+    let length = length.max(bytes.len() as u64);
     if length > MOST_BYTES {
         return Err(refuse(io::Error::other(format!(
             "{length} bytes; the most is {MOST_BYTES}"
         ))));
     }
-    let bytes = std::fs::read(path).map_err(refuse)?;
     decode(&bytes).map_err(|source| ImageError::Contents {
         path: path.to_owned(),
         source: Box::new(source),

@@ -20,6 +20,7 @@ pub mod held;
 pub mod leaf;
 pub mod leaf_layers;
 pub mod light_spread;
+pub mod model;
 pub mod palette;
 pub mod plastic;
 pub mod reflectance;
@@ -35,6 +36,7 @@ use colour_map::ColourMap;
 use contents_texture::ContentsTexture;
 use held::Held;
 use leaf::{Inside, LeafMaterial, LeafTissue, Site};
+use model::ModelMaterial;
 use palette::Palette;
 use plastic::PlasticMaterial;
 use reflectance::Reflectance;
@@ -50,6 +52,8 @@ pub enum Material {
     Dielectric(Dielectric),
     /// A diffuse body below a rough coat.
     Plastic(Box<PlasticMaterial>),
+    /// The surface of a glTF model.
+    Model(Box<ModelMaterial>),
     /// A leaf.
     Leaf(Box<LeafMaterial>),
     /// Solid tissue: fruit rind, a mushroom's cap.
@@ -87,7 +91,7 @@ impl Material {
     /// Its tissue, if it is tissue.
     pub fn tissue(&self) -> Option<Tissue<'_>> {
         match self {
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) => None,
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Model(_) => None,
             Self::Leaf(leaf) => Some(Tissue {
                 palette: &leaf.palette,
                 held: match &leaf.tissue {
@@ -107,8 +111,21 @@ impl Material {
         match self {
             Self::Diffuse(reflectance) => reflectance.colour_map(),
             Self::Plastic(plastic) => plastic.reflectance().colour_map(),
+            Self::Model(model) => Some(model.colours()),
             Self::Dielectric(_) | Self::Leaf(_) | Self::Solid(_) => None,
         }
+    }
+
+    /// Whether it has a map of normals.
+    #[inline]
+    pub fn has_normals(&self) -> bool {
+        matches!(self, Self::Model(model) if model.has_normals())
+    }
+
+    /// Whether colours of a mesh's vertices are factors on its own.
+    #[inline]
+    pub fn is_tinted(&self) -> bool {
+        self.colour_map().is_some_and(ColourMap::is_tinted)
     }
 
     /// The map of its contents, if it has one.
@@ -122,7 +139,7 @@ impl Material {
     /// Its coat, if that reflects more than the whole should at a wavelength of the range.
     pub fn exceeding_coat(&self, range_nm: [f64; 2]) -> Option<ExceedingCoat> {
         match self {
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) => None,
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Model(_) => None,
             Self::Leaf(leaf) => {
                 let (nm, face) = leaf.coat_exceeds_reflectance(range_nm)?;
                 let coat = ["the adaxial coat", "the abaxial coat"][face];
@@ -143,6 +160,7 @@ impl Material {
             Self::Diffuse(reflectance) => reflectance.tabulate(grid),
             Self::Dielectric(_) => {}
             Self::Plastic(plastic) => plastic.tabulate(grid),
+            Self::Model(model) => model.tabulate(grid),
             Self::Leaf(leaf) => leaf.tabulate(grid),
             Self::Solid(solid) => solid.tabulate(grid),
         }
@@ -151,7 +169,11 @@ impl Material {
     /// The leaf that it is, if that fluoresces.
     pub fn fluorescing(&self) -> Option<&LeafMaterial> {
         match self {
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Solid(_) => None,
+            Self::Diffuse(_)
+            | Self::Dielectric(_)
+            | Self::Plastic(_)
+            | Self::Model(_)
+            | Self::Solid(_) => None,
             Self::Leaf(leaf) => leaf.fluoresces().then_some(&**leaf),
         }
     }
@@ -160,7 +182,11 @@ impl Material {
     #[inline]
     pub fn relief(&self) -> Option<&Relief> {
         match self {
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Solid(_) => None,
+            Self::Diffuse(_)
+            | Self::Dielectric(_)
+            | Self::Plastic(_)
+            | Self::Model(_)
+            | Self::Solid(_) => None,
             Self::Leaf(leaf) => leaf.relief.as_ref(),
         }
     }
@@ -169,7 +195,11 @@ impl Material {
     #[inline]
     pub fn inside(&self) -> Option<Inside<'_>> {
         match self {
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Solid(_) => None,
+            Self::Diffuse(_)
+            | Self::Dielectric(_)
+            | Self::Plastic(_)
+            | Self::Model(_)
+            | Self::Solid(_) => None,
             Self::Leaf(leaf) => leaf.inside(),
         }
     }
@@ -179,9 +209,11 @@ impl Material {
     #[inline]
     pub fn site<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Site<N> {
         match self {
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Solid(_) => {
-                Site::of(uv)
-            }
+            Self::Diffuse(_)
+            | Self::Dielectric(_)
+            | Self::Plastic(_)
+            | Self::Model(_)
+            | Self::Solid(_) => Site::of(uv),
             Self::Leaf(leaf) => leaf.site(uv, wavelengths),
         }
     }
@@ -200,9 +232,10 @@ impl Material {
         wavelengths: &Wavelengths<N>,
     ) -> Bsdf<'_, N> {
         match self {
-            Self::Diffuse(reflectance) => Bsdf::Diffuse(reflectance.at(site.uv, wavelengths)),
+            Self::Diffuse(reflectance) => Bsdf::Diffuse(reflectance.at(site, wavelengths)),
             Self::Dielectric(dielectric) => Bsdf::Dielectric(*dielectric),
-            Self::Plastic(plastic) => Bsdf::Leaf(plastic.bsdf(site.uv, wavelengths)),
+            Self::Plastic(plastic) => Bsdf::Leaf(plastic.bsdf(site, wavelengths)),
+            Self::Model(model) => Bsdf::Metallic(model.bsdf(site, wavelengths)),
             Self::Leaf(leaf) => Bsdf::Leaf(leaf.bsdf_at(site, wavelengths)),
             Self::Solid(solid) => Bsdf::Leaf(solid.bsdf(site.uv, wavelengths)),
         }

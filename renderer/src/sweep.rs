@@ -87,6 +87,8 @@ pub struct Sweep {
     /// Target noise, instead of the scene's.
     pub noise: Option<f64>,
     /// Seeds; none stands for that of the target.
+    /// What was guessed about a table of rows, for people.
+    pub notes: Vec<String>,
     seeds: Vec<u64>,
     axes: Vec<Axis>,
     sources: Sources,
@@ -226,13 +228,17 @@ impl Draft {
     /// The sweep, unless there are errors.
     fn finish(self, cx: Context) -> Result<Sweep, DocumentErrors> {
         self.check(&cx);
-        let (sources, errors, _) = cx.into_parts();
+        let (sources, errors, remarks) = cx.into_parts();
+        let notes = remarks
+            .into_iter()
+            .map(|remark| format!("{} ({})", remark.message, remark.help));
         match self.target {
             Some(target) if errors.is_empty() => Ok(Sweep {
                 target,
                 fixed: self.fixed,
                 spp: self.spp,
                 noise: self.noise,
+                notes: notes.collect(),
                 seeds: self.seeds,
                 axes: self.axes,
                 sources,

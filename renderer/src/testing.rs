@@ -8,6 +8,7 @@ pub(crate) fn fixed(cases: u32) -> Config {
         .map_or(1, |text| text.parse().expect("LAMINA_CASES is a count"));
     Config {
         cases: cases * factor,
+        max_global_rejects: 1024 * factor,
         rng_seed: RngSeed::Fixed(2005),
         failure_persistence: None,
         ..Config::default()

@@ -153,6 +153,7 @@ fn names_become_indices_in_the_order_of_the_file() {
         "flesh",
         "bark",
         "glaze",
+        "enamel",
         "studio.cloth",
     ];
     assert_eq!(names, expected);
@@ -186,10 +187,11 @@ fn names_become_indices_in_the_order_of_the_file() {
             mesh(6, 8),
             mesh(7, 2),
             mesh(scene.meshes.len() - 1, 0),
+            mesh(6, 9),
             // The walls of the rig's tent; behind them stand the axes of both plants.
-            mesh(scene.meshes.len() - 5, 9),
-            mesh(scene.meshes.len() - 4, 9),
-            mesh(scene.meshes.len() - 3, 9),
+            mesh(scene.meshes.len() - 5, 10),
+            mesh(scene.meshes.len() - 4, 10),
+            mesh(scene.meshes.len() - 3, 10),
         ]
     );
     assert_eq!(scene.objects[9].value.shapes, [mesh(0, 0), mesh(1, 1)]);
@@ -291,6 +293,10 @@ fn reflectances_may_be_a_pictures_or_a_models() {
             eta: 1.4,
             roughness: 0.3
         }
+    ));
+    assert!(matches!(
+        scene.materials[9].value,
+        Material::Model { mesh: 6 }
     ));
     assert!(
         matches!(&scene.meshes[6].value, Mesh::Gltf { beside, scale: 0.01, .. } if beside.is_empty())

@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use leafmodel::optics::layers::{Face, Incidence, LayeredLeaf, Ordinates, Resolution};
 use leafmodel::optics::{ProspectD, presets};
+use renderer::film::Series;
 use renderer::instruments::{Budget, Direction, Row, read_out, sets_of};
 use renderer::integrator::render::{Job, render};
 use renderer::scene::description::{Description, Material};
@@ -225,7 +226,7 @@ fn a_leaf_of_layers_that_absorbs_nothing_is_lost_in_a_furnace() {
         let mean = 0.5 * (means[0] + means[1]);
         assert!((mean - 1.0).abs() < 2e-3, "{alpha}: {mean}");
         for (channel, mean) in means.into_iter().enumerate() {
-            let variances = rendered.film.map(|pixel| pixel.variance(channel));
+            let variances = rendered.film.variance(Series::Channel(channel));
             let error = variances.iter().sum::<f64>().sqrt() / variances.len() as f64;
             eprintln!("{alpha}, channel {channel}: {mean:.4} ± {error:.4}");
             assert!(

@@ -292,6 +292,26 @@ fn depth_tells_all_that_a_layered_leaf_absorbs() {
 }
 
 #[test]
+fn a_leaf_without_thickness_has_no_depth() {
+    let of_contents = |water: &str, dry: &str| {
+        let contents = format!(
+            "structure = 1.5\nchlorophyll_ug_per_cm2 = 20\ncarotenoids_ug_per_cm2 = 5\n\
+             water_cm = {water}\ndry_matter_g_per_cm2 = {dry}\n"
+        );
+        figures(&deep(&contents, "wavelengths_nm = [550]\n"), &rays(1024))
+    };
+    let rows = of_contents("0.01", "0").expect("water has a thickness");
+    assert!(!rows.is_empty() && rows.iter().all(|row| row.value.is_finite()));
+    let error = of_contents("0", "0").expect_err("nothing has a thickness");
+    assert!(
+        error
+            .to_string()
+            .ends_with("so that its layers have no thickness"),
+        "{error}"
+    );
+}
+
+#[test]
 fn a_leaf_that_absorbs_next_to_nothing_is_filled_with_light_by_its_index() {
     // Even light from both sides of a medium that loses nothing has the radiance n² L everywhere in
     // it: the fluence rate is 4 n² of the irradiance of one side. A layer that scatters nothing

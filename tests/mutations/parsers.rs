@@ -315,7 +315,10 @@ fn models() {
     let read = |bytes: &[u8]| {
         let container = Container::open(bytes);
         let beside = |_: &str| None;
-        told(container.and_then(|container| model::read(&container, &beside, 1.0, true)))
+        told(
+            container
+                .and_then(|container| model::read(&container, &beside, 1.0, model::Wanted::ALL)),
+        )
     };
     for name in ["gltf", "glb"] {
         run(&Parser {

@@ -23,7 +23,7 @@ pub struct Triangles {
     pub faces: Vec<[u32; 3]>,
     /// Normals of the points, if the file has them; not all need have a length.
     pub normals: Option<Vec<DVec3>>,
-    /// What was left out of the file, in words; nothing mostly.
+    /// What was left out of the file or has no right form, in words; nothing mostly.
     pub dropped: Option<String>,
 }
 

@@ -3,19 +3,30 @@
 //! A byte order mark decides first, then an XML declaration, then whether the bytes are UTF-8. What is
 //! none of these is read as Windows-1252, which contains Latin-1, and a note says so.
 
+use std::borrow::Cow;
+
 use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use thiserror::Error;
+
+use super::rows::Guess;
 
 /// How many bytes of a file may hold its XML declaration.
 const DECLARATION: usize = 256;
 
 /// The characters of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Decoded {
+pub struct Decoded<'b> {
     /// The text, without a byte order mark.
-    pub text: String,
+    pub text: Cow<'b, str>,
     /// Whether nothing says how it is encoded, and it is not UTF-8: it is read as Windows-1252.
     pub is_guessed: bool,
+}
+
+impl Decoded<'_> {
+    /// The guess, as a note.
+    pub fn guess(&self) -> Option<Guess> {
+        self.is_guessed.then(Guess::latin_1)
+    }
 }
 
 /// Bytes that are no text.
@@ -49,7 +60,7 @@ pub enum NotText {
 ///
 /// [`NotText`] if they are no text, or not in the encoding that they declare. Messages are written to
 /// follow the name of the file.
-pub fn decoded(bytes: &[u8]) -> Result<Decoded, NotText> {
+pub fn decoded(bytes: &[u8]) -> Result<Decoded<'_>, NotText> {
     let (encoding, skipped) = match Encoding::for_bom(bytes) {
         Some((encoding, length)) => (Some(encoding), length),
         None => (declared(bytes)?, 0),
@@ -61,14 +72,14 @@ pub fn decoded(bytes: &[u8]) -> Result<Decoded, NotText> {
             encoding: encoding.name(),
         })?;
         return Ok(Decoded {
-            text: text.into_owned(),
+            text,
             is_guessed: false,
         });
     }
     let error = match std::str::from_utf8(body) {
         Ok(text) => {
             return Ok(Decoded {
-                text: text.to_owned(),
+                text: text.into(),
                 is_guessed: false,
             });
         }
@@ -84,7 +95,7 @@ pub fn decoded(bytes: &[u8]) -> Result<Decoded, NotText> {
     }
     let (text, _) = WINDOWS_1252.decode_without_bom_handling(body);
     Ok(Decoded {
-        text: text.into_owned(),
+        text,
         is_guessed: true,
     })
 }
@@ -128,7 +139,7 @@ mod tests {
     fn a_text_is_the_same_in_every_encoding() {
         let text = "<?xml version=\"1.0\"?>\n<a b=\"Blattader µm\"/>";
         let whole = Decoded {
-            text: text.to_owned(),
+            text: text.into(),
             is_guessed: false,
         };
         let marked = format!("\u{feff}{text}");
@@ -145,7 +156,7 @@ mod tests {
         let latin_1 = "<?xml version='1.0' encoding='ISO-8859-1'?><a b=\"µm\"/>";
         let bytes: Vec<u8> = latin_1.chars().map(|letter| letter as u8).collect();
         assert_eq!(
-            decoded(&bytes).map(|found| (found.text, found.is_guessed)),
+            decoded(&bytes).map(|found| (found.text.into_owned(), found.is_guessed)),
             Ok((latin_1.to_owned(), false))
         );
     }
@@ -153,10 +164,7 @@ mod tests {
     #[test]
     fn latin_1_that_nothing_declares_is_a_guess_and_what_is_no_text_is_refused() {
         let found = decoded(b"radius_\xb5m,x\n").expect("a table");
-        assert_eq!(
-            (found.text.as_str(), found.is_guessed),
-            ("radius_µm,x\n", true)
-        );
+        assert_eq!((&*found.text, found.is_guessed), ("radius_µm,x\n", true));
         assert_eq!(decoded(b"PK\x03\x04\xff"), Err(NotText::Binary { at: 4 }));
         let unknown = b"<?xml version='1.0' encoding='leaf'?><a/>";
         assert!(matches!(decoded(unknown), Err(NotText::Unknown { .. })));

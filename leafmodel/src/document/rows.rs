@@ -39,6 +39,8 @@ pub struct Rows<'t> {
     text: &'t str,
     from: usize,
     separator: Separator,
+    /// What might separate fields as well, where nobody has said what does.
+    rival: Option<Separator>,
     decimal: Option<Decimal>,
     is_loose: bool,
     has_commas: Cell<bool>,
@@ -145,10 +147,15 @@ impl<'t> Rows<'t> {
     /// The rows from a byte of the text on.
     pub fn below(text: &'t str, byte: usize, Form { separator, decimal }: Form) -> Self {
         let from = byte.max(text.len() - without_mark(text).len());
+        let (separator, rival) = match separator {
+            Some(separator) => (separator, None),
+            None => Separator::with_rival(&text[from..]),
+        };
         Self {
             text,
             from,
-            separator: separator.unwrap_or_else(|| Separator::of(&text[from..])),
+            separator,
+            rival,
             decimal,
             is_loose: false,
             has_commas: Cell::new(false),
@@ -182,12 +189,17 @@ impl<'t> Rows<'t> {
 
     /// What was taken for granted in what has been read, and the flag that says otherwise.
     pub fn guesses(&self) -> Vec<Guess> {
-        let is_guess = self.has_commas.get() && self.decimal.is_none();
-        let guess = Guess {
-            what: "commas in numbers are decimal marks".to_owned(),
-            otherwise: Some(("decimal", "point")),
-        };
-        is_guess.then_some(guess).into_iter().collect()
+        let has_decimal_commas = self.has_commas.get() && self.decimal.is_none();
+        let decimal = has_decimal_commas.then(Guess::decimal_commas);
+        // Commas that are decimal marks separate nothing.
+        let rival = self
+            .rival
+            .filter(|rival| *rival != Separator::Comma || !self.has_commas.get());
+        let separator = rival.map(|rival| Guess {
+            what: format!("each {} separates fields", self.separator.word()),
+            otherwise: Some(("separator", rival.word())),
+        });
+        separator.into_iter().chain(decimal).collect()
     }
 
     /// All rows, the names of columns first.
@@ -367,6 +379,34 @@ pub struct Guess {
     pub what: String,
     /// The flag, and its value, that say otherwise.
     pub otherwise: Option<(&'static str, &'static str)>,
+}
+
+impl Guess {
+    /// That commas are decimal marks.
+    pub fn decimal_commas() -> Self {
+        Self {
+            what: "commas in numbers are decimal marks".to_owned(),
+            otherwise: Some(("decimal", "point")),
+        }
+    }
+
+    /// That a file which says nothing of its encoding, and is not UTF-8, is read as Latin-1.
+    pub fn latin_1() -> Self {
+        Self {
+            what: "it is not in UTF-8, and is read as Latin-1 (Windows-1252)".to_owned(),
+            otherwise: None,
+        }
+    }
+}
+
+impl Guess {
+    /// What to write in the file that names this one, if the guess is wrong.
+    pub fn key(&self) -> Option<String> {
+        let (key, value) = self.otherwise?;
+        Some(format!(
+            "if that is wrong, write `{key} = \"{value}\"` beside the file"
+        ))
+    }
 }
 
 impl std::fmt::Display for Guess {

@@ -54,6 +54,8 @@ pub enum FaultKind {
     Uneven,
     /// Something of the file that is not known.
     Ignored,
+    /// How a table is written was found from it.
+    Guess,
     /// An edge is longer than the straight line between its ends.
     Bent,
     /// An edge is shorter than that line.
@@ -84,6 +86,7 @@ impl FaultKind {
             | Self::StyleRule
             | Self::Uneven
             | Self::Ignored
+            | Self::Guess
             | Self::Bent
             | Self::ShortLength => false,
         }
@@ -98,6 +101,7 @@ impl FaultKind {
                 | Self::NoStroke
                 | Self::NoShape
                 | Self::Ignored
+                | Self::Guess
                 | Self::Bent
         )
     }
@@ -127,6 +131,7 @@ impl FaultKind {
             Self::StyleRule => "style_rule",
             Self::Uneven => "uneven_stroke",
             Self::Ignored => "ignored",
+            Self::Guess => "guess",
             Self::Bent => "bent",
             Self::ShortLength => "short_length",
         }
@@ -175,6 +180,7 @@ impl FaultKind {
                 "strokes are scaled unevenly, so that their widths differ by direction; the mean width is taken"
             }
             Self::Ignored => "parts of the file are not known; they are left out",
+            Self::Guess => "guesses about how tables are written",
             Self::Bent => {
                 "edges are longer than the straight line between their ends; they are drawn as arcs of their \
                  length, so areas of areoles, angles and distances to veins are approximate"

@@ -8,10 +8,11 @@ use csv::StringRecord;
 
 use super::draft::Draft;
 use super::error::ImportError;
+use super::faults::{Fault, FaultKind};
 use super::fields::{EdgeField, NodeField};
 use super::graph::{Builder, Text};
 use super::is_blank;
-use crate::document::rows::{Field, Ragged, Row, Rows};
+use crate::document::rows::{Field, Form, Ragged, Row, Rows};
 
 /// Reads a table of edges, and one of nodes if there is one.
 ///
@@ -19,13 +20,14 @@ use crate::document::rows::{Field, Ragged, Row, Rows};
 ///
 /// [`ImportError`] if columns are missing or a value cannot be read; its places are lines, of the
 /// table of edges if nothing else is said.
-pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportError> {
+pub(super) fn read(edges: &str, nodes: Option<&str>, form: Form) -> Result<Draft, ImportError> {
     // A row leads from its `from` to its `to`; whether that is away from the petiole is found later.
     let mut builder = Builder::new(true);
+    let mut guesses = Fault::new(FaultKind::Guess);
     if let Some(nodes) = nodes {
-        read_nodes(nodes, &mut builder)?;
+        read_nodes(nodes, form, &mut builder, &mut guesses)?;
     }
-    let mut table = Table::open(edges, "a table of edges", &|name| {
+    let mut table = Table::open(edges, form, "a table of edges", &|name| {
         EdgeField::of(name).is_some() || NodeField::of(name).is_some()
     })?;
     if nodes.is_none() && is_of_nodes(&table.header) {
@@ -39,6 +41,9 @@ pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportErro
     }
     let is_of_skan = table.header.iter().any(|name| is_skans(name));
     let fields = edge_fields(&table.header);
+    ignore_unknown(&mut builder, "edge", &table.header, |name| {
+        EdgeField::of(name).is_some()
+    });
     let column = |wanted: &dyn Fn(EdgeField) -> bool| {
         fields.iter().position(|field| field.is_some_and(wanted))
     };
@@ -104,7 +109,9 @@ pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportErro
             builder.edge_with_places_is_done(both, place)?;
         }
     }
+    table.add_guesses(&mut guesses, "edges");
     let mut draft = builder.done();
+    draft.remarks.extend((guesses.count > 0).then_some(guesses));
     draft.is_y_down |= is_of_skan;
     draft.segment_mm = edges
         .lines()
@@ -132,6 +139,18 @@ fn edge_fields(header: &[String]) -> Vec<Option<EdgeField>> {
         EdgeField::of(name).filter(|_| !is_pixel)
     });
     fields.collect()
+}
+
+/// Remembers the columns that are not read.
+fn ignore_unknown(
+    builder: &mut Builder,
+    of: &str,
+    header: &[String],
+    is_known: impl Fn(&str) -> bool,
+) {
+    for name in header.iter().filter(|name| !is_known(name)) {
+        builder.ignore(of, name);
+    }
 }
 
 /// The length of a segment out of a line `# segment_mm = 0.12`.
@@ -175,7 +194,12 @@ fn is_of_nodes(header: &[String]) -> bool {
     has_places && !header.iter().any(is_of_edges)
 }
 
-fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
+fn read_nodes(
+    text: &str,
+    form: Form,
+    builder: &mut Builder,
+    guesses: &mut Fault,
+) -> Result<(), ImportError> {
     let of_nodes = |error| match error {
         ImportError::BadValue {
             place,
@@ -211,7 +235,7 @@ fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
                 wanted: "it is empty".to_owned(),
             });
         }
-        let mut table = Table::open(text, "a table of nodes", &|name| {
+        let mut table = Table::open(text, form, "a table of nodes", &|name| {
             NodeField::of(name).is_some()
         })?;
         let mut fields: Vec<Option<NodeField>> = table
@@ -219,6 +243,9 @@ fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
             .iter()
             .map(|name| NodeField::of(name))
             .collect();
+        ignore_unknown(builder, "node", &table.header, |name| {
+            NodeField::of(name).is_some()
+        });
         // Of several columns that may name a node, the first does.
         let mut is_named = false;
         for field in &mut fields {
@@ -244,6 +271,7 @@ fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
             }
             builder.node_is_done(place)?;
         }
+        table.add_guesses(guesses, "nodes");
         builder.nodes_are_done("its names".to_owned())
     };
     read().map_err(of_nodes)
@@ -269,10 +297,11 @@ struct Table<'t> {
 impl<'t> Table<'t> {
     fn open(
         text: &'t str,
+        form: Form,
         what: &'static str,
         is_known: &dyn Fn(&str) -> bool,
     ) -> Result<Self, ImportError> {
-        let rows = Rows::of(text);
+        let rows = Rows::written(text, form);
         let mut below = rows.records().collect::<Vec<_>>().into_iter();
         let names = below
             .next()
@@ -304,6 +333,13 @@ impl<'t> Table<'t> {
             let texts = row.fields.into_iter().map(|field| field.text);
             (texts.collect(), row.line as u64)
         }))
+    }
+
+    /// Notes what was found from the table instead of being known.
+    fn add_guesses(&self, guesses: &mut Fault, of: &str) {
+        for guess in self.rows.guesses() {
+            guesses.named(|| format!("{of}: {guess}"));
+        }
     }
 
     fn number_text<'v>(&self, value: &'v str) -> std::borrow::Cow<'v, str> {

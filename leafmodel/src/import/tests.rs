@@ -5,6 +5,7 @@ mod drawings;
 mod left_out;
 
 use super::*;
+use crate::document::rows::{Decimal, Separator};
 use crate::export;
 use crate::measure::{Blade, Known, Measures, Subject, Value, measure};
 use crate::shape::outline::Outline;
@@ -204,7 +205,24 @@ fn tables_have_columns_in_any_order_units_and_decimal_commas() {
     let read = draft.network(&Wanted::default()).expect("a network");
     assert_eq!(read.network.vein_length_mm(), 10.5);
     assert!((read.network.edges()[0].radius_to - 0.05).abs() < 1e-15);
-    assert!(read.faults.is_empty(), "{:?}", read.faults);
+    let [guess] = read.faults.as_slice() else {
+        panic!("{:?}", read.faults);
+    };
+    let said = "guesses about how tables are written (1): nodes: commas in numbers are decimal marks (if not, \
+                say --decimal point)";
+    assert_eq!(guess.line(), said);
+    assert!(guess.kind.is_note());
+    // What is known is no guess, and what it excludes is no number.
+    let form = |decimal| Form {
+        separator: Some(Separator::Semicolon),
+        decimal: Some(decimal),
+    };
+    let known = read_written(Format::Table, edges, Some(nodes), form(Decimal::Comma));
+    let read = known.and_then(|draft| draft.network(&Wanted::default()));
+    assert!(read.expect("a network").faults.is_empty());
+    let error = read_written(Format::Table, edges, Some(nodes), form(Decimal::Point));
+    let error = error.expect_err("no number").to_string();
+    assert!(error.contains("10,5"), "{error}");
 }
 
 fn refused(format: Format, text: &str, nodes: Option<&str>) -> String {

@@ -6,7 +6,7 @@ use super::development::{self, development};
 use super::growth_form::{self, growth_form};
 use super::specimen::{self, specimen, teeth};
 use crate::document::context::{Context, QUOTED};
-use crate::document::encoding::{Decoded, decoded};
+use crate::document::encoding::decoded;
 use crate::document::error::DocumentError;
 use crate::document::keys::{BlockList, Keys, Variant};
 use crate::document::limits::Limits;
@@ -297,14 +297,17 @@ fn read_svg(named: &SvgContour, keys: &Keys<'_>) -> Option<SvgContour> {
     let file = resolve(block.cx, path, at, WANTED)?;
     let text = fs::read(file)
         .map_err(|error| format!("cannot be read: {error}"))
-        .and_then(|bytes| decoded(&bytes).map_err(|error| error.to_string()))
+        .and_then(|bytes| {
+            let decoded = decoded(&bytes).map_err(|error| error.to_string())?;
+            Ok(decoded.text.into_owned())
+        })
         .map_err(|problem| {
             (
                 problem,
                 "make it a readable text file, in UTF-8 for example",
             )
         });
-    let parsed = text.and_then(|Decoded { text, .. }| {
+    let parsed = text.and_then(|text| {
         let reading = SvgContour::read(path, &text, named.id.as_deref());
         reading.map_err(|error| (error.to_string(), help(&error)))
     });

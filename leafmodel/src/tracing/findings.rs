@@ -37,8 +37,11 @@ pub enum FindingKind {
     },
     /// A petiole was taken off the blade.
     Petiole,
-    /// The base was not given: it is where the widest vein meets the margin.
-    BaseGuessed,
+    /// The base was not given.
+    BaseGuessed {
+        /// What it is taken to be.
+        by: &'static str,
+    },
     /// The base or the apex that was given is not at the margin, and was moved there.
     Moved {
         /// `base` or `apex`.
@@ -87,12 +90,15 @@ impl fmt::Display for Finding {
                  thinner veins cannot be seen at this size of pixels"
             ),
             FindingKind::Petiole => {
-                write!(f, "a petiole was taken off; it meets the blade at {at}")
+                write!(
+                    f,
+                    "a petiole was taken off; the base is where it meets the blade, {at} (if not, say \
+                     lamina trace --base X,Y)"
+                )
             }
-            FindingKind::BaseGuessed => write!(
+            FindingKind::BaseGuessed { by } => write!(
                 f,
-                "the base is taken to be where the widest vein meets the margin, {at}: \
-                 give the base if that is wrong"
+                "the base is taken to be {by}, {at} (if not, say lamina trace --base X,Y)"
             ),
             FindingKind::Moved {
                 end,

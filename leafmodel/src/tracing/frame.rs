@@ -88,12 +88,15 @@ pub(super) fn in_millimetres(
         Some(place_px)
     });
     let wanted = wanted.unwrap_or_else(|| {
-        // A piece that is cut out has no base of its own: it is the middle of the lower side.
-        if settings.blade == Blade::Frame {
-            return DVec2::new(0.5 * (blade.stride - 2) as f64, (blade.rows - 2) as f64);
-        }
-        let place_px = widest_at_margin(&lines.veins, &margin);
-        let kind = FindingKind::BaseGuessed;
+        // A piece that is cut out has no base of its own.
+        let (place_px, by) = if settings.blade == Blade::Frame {
+            let middle = DVec2::new(0.5 * (blade.stride - 2) as f64, (blade.rows - 2) as f64);
+            (middle, "the middle of the picture's lower side")
+        } else {
+            let place = widest_at_margin(&lines.veins, &margin);
+            (place, "where the widest vein meets the margin")
+        };
+        let kind = FindingKind::BaseGuessed { by };
         let place = Some(place_px);
         findings.push(Finding {
             kind,
@@ -225,11 +228,15 @@ fn widest_at_margin(veins: &Veins, margin: &[DVec2]) -> DVec2 {
     let mut points: Vec<(f64, usize, usize)> = points.collect();
     // The sort is stable, so that of equals the first is taken.
     points.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let widest = points.first().map_or(0.0, |point| point.0);
     let reaches = |(radius, number, i): &&(f64, usize, usize)| {
         let place = veins.list[*number].points[*i];
         nearest_on_closed(margin, place).at.distance(place) <= AT_MARGIN * radius + 2.0
     };
-    let found = points.iter().take(MOST_WIDE).find(reaches);
+    let wide = points.iter().take(MOST_WIDE);
+    let found = wide
+        .take_while(|(radius, ..)| *radius >= LEAST_BASE * widest)
+        .find(reaches);
     let Some(&(radius, number, i)) = found.or(points.first()) else {
         return DVec2::ZERO;
     };

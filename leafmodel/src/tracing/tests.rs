@@ -476,6 +476,16 @@ fn a_wide_midrib_is_followed_from_the_base_to_its_tip() {
             .iter()
             .any(|f| matches!(f.kind, FindingKind::Moved { .. }))
     );
+    // Without a base the same place is found, and reported as a guess.
+    let guessed = trace(&picture, &Settings::new(mm_per_pixel)).expect("a leaf");
+    let off = guessed.frame.base_px.distance(base_px);
+    let wide = 2.0 * radius(0.0) / mm_per_pixel;
+    assert!(off < wide, "{off} pixels from the base");
+    let said: Vec<String> = guessed.findings.iter().map(ToString::to_string).collect();
+    assert!(
+        said.iter().any(|said| said.contains("--base X,Y")),
+        "{said:?}"
+    );
     // A base that is given beside the leaf is moved to it, and that is reported.
     let beside = Settings {
         base_px: Some(base_px - DVec2::new(300.0, 0.0)),
@@ -497,7 +507,7 @@ fn a_wide_midrib_is_followed_from_the_base_to_its_tip() {
             | FindingKind::Crossings { .. }
             | FindingKind::Thin { .. }
             | FindingKind::Petiole
-            | FindingKind::BaseGuessed
+            | FindingKind::BaseGuessed { .. }
             | FindingKind::Apart { .. } => None,
         });
     let (end, by_mm, is_outside) = moved.expect("it is reported");

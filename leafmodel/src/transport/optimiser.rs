@@ -1,9 +1,11 @@
 //! Local optimisation: gives each cell its best parent until no cell has a better one (section 2.2
 //! of \[xia2007\]).
 
+mod settled;
 #[cfg(test)]
 mod tests;
 
+use self::settled::Settled;
 use super::cells::{AROUND, Cell, NONE};
 use super::tree::{Node, Tree};
 
@@ -25,6 +27,9 @@ pub(crate) struct Optimiser {
     stamp: u32,
     /// `P_{G0}(weight, u)` minus that of the present parent.
     relative: Vec<f64>,
+    /// The cell up to which the way from the present parent to the root has been followed.
+    top: u32,
+    settled: Settled,
     way: Vec<u32>,
     subtree: Vec<u32>,
     tried: Vec<u32>,
@@ -83,16 +88,20 @@ impl Optimiser {
         self.relative.resize(count, 0.0);
         self.open.clear();
         self.open.resize(count, true);
+        self.settled.take_in_new_cells(tree);
         let mut all = true;
         for _ in 0..MOST_PASSES {
             let mut changed = false;
             for v in (1..count as u32).rev() {
-                if !std::mem::replace(&mut self.open[v as usize], false) {
+                let is_open = std::mem::replace(&mut self.open[v as usize], false);
+                if !is_open || self.settled.has(v) {
                     continue;
                 }
                 if let Some(u) = self.better_parent(tree, v) {
                     self.change(tree, v, u);
                     changed = true;
+                } else {
+                    self.settled.insert(v, self.top);
                 }
             }
             if !changed {
@@ -121,7 +130,7 @@ impl Optimiser {
             has_children: tree.children(v).next().is_some(),
         };
         self.start(v, node.parent);
-        let mut top = node.parent;
+        self.top = node.parent;
         let current = candidate.beyond(node.parent, node.step);
         let mut best = (current * (1.0 - SAVING), None);
         let parent_cell = tree.cells[node.parent as usize];
@@ -141,7 +150,7 @@ impl Optimiser {
             if beyond == f64::INFINITY {
                 continue;
             }
-            let k = beyond + self.relative_potential(&candidate, u, &mut top);
+            let k = beyond + self.relative_potential(&candidate, u);
             if k < best.0 {
                 best = (k, Some(u));
             }
@@ -165,17 +174,17 @@ impl Optimiser {
         self.relative[z as usize] = value;
     }
 
-    /// `P_{G0}(weight, u)` minus that of the present parent. `top` is the cell up to which the way
-    /// from that parent to the root has been followed.
-    fn relative_potential(&mut self, candidate: &Candidate, u: u32, top: &mut u32) -> f64 {
+    /// `P_{G0}(weight, u)` minus that of the present parent.
+    fn relative_potential(&mut self, candidate: &Candidate, u: u32) -> f64 {
         let nodes = &candidate.tree.nodes;
         self.way.clear();
         let mut z = u;
         loop {
-            while nodes[*top as usize].depth > nodes[z as usize].depth {
-                let value = self.relative[*top as usize] - candidate.share(*top, true);
-                *top = nodes[*top as usize].parent;
-                self.know(*top, value);
+            while nodes[self.top as usize].depth > nodes[z as usize].depth {
+                let top = self.top;
+                let value = self.relative[top as usize] - candidate.share(top, true);
+                self.top = nodes[top as usize].parent;
+                self.know(self.top, value);
             }
             if self.stamps[z as usize] == self.stamp {
                 break;
@@ -203,6 +212,7 @@ impl Optimiser {
         for &z in &subtree {
             self.open_about(tree, z);
         }
+        self.settled.heed_change(tree, old, v, &subtree);
         self.subtree = subtree;
         let (mut a, mut b) = (old, u);
         while a != b {

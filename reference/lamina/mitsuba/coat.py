@@ -37,14 +37,18 @@ GRAZING = 1e-4
 
 @dataclass(frozen=True)
 class Coat:
-    """One face's coat: refractive index and GGX roughness across (x) and along (y) the vein."""
+    """One face's coat: refractive index and GGX roughness across (x) and along (y) the vein.
+
+    An infinite index reflects all light.
+    """
 
     eta: float
     alpha_x: float
     alpha_y: float
 
     def __post_init__(self) -> None:
-        if not (1.0 <= self.eta <= 2.5 and all(0.0 < a <= 1.0 for a in self.alphas)):
+        in_range = 1.0 <= self.eta <= 2.5 or np.isinf(self.eta)
+        if not (in_range and all(0.0 < a <= 1.0 for a in self.alphas)):
             raise ValueError(f"{self} is out of range")
 
     @property
@@ -96,6 +100,8 @@ def through(coats: tuple[Coat, ...]) -> tuple[Through, ...]:
 
 def fresnel(cos_i: Array, eta: float) -> Array:
     """Unpolarised reflectance of a dielectric of index `eta` seen from air."""
+    if np.isinf(eta):
+        return np.ones_like(cos_i)
     cos_t = np.sqrt(1.0 - (1.0 - cos_i * cos_i) / (eta * eta))
     senkrecht = (cos_i - eta * cos_t) / (cos_i + eta * cos_t)
     parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t)

@@ -8,6 +8,7 @@ Parameters of the plugin:
 
 - `basis`: the file of the three spectra, `wavelength_nm,red,green,blue`;
 - `repeats_u`, `repeats_v`: how often the pictures lie in what is 1 wide;
+- `tinted`: whether the mesh's attribute `vertex_tint` is a factor on the colours;
 - `slot_0`, `slot_1`, …: where a picture begins along u, what is taken from u, and a factor on red,
   green and blue; then, unless it is of one colour, what lies beside it across and down (`repeat`,
   `mirror` or `clamp`) and its file, an EXR whose first row is on top.
@@ -102,22 +103,34 @@ class ColourTexture(mi.Texture):
         self.count = len(table)
         self.basis = [Table(column, double=True) for column in table[:, 1:].T]
         self.repeats = float(props.get("repeats_u")), float(props.get("repeats_v"))
+        self.is_tinted = bool(props.get("tinted"))
         self.slots: list[Slot] = []
         while f"slot_{len(self.slots)}" in props:
             self.slots.append(Slot(str(props.get(f"slot_{len(self.slots)}"))))
 
+    def chosen(self, si: Any, values: list[Any]) -> Any:
+        """That of a list of values, one for each slot, whose slot is at a hit."""
+        value = values[0]
+        for slot, other in zip(self.slots[1:], values[1:], strict=True):
+            value = dr.select(si.uv.x >= slot.begins, other, value)
+        return value
+
+    def eval_3(self, si: Any, active: Any = True) -> Any:
+        """The colour at a hit."""
+        colours = [slot.at(si.uv.x, si.uv.y, self.repeats) for slot in self.slots]
+        colour = [self.chosen(si, list(channel)) for channel in zip(*colours, strict=True)]
+        if self.is_tinted:
+            tint = si.shape.eval_attribute_3("vertex_tint", si, active)
+            colour = [value * factor for value, factor in zip(colour, tint, strict=True)]
+        return mi.Color3f(*colour)
+
     def eval(self, si: Any, active: Any = True) -> Any:
         """Reflectance at a hit, at its wavelengths."""
-        u, v = si.uv.x, si.uv.y
-        colour = self.slots[0].at(u, v, self.repeats)
-        for slot in self.slots[1:]:
-            here = u >= slot.begins
-            other = slot.at(u, v, self.repeats)
-            colour = [dr.select(here, b, a) for a, b in zip(colour, other, strict=True)]
+        colour = self.eval_3(si, active)
         at, share = cell(Double, (Double(si.wavelengths) - self.first) / self.step, self.count)
         above = [i + 1 for i in at] if isinstance(at, list) else at + 1
         reflected = Double(0.0)
-        for value, basis in zip(colour, self.basis, strict=True):
+        for value, basis in zip((colour.x, colour.y, colour.z), self.basis, strict=True):
             low, high = basis.at(Double, at), basis.at(Double, above)
             reflected = reflected + Double(value) * (low + share * (high - low))
         return mi.UnpolarizedSpectrum(reflected)

@@ -313,7 +313,8 @@ class LeafBSDF(mi.BSDF):
         absorbed = dr.clip(1.0 - r - t, 0.0, 1.0)
         return 1.0 + 0.7 * absorbed * absorbed * (3.0 - 2.0 * absorbed)
 
-    def axes(self, si: Any) -> tuple[Any, Any]:
+    @staticmethod
+    def axes(si: Any) -> tuple[Any, Any]:
         """Cosine and sine of the turn from the page's x, y axes to Mitsuba's, about z.
 
         The page's +y is ∂p/∂v made orthogonal to the normal. Without texture coordinates any
@@ -380,6 +381,12 @@ class LeafBSDF(mi.BSDF):
         return 2.0 * dr.dot(view, h) * h - view
 
     # Frames
+
+    @staticmethod
+    def to_page(w: Any, axes: tuple[Any, Any]) -> Any:
+        """From Mitsuba's shading frame to the page's."""
+        c, s = axes
+        return mi.Vector3f(c * w.x - s * w.y, s * w.x + c * w.y, w.z)
 
     @staticmethod
     def mirrored(w: Any, axes: tuple[Any, Any]) -> Any:

@@ -12,8 +12,8 @@ Written from `docs/src/format/light.md`, `docs/src/theory/daylight.md` and
 - `lamina_sun`: a disk that is darker towards its limb; `irradiance` on what faces it, and
   `half_diameter` in rad.
 - `lamina_pattern`: `radiance` times a bell over uv with `edge_share` in the middle of the edges,
-  times `picture`, an EXR with its upper border at v = 1, whose colours become spectra by `red`,
-  `green` and `blue`.
+  times the texture `colours`, or times `picture`, an EXR with its upper border at v = 1, whose
+  colours become spectra by `red`, `green` and `blue`.
 
 Import it after the variant is chosen; `register()` makes the plugins known.
 """
@@ -180,7 +180,9 @@ class Pattern(Radiance):
         Radiance.__init__(self, props)
         self.radiance = props.get_unbounded_texture("radiance")
         self.edge = float(np.log(float(props.get("edge_share"))))
-        self.picture = None
+        self.picture = self.colours = None
+        if "colours" in props:
+            self.colours = props.get_unbounded_texture("colours")
         if "picture" in props:
             self.picture = Weights(resolved(props, "picture"), wraps=False)
             self.spectra = [props.get_unbounded_texture(name) for name in PRIMARIES]
@@ -189,6 +191,8 @@ class Pattern(Radiance):
         """Radiance at a point of the lamp."""
         x, y = 2.0 * si.uv.x - 1.0, 2.0 * si.uv.y - 1.0
         value = self.radiance.eval(si, active) * dr.exp(self.edge * (x * x + y * y))
+        if self.colours is not None:
+            return value * self.colours.eval(si, active)
         if self.picture is None:
             return value
         colour = mi.UnpolarizedSpectrum(0.0)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from lamina.mitsuba import colour_texture, lights, plastic_bsdf, relief_bsdf
+from lamina.mitsuba import colour_texture, lights, model_bsdf, plastic_bsdf, relief_bsdf
 
 
 def register() -> None:
     """Makes all plugins known to Mitsuba."""
     relief_bsdf.register()
     plastic_bsdf.register()
+    model_bsdf.register()
     colour_texture.register()
     lights.register()

@@ -169,12 +169,6 @@ class ReliefBSDF(LeafBSDF):
             faces.append((mi.Vector2f(x, y), rough))
         return faces
 
-    @staticmethod
-    def to_page(w: Any, axes: tuple[Any, Any]) -> Any:
-        """From Mitsuba's shading frame to the page's."""
-        c, s = axes
-        return mi.Vector3f(c * w.x - s * w.y, s * w.x + c * w.y, w.z)
-
     def value_and_pdf(self, si: Any, wo: Any, active: Any) -> tuple[Any, Any]:
         """The BSDF times the cosine, and the density of `sample`: the cosine's, to either side."""
         active = active & (si.wi.z != 0.0) & (wo.z != 0.0)

@@ -120,11 +120,31 @@ impl Coat {
 /// Λ is `lambda`; for two directions on the side +z.
 #[inline]
 pub(super) fn coat_lobe(ggx: Ggx, eta: f32, wo: Vec3, lambda: f32, wi: Vec3) -> (f32, f32) {
-    let Some(h) = (wo + wi).try_normalize() else {
-        return (0.0, 0.0);
-    };
-    let fresnel = fresnel::dielectric(wo.dot(h), eta);
+    facets(ggx, wo, lambda, wi).map_or((0.0, 0.0), |met| {
+        let fresnel = fresnel::dielectric(met.cosine, eta);
+        (met.shape * fresnel / wi.z, met.pdf)
+    })
+}
+
+/// The microfacets that reflect light from one direction into another.
+pub(super) struct Facets {
+    /// Cosine of the angle of incidence on them.
+    pub(super) cosine: f32,
+    /// `D G₂ / (4 cos θₒ)`; times Fresnel over `cos θᵢ` it is the lobe's value.
+    pub(super) shape: f32,
+    /// Density with which a direction is sampled by the facets that `wo` sees.
+    pub(super) pdf: f32,
+}
+
+/// The facets between `wo`, whose Λ is `lambda`, and `wi`, for two directions on the side +z.
+#[inline]
+pub(super) fn facets(ggx: Ggx, wo: Vec3, lambda: f32, wi: Vec3) -> Option<Facets> {
+    let h = (wo + wi).try_normalize()?;
     let shared = ggx.d(h) / (4.0 * wo.z);
     let shadowed = 1.0 / (1.0 + lambda + ggx.lambda(wi));
-    (shared * shadowed * fresnel / wi.z, shared / (1.0 + lambda))
+    Some(Facets {
+        cosine: wo.dot(h),
+        shape: shared * shadowed,
+        pdf: shared / (1.0 + lambda),
+    })
 }

@@ -8,6 +8,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::directional_albedo::{lattice_on_disc, reflected_share};
+use super::fresnel;
 use super::ggx::Ggx;
 use super::known::Known;
 
@@ -103,7 +104,7 @@ pub struct LocalCoat<'a> {
 }
 
 impl CoatTable {
-    /// The table of a refractive index, made once in a process.
+    /// The table of a refractive index, made once in a process; an infinite one reflects all light.
     pub fn of(eta: f32) -> Arc<Self> {
         static KNOWN: Known<u32, CoatTable> = Known::new();
         KNOWN.get(eta.to_bits(), || Self::new(eta))
@@ -111,6 +112,13 @@ impl CoatTable {
 
     fn new(eta: f32) -> Self {
         let points = lattice_on_disc(LATTICE);
+        let fresnel = |cos: f32| {
+            if eta.is_infinite() {
+                1.0
+            } else {
+                fresnel::dielectric(cos, eta)
+            }
+        };
         let row = |node: usize| {
             let alpha = alpha_of(node);
             let ggx = Ggx {
@@ -121,7 +129,7 @@ impl CoatTable {
                 if eta == 1.0 {
                     0.0
                 } else {
-                    reflected_share(ggx, eta, mu_of(i), 0.0, &points)
+                    reflected_share(ggx, fresnel, (mu_of(i), 0.0), &points)
                 }
             })
         };

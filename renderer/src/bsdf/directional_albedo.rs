@@ -12,20 +12,25 @@ use crate::sampling::warp;
 
 /// `E(ω)`, the share of light from ω that the coat's lobe reflects, and its mean `Ē`.
 ///
-/// `E` is even in both tangent axes, so a table over `√µ` and `sin² φ` in the first quadrant is
-/// complete; between nodes it is linear. Nodes at squares of even steps in µ crowd at grazing
-/// angles, where `E` rises fastest.
+/// `E` is even in both tangent axes, so a table over `√µ` and the azimuth in the first quadrant is
+/// complete; between nodes it is linear in µ and `sin² φ`. Nodes at squares of even steps in µ crowd at grazing
+/// angles, where `E` rises fastest. There it follows the roughness in the plane of the light, so azimuths
+/// are those at which this is at even ratios: at even steps of `sin² φ` a coat eight times as rough along as across
+/// was off by 0.01.
 #[derive(Clone, Debug)]
 pub struct DirectionalAlbedo {
     /// `[azimuth][µ]`.
     values: Box<[[f32; MU_NODES]]>,
+    /// `sin² φ` of each azimuth, from 0 to 1; a single one if the coat is isotropic.
+    azimuths: Box<[f32]>,
     mean: f32,
     /// `2/π ∫ E µ² dω`, the mean weighted once more with the cosine.
     steep: f32,
 }
 
 const MU_NODES: usize = 129;
-const AZIMUTH_NODES: usize = 17;
+/// Greatest step between azimuths of the logarithm of the roughness: `E` is within 3e-4 between them.
+const ROUGHNESS_STEP: f32 = 0.0625;
 /// Points of the rank-1 lattice for one entry: consecutive Fibonacci numbers.
 const LATTICE: (u32, u32) = (6765, 4181);
 
@@ -45,30 +50,32 @@ impl DirectionalAlbedo {
         if eta == 1.0 {
             return Self {
                 values: Box::new([[0.0; MU_NODES]]),
+                azimuths: Box::new([0.0]),
                 mean: 0.0,
                 steep: 0.0,
             };
         }
-        let azimuths = if ggx.alpha_x == ggx.alpha_y {
-            1
-        } else {
-            AZIMUTH_NODES
-        };
+        let azimuths = azimuths_of(ggx);
         let points = lattice_on_disc(LATTICE);
         let entry = |number: usize| {
-            let sin2 = (number / MU_NODES) as f32 / (azimuths.max(2) - 1) as f32;
+            let sin2 = azimuths[number / MU_NODES];
             let mu = mu_of((number % MU_NODES) as f32);
-            reflected_share(ggx, eta, mu, sin2, &points)
+            reflected_share(
+                ggx,
+                |cos| fresnel::dielectric(cos, eta),
+                (mu, sin2),
+                &points,
+            )
         };
         // Collected by number, so that it is the same on any number of threads.
-        let entries = (0..azimuths * MU_NODES).into_par_iter().map(entry);
+        let entries = (0..azimuths.len() * MU_NODES).into_par_iter().map(entry);
         let entries: Vec<f32> = entries.collect();
         let values: Box<[[f32; MU_NODES]]> = entries.as_chunks().0.into();
         // Exact along µ: integrals of a linear function times µ and µ² over an interval.
-        let mean = mean_of(&values, |[low, high], [at_low, at_high]| {
+        let mean = mean_of(&values, &azimuths, |[low, high], [at_low, at_high]| {
             2.0 * (high - low) * (at_low * (2.0 * low + high) + at_high * (low + 2.0 * high)) / 6.0
         });
-        let steep = mean_of(&values, |[low, high], [at_low, at_high]| {
+        let steep = mean_of(&values, &azimuths, |[low, high], [at_low, at_high]| {
             let middle = 0.5 * (low + high);
             let sum = at_low * low * low
                 + 2.0 * (at_low + at_high) * middle * middle
@@ -77,6 +84,7 @@ impl DirectionalAlbedo {
         });
         Self {
             values,
+            azimuths,
             mean,
             steep,
         }
@@ -99,9 +107,7 @@ impl DirectionalAlbedo {
         } else {
             0.5
         };
-        let place = sin2 * (self.values.len() - 1) as f32;
-        let below = (place as usize).min(self.values.len() - 2);
-        let share = place - below as f32;
+        let (below, share) = between(&self.azimuths, sin2);
         along(&self.values[below]) * (1.0 - share) + along(&self.values[below + 1]) * share
     }
 
@@ -121,6 +127,31 @@ impl DirectionalAlbedo {
     }
 }
 
+/// `sin² φ` of the azimuths of a table.
+fn azimuths_of(ggx: Ggx) -> Box<[f32]> {
+    let ratio = ggx.alpha_y / ggx.alpha_x;
+    if ratio == 1.0 {
+        return Box::new([0.0]);
+    }
+    let steps = (libm::logf(ratio).abs() / ROUGHNESS_STEP).ceil();
+    let sin2 = |step: usize| {
+        // The square of the roughness is linear in sin² φ.
+        let square = libm::powf(ratio, 2.0 * step as f32 / steps);
+        ((square - 1.0) / (ratio * ratio - 1.0)).clamp(0.0, 1.0)
+    };
+    let inner = (1..steps as usize).map(sin2);
+    std::iter::once(0.0).chain(inner).chain([1.0]).collect()
+}
+
+/// The azimuth below and the share of the next one, of more than one.
+#[inline]
+fn between(azimuths: &[f32], sin2: f32) -> (usize, f32) {
+    let above = azimuths.partition_point(|&node| node <= sin2);
+    let below = above.clamp(1, azimuths.len() - 1) - 1;
+    let [low, high] = [azimuths[below], azimuths[below + 1]];
+    (below, ((sin2 - low) / (high - low)).clamp(0.0, 1.0))
+}
+
 fn mu_of(node: f32) -> f32 {
     let x = node / (MU_NODES - 1) as f32;
     x * x
@@ -136,8 +167,14 @@ pub(super) fn lattice_on_disc((count, step): (u32, u32)) -> Vec<Vec2> {
     (0..count).map(point).collect()
 }
 
-/// `E` at one direction, by a lattice over the visible normals: the integrand `F G₂ / G₁` is smooth.
-pub(super) fn reflected_share(ggx: Ggx, eta: f32, mu: f32, sin2_phi: f32, points: &[Vec2]) -> f32 {
+/// `E` at one direction, given by its cosine and `sin² φ`, by a lattice over the visible normals: the
+/// integrand `F G₂ / G₁` is smooth.
+pub(super) fn reflected_share(
+    ggx: Ggx,
+    fresnel: impl Fn(f32) -> f32,
+    (mu, sin2_phi): (f32, f32),
+    points: &[Vec2],
+) -> f32 {
     // At exactly grazing incidence the limit is taken from close by.
     let mu = mu.max(0.25 * mu_of(1.0));
     let sin = (1.0 - mu * mu).max(0.0).sqrt();
@@ -151,7 +188,7 @@ pub(super) fn reflected_share(ggx: Ggx, eta: f32, mu: f32, sin2_phi: f32, points
         let wi = 2.0 * cos * h - wo;
         if cos > 0.0 && wi.z > 0.0 {
             let g2 = 1.0 / (1.0 + lambda + ggx.lambda(wi));
-            sum += f64::from(fresnel::dielectric(cos, eta) * g2 / g1);
+            sum += f64::from(fresnel(cos) * g2 / g1);
         }
     }
     (sum / points.len() as f64) as f32
@@ -159,7 +196,11 @@ pub(super) fn reflected_share(ggx: Ggx, eta: f32, mu: f32, sin2_phi: f32, points
 
 /// `2/π ∫₀^{π/2} dφ ∫ 2 E w dµ` of the table as interpolated; `interval` gives the integral over one
 /// interval of µ from its ends and the values there.
-fn mean_of(values: &[[f32; MU_NODES]], interval: impl Fn([f64; 2], [f64; 2]) -> f64) -> f32 {
+fn mean_of(
+    values: &[[f32; MU_NODES]],
+    azimuths: &[f32],
+    interval: impl Fn([f64; 2], [f64; 2]) -> f64,
+) -> f32 {
     let row_mean = |row: &[f32; MU_NODES]| -> f64 {
         (0..MU_NODES - 1)
             .map(|i| {
@@ -179,9 +220,8 @@ fn mean_of(values: &[[f32; MU_NODES]], interval: impl Fn([f64; 2], [f64; 2]) -> 
     for step in 0..steps {
         let phi = FRAC_PI_2 * (step as f32 + 0.5) / steps as f32;
         let sin = libm::sinf(phi);
-        let place = sin * sin * (rows.len() - 1) as f32;
-        let below = (place as usize).min(rows.len() - 2);
-        let share = f64::from(place - below as f32);
+        let (below, share) = between(azimuths, sin * sin);
+        let share = f64::from(share);
         sum += rows[below] * (1.0 - share) + rows[below + 1] * share;
     }
     (sum / f64::from(steps)) as f32
@@ -250,5 +290,25 @@ mod tests {
             assert!((a.at(w) - b.at(Vec3::new(w.y, w.x, w.z))).abs() < 1e-3);
         }
         assert!((a.mean() - b.mean()).abs() < 2e-4);
+    }
+
+    #[test]
+    fn the_table_is_right_between_its_azimuths_however_unlike_both_roughnesses() {
+        for (alpha_x, alpha_y, eta) in [(0.05, 0.4, 2.0), (0.02, 1.0, 1.5), (0.4, 0.3, 1.45)] {
+            let ggx = Ggx { alpha_x, alpha_y };
+            let coat = DirectionalAlbedo::new(ggx, eta);
+            let points = lattice_on_disc(LATTICE);
+            let nodes = &coat.azimuths;
+            let middles = nodes.windows(2).map(|ends| 0.5 * (ends[0] + ends[1]));
+            let places = middles.flat_map(|sin2| [0.01_f32, 0.1, 0.3].map(|mu| (mu, sin2)));
+            for (mu, sin2) in places {
+                let fresnel = |cos| fresnel::dielectric(cos, eta);
+                let expected = reflected_share(ggx, fresnel, (mu, sin2), &points);
+                let (sin, along) = ((1.0 - mu * mu).sqrt(), sin2.sqrt());
+                let found = coat.at(Vec3::new(sin * (1.0 - sin2).sqrt(), sin * along, mu));
+                let off = (found - expected).abs();
+                assert!(off < 7e-4, "{alpha_x} {alpha_y}, µ = {mu}, {sin2}: {off}");
+            }
+        }
     }
 }

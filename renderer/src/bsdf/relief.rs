@@ -89,20 +89,20 @@ fn onward<const N: usize>(dust: Option<LocalDust>, grains: Lanes<N>, mu: f32) ->
 }
 
 /// The adaxial unit normal of a slope.
-fn normal_of(slope: Vec2) -> Vec3 {
+pub(super) fn normal_of(slope: Vec2) -> Vec3 {
     Vec3::new(-slope.x, -slope.y, 1.0).normalize()
 }
 
 /// The frame of a face in that of the mesh: +y stays as near to the mesh's as it can.
 #[derive(Clone, Copy, Debug)]
-struct Tilt {
+pub(super) struct Tilt {
     across: Vec3,
     along: Vec3,
-    normal: Vec3,
+    pub(super) normal: Vec3,
 }
 
 impl Tilt {
-    fn to(normal: Vec3) -> Self {
+    pub(super) fn to(normal: Vec3) -> Self {
         // Slopes are finite, so the normal is never +y.
         let along = (Vec3::Y - normal * normal.y).normalize();
         Self {
@@ -112,19 +112,28 @@ impl Tilt {
         }
     }
 
-    fn to_local(self, w: Vec3) -> Vec3 {
+    pub(super) fn to_local(self, w: Vec3) -> Vec3 {
         Vec3::new(w.dot(self.across), w.dot(self.along), w.dot(self.normal))
     }
 
-    fn to_mesh(self, w: Vec3) -> Vec3 {
+    pub(super) fn to_mesh(self, w: Vec3) -> Vec3 {
         self.across * w.x + self.along * w.y + self.normal * w.z
     }
 }
 
 /// What a diffuse lobe about a normal of this cosine to the mesh's is multiplied with, because
 /// light from below the mesh is left out: the cut takes `(1 − cos) / 2` of it.
-fn given_back(cosine: f32) -> f32 {
+pub(super) fn given_back(cosine: f32) -> f32 {
     1.0 / (1.0 - GIVEN_BACK * 0.5 * (1.0 - cosine))
+}
+
+/// A slope, lowered so that its face does not turn away from `wo`.
+pub(super) fn lowered(slope: Vec2, wo: Vec3) -> Vec2 {
+    let away = slope.dot(wo.truncate()) * 1.0_f32.copysign(wo.z);
+    if away <= 0.0 {
+        return slope;
+    }
+    slope * ((1.0 - LEAST_FACING) * wo.z.abs() / away).min(1.0)
 }
 
 fn above(w: Vec3) -> Vec3 {
@@ -132,15 +141,10 @@ fn above(w: Vec3) -> Vec3 {
 }
 
 impl<'a, const N: usize> ReliefBsdf<'a, N> {
-    /// The slope of the face that `wo` sees, lowered so that the face does not turn away.
+    /// The slope of the face that `wo` sees, [lowered].
     fn seen_slope(&self, wo: Vec3) -> Vec2 {
         let side = usize::from(wo.z < 0.0);
-        let slope = self.faces[side].slope;
-        let away = slope.dot(wo.truncate()) * 1.0_f32.copysign(wo.z);
-        if away <= 0.0 {
-            return slope;
-        }
-        slope * ((1.0 - LEAST_FACING) * wo.z.abs() / away).min(1.0)
+        lowered(self.faces[side].slope, wo)
     }
 
     /// The normal of the face that `wo` sees, on its side, in the mesh's shading frame.

@@ -83,8 +83,8 @@ fn read_files(description: &Description) -> Result<(), Failure> {
         } = &mesh.value
         {
             let told = |error| Failure::bad(format!("meshes.{name}: {error}"));
-            let colours = description.wants_colours_of(number);
-            let model = assets::model(file, beside, *scale, colours).map_err(told)?;
+            let wanted = description.wanted_of(number);
+            let model = assets::model(file, beside, *scale, wanted).map_err(told)?;
             note(on_mesh(name, &model.mesh, &model.left_out));
         }
         let Mesh::File { file, scale } = &mesh.value else {

@@ -10,10 +10,10 @@ use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::CheckBsdfArguments;
 use crate::cli::columns::in_columns;
 use crate::cli::places::check_outputs;
+use crate::cli::texts::text_of;
 use crate::cli::{Failure, say};
 use crate::image::atomic;
 use crate::measured::bsdf::{self, Check};
-use crate::measured::series;
 
 /// A surface that sends out more than this share of the light is not told from one of 1: sums over
 /// rings of a few degrees are that uncertain.
@@ -32,12 +32,11 @@ pub(super) fn run(arguments: &CheckBsdfArguments) -> Result<(), Failure> {
     let file = &arguments.table;
     let outputs: Vec<&Path> = out.into_iter().collect();
     check_outputs(&outputs, std::slice::from_ref(file), "the command")?;
-    let bytes = std::fs::read(file)
-        .map_err(|error| Failure::bad(format!("{}: {error}", file.display())))?;
-    let text = series::text(&bytes).map_err(|fault| Failure::bad(fault.shown(file, "")))?;
+    let text = text_of(file)?;
     let mut known = arguments.reading.known();
     known.angles = arguments.angles;
-    let table = bsdf::read(text, &known).map_err(|fault| Failure::bad(fault.shown(file, text)))?;
+    let table =
+        bsdf::read(&text, &known).map_err(|fault| Failure::bad(fault.shown(file, &text)))?;
     for note in &table.notes {
         eprintln!("note: {note}");
     }

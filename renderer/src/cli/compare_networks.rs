@@ -29,6 +29,7 @@ use self::sources::Sources;
 use crate::cli::arguments::CompareNetworksArguments;
 use crate::cli::measure::{has_ending, is_json};
 use crate::cli::places::check_outputs;
+use crate::cli::progress::Patience;
 use crate::cli::{Failure, say};
 use crate::image::atomic;
 
@@ -86,6 +87,7 @@ pub(super) fn run(arguments: &CompareNetworksArguments) -> Result<(), Failure> {
     let sources = Sources::new(arguments)?;
     let overlays = overlays(arguments, &sources)?;
     check_files(arguments, &sources)?;
+    let _patience = Patience::about("growing, measuring and comparing");
     let work = || found(arguments, &sources, overlays);
     let findings = match arguments.threads {
         None => work(),

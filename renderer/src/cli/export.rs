@@ -28,6 +28,7 @@ pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
         | ExportError::Nested { .. }
         | ExportError::CameraInside
         | ExportError::Layers { .. }
+        | ExportError::Tangents { .. }
         | ExportError::NotOurs { .. } => Failure::bad(error),
     })?;
     say(arguments.out.display());

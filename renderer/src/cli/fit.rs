@@ -17,6 +17,7 @@ use self::tables::{contents, covariances, fitted_spectra, report};
 use crate::cli::arguments::FitArguments;
 use crate::cli::columns::in_columns;
 use crate::cli::places::check_outputs;
+use crate::cli::progress::Patience;
 use crate::cli::{Failure, say};
 use crate::image::atomic;
 use crate::measured::spectra::Leaf;
@@ -92,6 +93,7 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
         let [low, high] = range;
         eprintln!("note: {left_out} values outside of {low} to {high} nm are left out");
     }
+    let _patience = Patience::about("fitting");
     let fitted: Vec<Fitted<'_>> = leaves
         .par_iter()
         .map(|leaf| fit(leaf, &free, fixed))

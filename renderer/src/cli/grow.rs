@@ -139,6 +139,7 @@ fn carry_out(
 ) -> Result<(), Failure> {
     let (name, plan) = (chosen.name.as_str(), &chosen.plan);
     if let Some(count) = arguments.individuals {
+        let _patience = Patience::about("growing");
         return individuals::write(chosen, outputs, count, arguments.size, stop);
     }
     write_plans(arguments, chosen, outputs, stop)?;
@@ -146,10 +147,11 @@ fn carry_out(
         return Ok(());
     }
     let growing = Instant::now();
-    let patience = Patience::growing();
+    let patience = Patience::about("growing");
     let grown = Grown::new(to_grow, outputs.blade, stop)?;
     drop(patience);
     let build_seconds = growing.elapsed().as_secs_f64();
+    let _patience = Patience::about("drawing and writing");
     let Lamina {
         outline, network, ..
     } = grown.lamina();

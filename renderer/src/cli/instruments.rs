@@ -55,6 +55,11 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
     };
     let Measured { rows, cuts, ended } =
         pool.install(|| measure(arguments, &scene, &chosen, &budget, &signals))?;
+    let ended = match ended {
+        // Nothing was measured: what older runs wrote stays.
+        Err(Ended::Failed(failure)) if rows.is_empty() => return Err(failure),
+        ended => ended,
+    };
     for path in &arguments.out {
         let text = if has_ending(path, "json") {
             table::json(&scene, &budget, (&rows, &cuts), ended.is_ok())
@@ -64,11 +69,7 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
         atomic::replace(path, |file| file.write_all(text.as_bytes())).map_err(Failure::system)?;
         say(path.display());
     }
-    if let Some(path) = arguments
-        .plot
-        .as_ref()
-        .filter(|_| ended.is_ok() || !rows.is_empty())
-    {
+    if let Some(path) = &arguments.plot {
         let drawing = plot::svg(&rows).ok_or_else(|| {
             Failure::bad(format!(
                 "{}: there is nothing to draw: a line needs figures at two wavelengths, view angles \

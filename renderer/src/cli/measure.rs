@@ -9,15 +9,20 @@ use std::time::Instant;
 
 use leafmodel::measure::Subject;
 
-pub(super) use self::input::{Input, text_of};
+pub(super) use self::input::Input;
 use self::report::Report;
 pub(super) use self::report::{by_order, measured};
 use crate::cli::arguments::MeasureArguments;
+use crate::cli::progress::Patience;
 use crate::cli::{Failure, places, say, trace};
 use crate::image::atomic;
 
+/// Most areoles that the bootstrap draws, which takes up to a minute of a processor.
+const MOST_DRAWN: u64 = 2_000_000_000;
+
 pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
     check_outputs(arguments)?;
+    let _patience = Patience::about("measuring");
     let started = Instant::now();
     let input = Input::read(&arguments.file, &arguments.reading)?;
     let blade = input.blade(arguments.reading.area);
@@ -27,6 +32,7 @@ pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
     let read_seconds = started.elapsed().as_secs_f64();
     let measuring = Instant::now();
     let subject = Subject::new(blade, &input.network, input.known);
+    check_draws(arguments.bootstrap, subject.areoles().len())?;
     let report = Report::new(arguments, &input, &subject);
     let density = report.number("vein_density_mm_per_mm2");
     let scale = "--mm-per-unit, --mm-per-pixel, --area or --outline";
@@ -53,6 +59,19 @@ pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
         subject.areoles().len(),
     );
     Ok(())
+}
+
+/// Fails if the bootstrap would take minutes.
+fn check_draws(draws: u32, areoles: usize) -> Result<(), Failure> {
+    let drawn = u64::from(draws) * areoles as u64;
+    if drawn <= MOST_DRAWN {
+        return Ok(());
+    }
+    Err(Failure::bad(format!(
+        "--bootstrap {draws}: {areoles} areoles are drawn each time, {drawn} in all, more than the {MOST_DRAWN} \
+         that are drawn: take {} or less",
+        MOST_DRAWN / areoles as u64
+    )))
 }
 
 /// Fails if files cannot be written, are named twice or read, or end in what is not written.

@@ -18,6 +18,7 @@ use serde_json::json;
 use self::leaf::Chosen;
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::OpticsArguments;
+use crate::cli::progress::Patience;
 use crate::cli::{Failure, check_writable, say};
 use crate::image::atomic;
 
@@ -84,6 +85,7 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     }
     if let Some(file) = &arguments.angles {
         let angles = angles::Angles::of(&contents, &arguments.nm);
+        let _patience = Patience::about("following photons");
         let table = match arguments.photons {
             Some(photons) => angles.compared(photons, &chosen.line()),
             None => angles.table(&chosen.line()),

@@ -3,12 +3,17 @@
 use std::path::Path;
 
 use crate::cli::arguments::{CompareArguments, InfoArguments};
-use crate::cli::{Failure, say};
+use crate::cli::{Failure, needs, say};
 use crate::image::colours::in_rec709;
 use crate::image::{Attribute, Picture, compare as numbers, openexr};
 
-fn read(path: &Path) -> Result<Picture, Failure> {
-    openexr::read(path).map_err(Failure::bad)
+/// Times that the pixels of a picture are in memory while they are converted or compared.
+const COPIES: f64 = 3.0;
+
+/// The picture in a file, if the machine has memory for it.
+pub(super) fn read(path: &Path) -> Result<Picture, Failure> {
+    let most = needs::most_bytes(None).map_or(u64::MAX, |most| (most / COPIES) as u64);
+    openexr::read_within(path, most).map_err(Failure::bad)
 }
 
 pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {

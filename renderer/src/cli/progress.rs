@@ -30,9 +30,9 @@ pub(super) struct Patience {
 }
 
 impl Patience {
-    /// About the growth of one leaf.
-    pub(super) fn growing() -> Self {
-        Self::new("growing", 0, None)
+    /// About some work.
+    pub(super) fn about(work: &'static str) -> Self {
+        Self::new(work, 0, None)
     }
 
     /// About the building of a scene with so many leaves, which may take `memory` GiB, or what is

@@ -34,6 +34,9 @@ use crate::sweep::{Sweep, Target, Words, is_sweep_file};
 
 pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let sweep = opened(arguments)?;
+    for note in &sweep.notes {
+        eprintln!("note: {note}");
+    }
     let count = sweep.len();
     let range = arguments.tasks.map_or(0..count, |tasks| tasks.of(count));
     if range.end > count {

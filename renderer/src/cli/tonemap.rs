@@ -1,10 +1,10 @@
 //! `lamina tonemap`: a picture to look at from an EXR, without rendering again.
 
 use crate::cli::arguments::TonemapArguments;
-use crate::cli::{Failure, check_writable, say};
+use crate::cli::{Failure, check_writable, pictures, say};
+use crate::image::Attribute;
 use crate::image::ImageError;
 use crate::image::display::FileKind;
-use crate::image::{Attribute, openexr};
 use crate::scene::load::parse_picture;
 
 pub(super) fn run(arguments: &TonemapArguments) -> Result<(), Failure> {
@@ -15,7 +15,7 @@ pub(super) fn run(arguments: &TonemapArguments) -> Result<(), Failure> {
             out.display()
         ))
     })?;
-    let picture = openexr::read(&arguments.picture).map_err(Failure::bad)?;
+    let picture = pictures::read(&arguments.picture)?;
     // What the scene said when it was rendered; other programs' pictures say nothing.
     let scene = match picture.attribute("lamina:scene") {
         Some(Attribute::Text(text)) => text.as_str(),

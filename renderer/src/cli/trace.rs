@@ -14,6 +14,7 @@ use serde_json::json;
 
 use crate::cli::arguments::{ThresholdKind, TraceArguments};
 use crate::cli::places::check_outputs;
+use crate::cli::progress::Patience;
 use crate::cli::{Failure, needs, say, stats};
 use crate::export::drawing::{Drawing, Style, Subject, draw_within};
 use crate::export::overlay::draw_over;
@@ -75,6 +76,7 @@ impl Kind {
 }
 
 pub(super) fn run(arguments: &TraceArguments) -> Result<(), Failure> {
+    let _patience = Patience::about("tracing");
     let started = Instant::now();
     let kinds = arguments.out.iter().map(|path| Kind::of(path));
     let kinds: Vec<Kind> = kinds.collect::<Result<_, _>>()?;
@@ -215,7 +217,7 @@ fn told(findings: &[Finding]) -> Vec<String> {
         | FindingKind::Crossings { .. }
         | FindingKind::Thin { .. }
         | FindingKind::Petiole
-        | FindingKind::BaseGuessed
+        | FindingKind::BaseGuessed { .. }
         | FindingKind::Moved { .. } => None,
     };
     let (mut apart, others): (Vec<&Finding>, Vec<&Finding>) = findings

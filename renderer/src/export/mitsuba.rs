@@ -2,9 +2,9 @@
 //! comparison.
 //!
 //! Leaves become the plugin `lamina_leaf`, those with a relief `lamina_relief`, solid tissue
-//! `lamina_solid`, coated bodies `lamina_plastic`, maps of colours the texture `lamina_colours`,
-//! skies and pictures of surroundings textures on a sphere around the scene; `reference/` registers
-//! them. Everything else is Mitsuba's own. The sun's disc becomes a disk emitter so far away that
+//! `lamina_solid`, coated bodies `lamina_plastic`, materials of models `lamina_model`, maps of
+//! colours the texture `lamina_colours`, skies and pictures of surroundings textures on a sphere around
+//! the scene; `reference/` registers them. Everything else is Mitsuba's own. The sun's disc becomes a disk emitter so far away that
 //! irradiance differs by 2e-5 over the scene.
 
 mod bsdf;
@@ -94,6 +94,15 @@ pub enum ExportError {
     Layers {
         /// The block that says so.
         place: String,
+    },
+    /// Tangents for a map of normals.
+    #[error(
+        "the object `{object}` has a map of normals with tangents of its file, which cannot be exported: the \
+         plugin for Mitsuba has those of the texture coordinates; save the glTF file without tangents"
+    )]
+    Tangents {
+        /// Name of an object.
+        object: String,
     },
     /// The folder exists and holds something other than an export.
     #[error(
@@ -191,6 +200,21 @@ pub fn leaking<'s>(scene: &'s Description, world: &World) -> Vec<&'s str> {
         .collect()
 }
 
+/// An object whose map of normals follows tangents of its file.
+fn with_tangents<'s>(scene: &'s Description, world: &World) -> Option<&'s str> {
+    let mut all = 0..world.objects.len() as u32;
+    let found = all.find(|&number| {
+        let mesh = world.geometry.mesh(world.geometry.instance(number).mesh);
+        let object = world.objects[number as usize];
+        mesh.tangents().is_some() && world.materials[object.material].has_normals()
+    });
+    found.map(|number| {
+        scene.objects[world.objects[number as usize].object]
+            .name
+            .as_str()
+    })
+}
+
 /// Writes the folder `dir` completely or not at all; an earlier export there is replaced.
 ///
 /// # Errors
@@ -211,6 +235,11 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
         return Err(ExportError::Nested {
             first: first.to_owned(),
             second: second.to_owned(),
+        });
+    }
+    if let Some(object) = with_tangents(scene, world) {
+        return Err(ExportError::Tangents {
+            object: object.to_owned(),
         });
     }
     if world.media.around_camera.innermost().is_some() {
@@ -249,9 +278,9 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
             ));
             openexr::write(&map_picture(map), &path)?;
         }
-        if let Some(map) = material.colour_map() {
-            let id = units::material_id(scene, world, number);
-            for (name, picture) in colours::pictures(&id, map) {
+        let id = units::material_id(scene, world, number);
+        for (id, map) in colours::maps(&id, material) {
+            for (name, picture) in colours::pictures(&id, &map) {
                 openexr::write(&picture, &folder.join(name))?;
             }
             save(colours::BASIS, rgb::basis_text().as_bytes())?;
@@ -267,7 +296,14 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         let spectra = surroundings::spectra(&table);
         save(&surroundings::spectra_file(light), spectra.as_bytes())?;
     }
-    for light in &scene.lights {
+    for (number, light) in scene.lights.iter().enumerate() {
+        if let Some(map) = emitter::emission(scene, world, number) {
+            let id = units::light_id(&light.name);
+            for (name, picture) in colours::pictures(&id, map) {
+                openexr::write(&picture, &folder.join(name))?;
+            }
+            save(colours::BASIS, rgb::basis_text().as_bytes())?;
+        }
         if let Light::Area { .. } = light.value
             && let Some((file, layer)) = light.value.picture()
         {

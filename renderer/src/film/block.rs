@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use super::batches::{BATCH, OpenBatches, Part, Squares, fixed, series_of, square_of_mean};
 use super::features::Words;
 use super::fixed::{LONGEST_RUN, MOST_OF_RUN, Run};
+use super::halves::{Halves, Stretch, octave_of};
 use super::moments::Moments;
 
 /// Units of what is missing in 1.
@@ -66,6 +67,7 @@ pub struct Block<'a> {
     pub(super) wide: &'a mut [i64],
     pub(super) narrow: &'a mut [i32],
     pub(super) open: &'a mut OpenBatches,
+    pub(super) halves: &'a mut Halves,
     pub(super) faults: Faults,
 }
 
@@ -87,6 +89,8 @@ impl Block<'_> {
         let words = self.words;
         let mut runs = vec![Run::default(); self.luminance.len()];
         let mut sums = vec![0; series_of(self.luminance.len())];
+        let mut stretch_sums = vec![0; self.luminance.len()];
+        let rows = (self.pixels() / self.width) as usize;
         let places = self
             .moments
             .chunks_exact_mut(self.luminance.len())
@@ -101,7 +105,12 @@ impl Block<'_> {
                 open: &mut *self.open,
                 part: Part::default(),
                 sums: &mut sums,
+                halves: &mut *self.halves,
+                stretch: Stretch::default(),
+                stretch_sums: &mut stretch_sums,
                 within: within as usize,
+                row: (within / self.width) as usize,
+                rows,
                 words,
                 wide: &mut self.wide[within as usize * words.wide..][..words.wide],
                 narrow,
@@ -114,6 +123,7 @@ impl Block<'_> {
             expose(self.x + column, self.y + row, &mut pixel);
             pixel.end_runs();
             pixel.end_part();
+            pixel.end_stretch();
             self.faults.clamped += pixel.clamped;
             self.faults.cut += pixel.cut;
             self.faults.missing = self.faults.missing.saturating_add(pixel.missing);
@@ -142,8 +152,14 @@ pub struct PixelSums<'a> {
     /// The samples of the present batch, and their sums.
     part: Part,
     sums: &'a mut [i64],
-    /// The pixel's place in the block.
+    halves: &'a mut Halves,
+    /// The samples of the present octave, and their sums.
+    stretch: Stretch,
+    stretch_sums: &'a mut [i64],
+    /// The pixel's place in the block, its row, and the number of rows.
     within: usize,
+    row: usize,
+    rows: usize,
     words: &'a Words,
     wide: &'a mut [i64],
     narrow: &'a mut [i32],
@@ -179,15 +195,28 @@ impl PixelSums<'_> {
             self.part.number = batch;
         }
         self.part.count += 1;
+        let octave = octave_of(number);
+        if octave != self.stretch.octave {
+            self.end_stretch();
+            self.stretch.octave = octave;
+        }
+        self.stretch.count += 1;
         if !finite {
             self.rejected += 1;
             return;
         }
         let shares = values.iter().zip(self.luminance);
         if let Some((luminance, channels)) = self.sums.split_first_mut() {
-            *luminance += fixed(shares.map(|(value, share)| value * share).sum());
-            for (sum, &value) in channels.iter_mut().zip(values) {
-                *sum += fixed(value);
+            let of_sample = fixed(shares.map(|(value, share)| value * share).sum());
+            *luminance += of_sample;
+            if channels.is_empty() {
+                self.stretch_sums[0] = self.stretch_sums[0].wrapping_add(of_sample);
+            }
+            let sums = channels.iter_mut().zip(&mut *self.stretch_sums);
+            for ((sum, of_stretch), &value) in sums.zip(values) {
+                let value = fixed(value);
+                *sum += value;
+                *of_stretch = of_stretch.wrapping_add(value);
             }
         }
         if ordinary {
@@ -239,5 +268,15 @@ impl PixelSums<'_> {
             self.open.add(part, self.sums, self.within, count);
         }
         self.sums.fill(0);
+    }
+
+    /// Adds the samples of the present octave to the block's halves.
+    fn end_stretch(&mut self) {
+        let stretch = std::mem::take(&mut self.stretch);
+        if stretch.count > 0 {
+            let (place, count) = ((self.within, self.row), self.rows * self.stretch_sums.len());
+            self.halves.add(stretch, self.stretch_sums, place, count);
+            self.stretch_sums.fill(0);
+        }
     }
 }

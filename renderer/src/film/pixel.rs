@@ -3,6 +3,7 @@
 use super::batches::{BATCH, OpenBatches, Squares, variance_of_mean};
 use super::features::{Coverage, Words};
 use super::moments::Moments;
+use super::variance::Series;
 
 /// Sums of one pixel.
 #[derive(Clone, Copy, Debug)]
@@ -51,38 +52,42 @@ impl Pixel<'_> {
         shares.sum()
     }
 
-    /// Variance of the mean of a channel: that of means of batches, which counts what low discrepancy
-    /// gains. Below two whole batches, and where it is too great to be stored, it is an upper bound,
-    /// that of single samples. 0 below two samples.
-    pub fn variance(&self, channel: usize) -> f64 {
-        let moments = &self.moments[channel];
-        let number = if self.squares.len() == 1 {
-            0
-        } else {
-            1 + channel
-        };
-        let scale = if number == 0 {
-            f64::from(self.luminance[0])
-        } else {
-            1.0
-        };
-        self.variance_of_batches(number, scale * moments.sum())
-            .filter(|_| scale > 0.0)
-            .map_or_else(
-                || moments.variance_of_mean(self.samples),
-                |variance| variance / (scale * scale),
-            )
+    /// Mean of a number; 0 without samples.
+    pub(super) fn mean_of(&self, series: Series) -> f64 {
+        match series {
+            Series::Luminance => self.luminance(),
+            Series::Channel(channel) => self.mean(channel),
+        }
     }
 
-    /// Variance of the mean of luminance: that of means of batches, which counts what low
-    /// discrepancy gains and how errors of channels cancel.
+    /// Variance of the mean of a number by this pixel alone: that of means of batches, which counts what
+    /// low discrepancy gains within them and, in luminance, how errors of channels cancel.
     ///
-    /// Below two whole batches, and where luminance is too great to be stored, it is an upper
-    /// bound: that of single samples, all channels' errors alike. 0 below two samples.
-    pub fn variance_of_luminance(&self) -> f64 {
-        let sum = self.luminance() * f64::from(self.samples);
-        self.variance_of_batches(0, sum)
-            .unwrap_or_else(|| self.greatest_variance_of_luminance())
+    /// Below two whole batches, and where it is too great to be stored, it is an upper bound: that of
+    /// single samples, in luminance with all channels' errors alike. 0 below two samples.
+    pub(super) fn variance(&self, series: Series) -> f64 {
+        match series {
+            Series::Luminance => {
+                let sum = self.luminance() * f64::from(self.samples);
+                self.variance_of_batches(0, sum)
+                    .unwrap_or_else(|| self.greatest_variance_of_luminance())
+            }
+            Series::Channel(channel) => {
+                let moments = &self.moments[channel];
+                let scale = series.scale(self.luminance);
+                let number = if self.squares.len() == 1 {
+                    0
+                } else {
+                    1 + channel
+                };
+                self.variance_of_batches(number, scale * moments.sum())
+                    .filter(|_| scale > 0.0)
+                    .map_or_else(
+                        || moments.variance_of_mean(self.samples),
+                        |variance| variance / (scale * scale),
+                    )
+            }
+        }
     }
 
     /// Variance of the mean of a number of which batches are kept, whose sum over all samples is

@@ -70,12 +70,18 @@ fn a_film_that_would_not_fit_is_refused_with_its_size() {
 
 #[test]
 fn a_pixel_takes_its_channels_an_error_a_count_and_its_sums() {
-    let film = Film::new(512, 512, &[1.0; 3], &SUMS).expect("a small film");
-    let bytes = 3 * 32 + (1 + 3) * 7 + 4 + 3 * 8 + 7 * 4;
+    let mut film = Film::new(512, 512, &[1.0; 3], &SUMS).expect("a small film");
+    film.expose(|block| block.expose(1, |_, _, pixel| pixel.add::<0>(0, &[1.0; 3], None)));
+    let of_halves = film
+        .halves
+        .iter()
+        .map(|halves| size_of_val(&halves.sums[..]));
+    let bytes = 3 * 32 + (1 + 3) * 7 + 3 * 3 + 4 + 3 * 8 + 7 * 4;
     assert_eq!(Film::bytes_a_pixel(3, &SUMS), bytes);
     assert_eq!(
         size_of_val(&film.moments[..])
             + size_of_val(&film.squares[..])
+            + of_halves.sum::<usize>()
             + size_of_val(&film.wide[..])
             + size_of_val(&film.narrow[..]),
         bytes * 512 * 512
@@ -234,21 +240,24 @@ fn the_errors_of_luminance_and_of_channels_are_those_of_means_of_batches() {
         (72, 14.0 / 3.0 / 4.0 * 64.0 / 72.0),
     ] {
         let film = film(count);
-        let found = film.pixel(8, 0).variance_of_luminance();
+        let found = film.pixel(8, 0).variance(Series::Luminance);
         assert!((found - expected).abs() < 1e-6, "{count}: {found}");
         for channel in 0..2 {
             let pixel = film.pixel(8, 0);
-            let found = pixel.variance(channel);
+            let found = pixel.variance(Series::Channel(channel));
             assert!((found - expected).abs() < 1e-6, "{count}: {found}");
         }
         assert!(film.pixel(8, 0).moments(0).variance_of_mean(count) > expected);
     }
     // One batch alone tells nothing: the bound by single samples, 0.25 · 12 + 0.75 · 4 by a mean.
-    let found = film(16).pixel(0, 0).variance_of_luminance();
+    let found = film(16).pixel(0, 0).variance(Series::Luminance);
     assert!((found - 36.0 / 15.0).abs() < 1e-9, "{found}");
     let film = film(16);
     let pixel = film.pixel(0, 0);
-    assert_eq!(pixel.variance(1), pixel.moments(1).variance_of_mean(16));
+    assert_eq!(
+        pixel.variance(Series::Channel(1)),
+        pixel.moments(1).variance_of_mean(16)
+    );
     // A single channel is luminance itself, but for its scale.
     let mut one = Film::new(1, 1, &[0.5], &[]).expect("a small film");
     one.expose(|block| {
@@ -259,7 +268,7 @@ fn the_errors_of_luminance_and_of_channels_are_those_of_means_of_batches() {
             }
         });
     });
-    let found = one.pixel(0, 0).variance(0);
+    let found = one.pixel(0, 0).variance(Series::Channel(0));
     assert!((found - 14.0 / 3.0 / 4.0).abs() < 1e-6, "{found}");
 }
 
@@ -269,7 +278,7 @@ fn a_pixel_whose_samples_were_all_rejected_has_no_error() {
     let film = exposed([1, 1], &numbers, |_, _, _| ([f32::NAN; 2], None));
     let pixel = film.pixel(0, 0);
     assert_eq!((pixel.samples(), pixel.luminance()), (0, 0.0));
-    assert_eq!(pixel.variance_of_luminance(), 0.0);
+    assert_eq!(pixel.variance(Series::Luminance), 0.0);
 }
 
 #[test]
@@ -280,7 +289,7 @@ fn luminance_beyond_what_is_stored_has_the_error_of_single_samples() {
     });
     let pixel = film.pixel(0, 0);
     let expected = pixel.moments(0).variance_of_mean(64);
-    let found = pixel.variance_of_luminance();
+    let found = pixel.variance(Series::Luminance);
     assert!(
         (found / expected - 1.0).abs() < 1e-9,
         "{found}, not {expected}"

@@ -174,10 +174,7 @@ impl Geometry {
             .map(slab::widened_for_culling)
             .collect();
         let (tree, leaves) = WideTree::build(&widened, 1);
-        let farthest = widened
-            .iter()
-            .map(|bounds| bounds.farthest())
-            .fold(0.0, f32::max);
+        let farthest = widened.iter().map(Bounds::farthest).fold(0.0, f32::max);
         let order = || leaves.iter().flat_map(LeafItems::as_slice);
         Ok(Self {
             meshes,
@@ -238,6 +235,25 @@ impl Geometry {
         let mesh = &self.meshes[placement.instance.mesh as usize];
         let corners = self.corners(placement, hit);
         TextureScale::at(hit, corners, mesh, placement)
+    }
+
+    /// The colour of the mesh's vertices, interpolated to a hit; white if they have none.
+    pub fn colour(&self, hit: &Hit) -> [f32; 3] {
+        let mesh = &self.meshes[self.placements[hit.instance as usize].instance.mesh as usize];
+        let colours = mesh.colours();
+        colours.map_or([1.0; 3], |colours| interpolated(mesh, hit, colours))
+    }
+
+    /// The direction in the world of the x axis of a map of normals, of any length, interpolated from
+    /// the mesh's tangents to a hit, and the sign with which the shading normal times it is the y
+    /// axis; `None` if they are not given there.
+    pub fn tangent(&self, hit: &Hit) -> Option<(Vec3, f32)> {
+        let placement = &self.placements[hit.instance as usize];
+        let mesh = &self.meshes[placement.instance.mesh as usize];
+        let [x, y, z, sign] = interpolated(mesh, hit, mesh.tangents()?);
+        let tangent = placement.instance.linear * Vec3::new(x, y, z);
+        let sign = if placement.is_mirrored { -sign } else { sign };
+        (tangent != Vec3::ZERO && sign != 0.0).then_some((tangent, sign.signum()))
     }
 
     /// How texture coordinates change along two unit directions in the plane of the surface at a hit,
@@ -364,6 +380,14 @@ fn check_boxes(boxes: &[Bounds], carriers: &[Carrier]) -> Result<(), GeometryErr
         }
     }
     Ok(())
+}
+
+/// What vertices have, interpolated to a hit.
+fn interpolated<const N: usize>(mesh: &TriangleMesh, hit: &Hit, values: &[[f32; N]]) -> [f32; N] {
+    let corners = mesh.triangles()[hit.triangle as usize];
+    let [a, b, c] = corners.map(|vertex| values[vertex as usize]);
+    let first = 1.0 - hit.b1 - hit.b2;
+    std::array::from_fn(|i| first * a[i] + hit.b1 * b[i] + hit.b2 * c[i])
 }
 
 #[cfg(test)]

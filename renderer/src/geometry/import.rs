@@ -14,6 +14,7 @@ use glam::{Vec2, Vec3};
 use leafmodel::document::source::escaped;
 use thiserror::Error;
 
+use self::polygon::Cover;
 use super::mesh::{MeshError, TriangleMesh};
 
 /// Greatest number of corners of a face.
@@ -75,6 +76,8 @@ struct RawMesh {
     fans: Vec<Range<usize>>,
     /// Free-form surfaces, which are left out.
     free_form: usize,
+    /// Number of faces that cross themselves.
+    crossing: usize,
 }
 
 impl RawMesh {
@@ -107,7 +110,9 @@ impl RawMesh {
             else {
                 continue;
             };
-            if let Some(better) = polygon::triangles(&places) {
+            let cover = polygon::cover(&places);
+            self.crossing += usize::from(cover == Cover::Nothing);
+            if let Cover::Triangles(better) = cover {
                 covered.extend(&self.triangles[taken..fan.start]);
                 let numbered = better.iter();
                 covered.extend(numbered.map(|places| places.map(|place| corners[place])));
@@ -152,7 +157,9 @@ pub fn import(bytes: &[u8], extension: &str, scale: f32) -> Result<TriangleMesh,
         *position *= scale;
     }
     let mesh = TriangleMesh::new(raw.positions, raw.normals, raw.uvs, raw.triangles)?;
-    Ok(mesh.beside_free_form(raw.free_form))
+    Ok(mesh
+        .with_crossing(raw.crossing)
+        .beside_free_form(raw.free_form))
 }
 
 #[cfg(test)]

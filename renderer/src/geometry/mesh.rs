@@ -35,8 +35,11 @@ pub struct TriangleMesh {
     positions: Vec<Vec3>,
     normals: Option<Vec<Vec3>>,
     uvs: Option<Vec<Vec2>>,
+    colours: Option<Vec<[f32; 3]>>,
+    tangents: Option<Vec<[f32; 4]>>,
     triangles: Vec<[u32; 3]>,
     dropped: DroppedFaces,
+    crossing: usize,
     bounds: Bounds,
 }
 
@@ -298,10 +301,27 @@ impl TriangleMesh {
             positions,
             normals,
             uvs,
+            colours: None,
+            tangents: None,
             triangles,
             dropped,
+            crossing: 0,
             bounds,
         })
+    }
+
+    /// The same mesh with a colour for each vertex.
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many colours as vertices.
+    #[must_use]
+    pub fn with_colours(self, colours: Vec<[f32; 3]>) -> Self {
+        assert_eq!(colours.len(), self.positions.len(), "one for each vertex");
+        Self {
+            colours: Some(colours),
+            ..self
+        }
     }
 
     /// Vertices, m. Vertices that no face uses may hold any value.
@@ -320,6 +340,17 @@ impl TriangleMesh {
         self.uvs.as_deref()
     }
 
+    /// Colours, one per vertex: factors on the colours of a material, linear sRGB in [0, 1].
+    pub fn colours(&self) -> Option<&[[f32; 3]]> {
+        self.colours.as_deref()
+    }
+
+    /// Tangents, one per vertex: the direction of a map's x axis, of any length, and the sign with which
+    /// the normal times that direction is its y axis. Zero where the texture coordinates have to do.
+    pub fn tangents(&self) -> Option<&[[f32; 4]]> {
+        self.tangents.as_deref()
+    }
+
     /// Faces as vertex numbers, counter-clockwise seen from the + side.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
@@ -334,6 +365,40 @@ impl TriangleMesh {
     /// Faces that were left out.
     pub fn dropped(&self) -> DroppedFaces {
         self.dropped
+    }
+
+    /// The same mesh with a tangent for each vertex.
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many tangents as vertices.
+    #[must_use]
+    pub fn with_tangents(self, tangents: Vec<[f32; 4]>) -> Self {
+        assert_eq!(tangents.len(), self.positions.len(), "one for each vertex");
+        Self {
+            tangents: Some(tangents),
+            ..self
+        }
+    }
+
+    /// The same mesh from a file in which so many faces cross themselves.
+    #[must_use]
+    pub(super) fn with_crossing(self, crossing: usize) -> Self {
+        Self { crossing, ..self }
+    }
+
+    /// What a user should know of its faces: those that were left out, and those that cross
+    /// themselves.
+    pub fn remarks(&self) -> Vec<String> {
+        let dropped = (self.dropped.total() > 0).then(|| self.dropped.to_string());
+        let crossing = match self.crossing {
+            0 => None,
+            1 => Some("1 face crosses itself, and is a fan of triangles".to_owned()),
+            more => Some(format!(
+                "{more} faces cross themselves, and are fans of triangles"
+            )),
+        };
+        dropped.into_iter().chain(crossing).collect()
     }
 
     /// Smallest and largest coordinates of the faces, m.
@@ -356,6 +421,14 @@ impl TriangleMesh {
                 .uvs
                 .as_ref()
                 .map_or(0, |uvs| uvs.capacity() * size_of::<Vec2>())
+            + self
+                .colours
+                .as_ref()
+                .map_or(0, |colours| colours.capacity() * size_of::<[f32; 3]>())
+            + self
+                .tangents
+                .as_ref()
+                .map_or(0, |tangents| tangents.capacity() * size_of::<[f32; 4]>())
             + self.triangles.capacity() * size_of::<[u32; 3]>()
     }
 }

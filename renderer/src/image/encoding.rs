@@ -17,6 +17,15 @@ const PQ_WHITE: f64 = 203.0;
 /// The light of a value in [0, 1].
 type Curve = Box<dyn Fn(f64) -> f64>;
 
+/// What values of a picture mean, whatever its file says of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stored {
+    /// Colours, as sRGB stores them.
+    Srgb,
+    /// Numbers from 0 to 1.
+    Numbers,
+}
+
 /// What values mean.
 pub(super) struct Encoding {
     /// Of red, green and blue; one for all three if there is only one.
@@ -28,6 +37,14 @@ impl Encoding {
     /// sRGB, which is meant where nothing is said.
     pub(super) fn srgb() -> Self {
         Self::even(from_srgb, REC709_POINTS)
+    }
+
+    /// What is meant by values that are stored so.
+    pub(super) fn of(stored: Stored) -> Self {
+        match stored {
+            Stored::Srgb => Self::srgb(),
+            Stored::Numbers => Self::even(|value| value, REC709_POINTS),
+        }
     }
 
     /// One curve for all channels, and primaries.

@@ -9,7 +9,7 @@ use image::{
     DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageFormat, ImageReader, Limits,
 };
 
-use super::encoding::Encoding;
+use super::encoding::{Encoding, Stored};
 use super::pixels::{Depth, Pixels};
 use super::{ImageError, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, check_size};
 
@@ -85,15 +85,14 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     Ok(encoding.linear(&pixels.into_rgb16()))
 }
 
-/// As [`decode`], of values that are sRGB whatever the file says of them, unturned: what formats
-/// mean that carry pictures and say so.
+/// As [`decode`], of values whose meaning the format lays down that carries the picture, unturned.
 ///
 /// # Errors
 ///
 /// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`].
-pub fn decode_as_srgb(bytes: &[u8]) -> Result<Picture, ImageError> {
+pub fn decode_as(bytes: &[u8], stored: Stored) -> Result<Picture, ImageError> {
     let (pixels, _, _) = decode_stored(bytes)?;
-    Ok(Encoding::srgb().linear(&pixels.into_rgb16()))
+    Ok(Encoding::of(stored).linear(&pixels.into_rgb16()))
 }
 
 /// Pixels as stored, how they have to be turned to be upright, and the profile of their colours.

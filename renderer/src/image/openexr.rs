@@ -245,7 +245,16 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
 ///
 /// As [`read()`], and [`ImageError::TooLarge`] beyond [`MOST_TEXTURE_BYTES`].
 pub fn read_texture(path: &Path) -> Result<Picture, ImageError> {
-    super::read_file(path, |bytes| decode_within(bytes, MOST_TEXTURE_BYTES))
+    read_within(path, MOST_TEXTURE_BYTES)
+}
+
+/// Reads an `OpenEXR` file whose pixels take no more than so many bytes of memory, as [`read()`].
+///
+/// # Errors
+///
+/// As [`read()`].
+pub fn read_within(path: &Path, most: u64) -> Result<Picture, ImageError> {
+    super::read_file(path, |bytes| decode_within(bytes, most.min(MOST_BYTES)))
 }
 
 /// Reads the bytes of an `OpenEXR` file: its display window, all channels as `f32` (16-bit floats

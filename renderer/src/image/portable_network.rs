@@ -7,7 +7,7 @@ use image::codecs::png::PngEncoder;
 use image::metadata::Orientation;
 use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Limits};
 
-use super::encoding::Encoding;
+use super::encoding::{Encoding, Stored};
 use super::pixels::{Depth, Pixels};
 use super::tone::from_srgb;
 use super::{
@@ -147,15 +147,14 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     Ok(encoding(bytes)?.linear(&pixels))
 }
 
-/// As [`decode`], of values that are sRGB whatever the file says of them, unturned: what formats
-/// mean that carry pictures and say so.
+/// As [`decode`], of values whose meaning the format lays down that carries the picture, unturned.
 ///
 /// # Errors
 ///
 /// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`].
-pub fn decode_as_srgb(bytes: &[u8]) -> Result<Picture, ImageError> {
-    let (stored, _) = decode_unturned(bytes, 3)?;
-    Ok(Encoding::srgb().linear(&stored.into_rgb16()))
+pub fn decode_as(bytes: &[u8], stored: Stored) -> Result<Picture, ImageError> {
+    let (pixels, _) = decode_unturned(bytes, 3)?;
+    Ok(Encoding::of(stored).linear(&pixels.into_rgb16()))
 }
 
 /// What a file says of its values.
@@ -396,7 +395,7 @@ mod tests {
             points(&bytes)
         );
         assert_eq!(
-            decode_as_srgb(&bytes)
+            decode_as(&bytes, Stored::Srgb)
                 .expect("a valid file")
                 .attribute("chromaticities"),
             Some(&super::super::REC709)
@@ -412,7 +411,7 @@ mod tests {
         assert_eq!((picture.width, picture.height), (1, 2));
         // Its left is above.
         assert_eq!(picture.layer("R").expect("colours").data, [1.0, 0.0]);
-        let unturned = decode_as_srgb(&bytes).expect("a valid file");
+        let unturned = decode_as(&bytes, Stored::Srgb).expect("a valid file");
         assert_eq!((unturned.width, unturned.height), (2, 1));
     }
 

@@ -74,6 +74,13 @@ fn developed(
     };
     match layer.source {
         Source::Radiance(of) => film.map(|pixel| of(pixel, channel) as f32),
+        Source::Variance(series) => {
+            let variances = film.variance(series(channel));
+            variances
+                .into_iter()
+                .map(|variance| variance as f32)
+                .collect()
+        }
         Source::Pixel(of) => film.map(|pixel| of(pixel) as f32),
         Source::Feature {
             quantity,

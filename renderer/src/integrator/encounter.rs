@@ -1,6 +1,6 @@
 //! The point where a ray meets a surface, and how light is scattered there.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::bsdf::Bsdf;
 use crate::geometry::frame::Frame;
@@ -26,8 +26,22 @@ pub struct Encounter<'m, const N: usize> {
     pub wo: Vec3,
     /// Width of the ray there, m.
     pub width: f32,
-    /// Whether the material has a relief.
+    /// Whether the material has a relief or a map of normals.
     pub has_relief: bool,
+}
+
+/// The axes of a map of normals in the frame of a BSDF: those of the mesh's tangents, or else those
+/// along which u and v grow.
+fn map_axes(geometry: &Geometry, hit: &Hit, frame: &Frame) -> [Vec2; 2] {
+    let given = geometry.tangent(hit).and_then(|(tangent, sign)| {
+        let x = frame.to_local(tangent).truncate().try_normalize()?;
+        Some([x, x.perp() * sign])
+    });
+    given.unwrap_or_else(|| {
+        let scale = geometry.texture_scale(hit);
+        let is_mirrored = scale.is_some_and(|scale| scale.is_mirrored);
+        [if is_mirrored { -Vec2::X } else { Vec2::X }, Vec2::Y]
+    })
 }
 
 impl<'m, const N: usize> Encounter<'m, N> {
@@ -50,7 +64,13 @@ impl<'m, const N: usize> Encounter<'m, N> {
             let footprint = cone::footprint(width, facing);
             (relief, relief.seen(surface.uv, scale, footprint))
         });
-        let site = material.site(surface.uv, wavelengths);
+        let mut site = material.site(surface.uv, wavelengths);
+        if material.is_tinted() {
+            site.tint = geometry.colour(hit);
+        }
+        if material.has_normals() {
+            site.map_axes = map_axes(geometry, hit, &frame);
+        }
         let relieved =
             relief.map(|(relief, seen)| (relief.faces(&seen), relief.grains(wavelengths)));
         // Made where it stays: a BSDF is large.
@@ -58,7 +78,7 @@ impl<'m, const N: usize> Encounter<'m, N> {
             bsdf: material.bsdf_at(&site, wavelengths),
             wo: facet::arriving(&surface, &frame, ray.direction()),
             width,
-            has_relief: relieved.is_some(),
+            has_relief: relieved.is_some() || material.has_normals(),
             frame,
             surface,
         };

@@ -11,7 +11,7 @@
 use glam::DVec3;
 
 use crate::camera::view::View;
-use crate::film::{Film, Pixel, Sum};
+use crate::film::{Film, Pixel, Series, Sum};
 use crate::image::LUMINANCE;
 use crate::image::openexr::spectral_channel_name;
 use crate::integrator::features::{Quantity, Sight};
@@ -69,7 +69,9 @@ impl Films {
 pub enum Source {
     /// The film's own channels.
     Radiance(fn(&Pixel<'_>, usize) -> f64),
-    /// What every pixel stores besides: counts, and the error of luminance.
+    /// The variance of the mean of a channel, or of luminance.
+    Variance(fn(usize) -> Series),
+    /// What every pixel counts.
     Pixel(fn(&Pixel<'_>) -> f64),
     /// Its own features, one per channel; 0 where nothing is covered.
     Feature {
@@ -106,15 +108,15 @@ pub const LAYERS: &[FilmLayer] = &[
         name: "variance",
         channels: Channels::OfFilm,
         films: Films::All,
-        source: Source::Radiance(variance),
-        about: "variance of the mean radiance, by batches of 16 samples; of fewer than 32 samples an upper estimate, as if they were independent",
+        source: Source::Variance(Series::Channel),
+        about: "variance of the mean radiance, by batches of 16 samples and by halves; of fewer than 16 samples an upper estimate, as if they were independent",
     },
     FilmLayer {
         name: "variance",
         channels: Channels::Named(&["Y"]),
         films: Films::All,
-        source: Source::Pixel(variance_of_luminance),
-        about: "variance of the mean luminance, of bands that of their mean, by batches of 16 samples",
+        source: Source::Variance(|_| Series::Luminance),
+        about: "variance of the mean luminance, of bands that of their mean, by batches of 16 samples and by halves",
     },
     FilmLayer {
         name: "",
@@ -203,14 +205,6 @@ fn mean(pixel: &Pixel<'_>, channel: usize) -> f64 {
     pixel.mean(channel)
 }
 
-fn variance(pixel: &Pixel<'_>, channel: usize) -> f64 {
-    pixel.variance(channel)
-}
-
-fn variance_of_luminance(pixel: &Pixel<'_>) -> f64 {
-    pixel.variance_of_luminance()
-}
-
 fn alpha(pixel: &Pixel<'_>) -> f64 {
     pixel.alpha()
 }
@@ -240,7 +234,13 @@ impl FilmLayer {
             (Source::Feature { .. }, Channels::OfFilm) => {
                 panic!("a feature's channels do not depend on the film")
             }
-            (Source::Radiance(_) | Source::Pixel(_) | Source::OfPoint { .. }, _) => 0,
+            (
+                Source::Radiance(_)
+                | Source::Variance(_)
+                | Source::Pixel(_)
+                | Source::OfPoint { .. },
+                _,
+            ) => 0,
         }
     }
 
@@ -292,7 +292,10 @@ impl Layout {
     pub fn sums(self) -> Vec<Sum> {
         let of = |layer: &FilmLayer| match layer.source {
             Source::Feature { sum, .. } => vec![sum; layer.features()],
-            Source::Radiance(_) | Source::Pixel(_) | Source::OfPoint { .. } => Vec::new(),
+            Source::Radiance(_)
+            | Source::Variance(_)
+            | Source::Pixel(_)
+            | Source::OfPoint { .. } => Vec::new(),
         };
         self.layers().flat_map(of).collect()
     }

@@ -6,6 +6,7 @@ use crate::light::patch::{self, Patch};
 use crate::light::pattern::{Pattern, PlaneUv};
 use crate::light::tree::Emitter;
 use crate::light::{LightSample, Receiver};
+use crate::material::colour_map::ColourMap;
 use crate::spectrum::rgb::Primaries;
 use crate::spectrum::{Curve, Lanes, Share, Spectrum, WavelengthGrid, Wavelengths};
 
@@ -94,6 +95,11 @@ impl AreaLight {
     /// Radiance curve, W m⁻² sr⁻¹ nm⁻¹; with a pattern, where that is 1.
     pub fn radiance(&self) -> &Curve {
         self.radiance.curve()
+    }
+
+    /// The light that the materials of its model emit, if that is its pattern.
+    pub fn emission(&self) -> Option<&ColourMap> {
+        self.patterned.as_ref()?.pattern.of_model()
     }
 
     /// Mean of the pattern over the surface, linear sRGB, to be multiplied by the radiance; `None`

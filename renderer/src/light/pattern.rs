@@ -3,26 +3,43 @@
 use glam::{Vec2, Vec3};
 
 use super::texels::{Beyond, Texels};
+use crate::material::colour_map::ColourMap;
 
 /// Factor on the radiance, as linear sRGB, by the surface's texture coordinates.
 ///
 /// With `(u, v)` in [0, 1] and `r² = (2u − 1)² + (2v − 1)²`, the factor is `edge^(r²)`: 1 in the
 /// middle of the square, `edge` in the middle of each of its edges, `edge²` in its corners. That is
-/// the bell of one lamp behind the cloth of a soft box. A picture multiplies it.
+/// the bell of one lamp behind the cloth of a soft box. Colours multiply it.
 #[derive(Clone, Debug)]
 pub struct Pattern {
     /// Logarithm of the edge's share of the middle, ≤ 0.
     ln_edge: f32,
-    picture: Option<Texels>,
+    colours: Option<Colours>,
+}
+
+/// Colours over texture coordinates.
+#[derive(Clone, Debug)]
+pub enum Colours {
+    /// A picture whose upper border is v = 1.
+    Picture(Texels),
+    /// What the materials of a model emit.
+    Model(ColourMap),
 }
 
 impl Pattern {
-    /// A pattern from the edge's share of the radiance in the middle, in (0, 1], and a picture
-    /// whose upper border is v = 1.
-    pub fn new(edge: f64, picture: Option<Texels>) -> Self {
+    /// A pattern from the edge's share of the radiance in the middle, in (0, 1], and colours.
+    pub fn new(edge: f64, colours: Option<Colours>) -> Self {
         Self {
             ln_edge: libm::log(edge) as f32,
-            picture,
+            colours,
+        }
+    }
+
+    /// What the materials of a model emit, if it is that.
+    pub fn of_model(&self) -> Option<&ColourMap> {
+        match self.colours.as_ref()? {
+            Colours::Model(map) => Some(map),
+            Colours::Picture(_) => None,
         }
     }
 
@@ -30,17 +47,21 @@ impl Pattern {
     pub fn at(&self, uv: Vec2) -> [f32; 3] {
         let r = 2.0 * uv - Vec2::ONE;
         let bell = libm::expf(self.ln_edge * r.length_squared());
-        let picture = self.picture.as_ref();
-        let colour = picture.map_or([1.0; 3], |picture| {
-            picture.at([uv.x, 1.0 - uv.y], Beyond::Same)
-        });
+        let colour = match &self.colours {
+            None => [1.0; 3],
+            Some(Colours::Picture(picture)) => picture.at([uv.x, 1.0 - uv.y], Beyond::Same),
+            Some(Colours::Model(map)) => map.colour(uv),
+        };
         colour.map(|value| value * bell)
     }
 
     /// Numbers that red, green and blue of the factor exceed nowhere.
     pub fn at_most(&self) -> [f32; 3] {
-        let picture = self.picture.as_ref();
-        picture.map_or([1.0; 3], Texels::greatest)
+        match &self.colours {
+            None => [1.0; 3],
+            Some(Colours::Picture(picture)) => picture.greatest(),
+            Some(Colours::Model(map)) => map.greatest(),
+        }
     }
 
     /// Mean of red, green and blue of the factor at texture coordinates, without their signs:
@@ -122,7 +143,7 @@ mod tests {
     #[test]
     fn a_picture_stands_upright_on_the_square() {
         let red_over_blue = Texels::new(vec![[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], 1);
-        let pattern = Pattern::new(1.0, Some(red_over_blue));
+        let pattern = Pattern::new(1.0, Some(Colours::Picture(red_over_blue)));
         assert_eq!(pattern.at(Vec2::new(0.3, 0.9)), [1.0, 0.0, 0.0]);
         assert_eq!(pattern.at(Vec2::new(0.3, 0.1)), [0.0, 0.0, 1.0]);
     }

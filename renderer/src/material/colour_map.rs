@@ -142,7 +142,7 @@ pub struct Slot {
     pub begins: f32,
     /// What is taken from u to have the picture's own.
     pub shift: f32,
-    /// Factor on the picture, in [0, 1].
+    /// Factor on the picture; in [0, 1] if these are reflectances.
     pub factor: [f32; 3],
     /// The picture; white without one.
     pub texture: Option<Arc<ColourTexture>>,
@@ -155,6 +155,8 @@ pub struct ColourMap {
     slots: Box<[Slot]>,
     /// How often the pictures lie along u and v in what is 1 wide.
     repeats: Vec2,
+    /// Whether colours of vertices are factors on its own.
+    is_tinted: bool,
     primaries: Primaries,
 }
 
@@ -169,8 +171,24 @@ impl ColourMap {
         Self {
             slots: slots.into(),
             repeats,
+            is_tinted: false,
             primaries: Primaries::new(Curve::Constant(1.0)),
         }
+    }
+
+    /// The same map on a mesh whose vertices have colours, which are factors on those of the map.
+    #[must_use]
+    pub fn tinted(self) -> Self {
+        Self {
+            is_tinted: true,
+            ..self
+        }
+    }
+
+    /// Whether colours of vertices are factors on its own.
+    #[inline]
+    pub fn is_tinted(&self) -> bool {
+        self.is_tinted
     }
 
     /// A map of one picture times a factor.
@@ -199,24 +217,53 @@ impl ColourMap {
         self.primaries.tabulate(grid);
     }
 
+    /// Numbers that red, green and blue exceed nowhere.
+    pub fn greatest(&self) -> [f32; 3] {
+        let mut most = [0.0_f32; 3];
+        for slot in &self.slots {
+            let texels = slot.texture.iter().flat_map(|texture| texture.texels());
+            let brightest = texels
+                .copied()
+                .reduce(|a, b| std::array::from_fn(|i| a[i].max(b[i])));
+            let brightest = brightest.unwrap_or([1.0; 3]);
+            most = std::array::from_fn(|i| most[i].max(slot.factor[i] * brightest[i]));
+        }
+        most
+    }
+
+    /// The number of the slot at texture coordinates, and those of its picture.
+    #[inline]
+    pub fn place(&self, uv: Vec2) -> (usize, Vec2) {
+        // What is before the first slot belongs to it.
+        let behind = self.slots.partition_point(|slot| slot.begins <= uv.x);
+        let number = behind.saturating_sub(1);
+        let own = Vec2::new(uv.x - self.slots[number].shift, uv.y) * self.repeats;
+        (number, own)
+    }
+
     /// Linear sRGB at texture coordinates.
     #[inline]
     pub fn colour(&self, uv: Vec2) -> [f32; 3] {
-        // What is before the first slot belongs to it.
-        let behind = self.slots.partition_point(|slot| slot.begins <= uv.x);
-        let slot = &self.slots[behind.saturating_sub(1)];
+        let (number, own) = self.place(uv);
+        let slot = &self.slots[number];
         let Some(texture) = &slot.texture else {
             return slot.factor;
         };
-        let own = Vec2::new(uv.x - slot.shift, uv.y) * self.repeats;
         let colour = texture.at(own);
         std::array::from_fn(|i| slot.factor[i] * colour[i])
     }
 
-    /// Reflectance at texture coordinates and a path's wavelengths.
+    /// Reflectance at texture coordinates and a path's wavelengths, with a factor on the colour.
     #[inline]
-    pub fn spectrum<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Lanes<N> {
-        self.primaries.spectrum(self.colour(uv), wavelengths)
+    pub fn spectrum<const N: usize>(
+        &self,
+        uv: Vec2,
+        tint: [f32; 3],
+        wavelengths: &Wavelengths<N>,
+    ) -> Lanes<N> {
+        let colour = self.colour(uv);
+        let colour = std::array::from_fn(|i| colour[i] * tint[i]);
+        self.primaries.spectrum(colour, wavelengths)
     }
 }
 

@@ -263,7 +263,10 @@ impl LeafMaterial {
             }
             (None, _) | (Some(_), LeafTissue::Held(_) | LeafTissue::Measured { .. }) => None,
         };
-        Site { uv, spreading }
+        Site {
+            spreading,
+            ..Site::of(uv)
+        }
     }
 
     /// The BSDF at a site.
@@ -304,6 +307,11 @@ impl LeafMaterial {
 pub struct Site<const N: usize> {
     /// Texture coordinates.
     pub uv: Vec2,
+    /// Factor on the colours of a map, linear sRGB.
+    pub tint: [f32; 3],
+    /// The x and the y axis of a map of normals in the frame of the BSDF, whose z axis is the shading
+    /// normal.
+    pub map_axes: [Vec2; 2],
     /// Of a leaf with a map in which light spreads, where that entered which leaves there, and the
     /// texels around.
     spreading: Option<(Entry<N>, Around)>,
@@ -314,6 +322,8 @@ impl<const N: usize> Site<N> {
     pub fn of(uv: Vec2) -> Self {
         Self {
             uv,
+            tint: [1.0; 3],
+            map_axes: [Vec2::X, Vec2::Y],
             spreading: None,
         }
     }
@@ -358,7 +368,7 @@ impl<const N: usize> Task for TissueAt<'_, N> {
     fn run<E: Sixteen>(self, _: E) -> Tissue<N> {
         let Self {
             leaf,
-            site: Site { uv, spreading },
+            site: Site { uv, spreading, .. },
             wavelengths,
         } = self;
         let ([reflectance, transmittance], through) = match &leaf.tissue {

@@ -4,8 +4,7 @@
 //! `docs/src/theory/leaf-bsdf.md` describes the model. Unlike a leaf's, its reflectance is that of
 //! the body alone, so that 0 is a black body below a coat that shines all the same.
 
-use glam::Vec2;
-
+use super::leaf::Site;
 use super::reflectance::Reflectance;
 use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue};
 use crate::spectrum::{WavelengthGrid, Wavelengths};
@@ -37,10 +36,14 @@ impl PlasticMaterial {
         self.reflectance.tabulate(grid);
     }
 
-    /// The BSDF at texture coordinates `uv`.
+    /// The BSDF at a site.
     #[inline]
-    pub fn bsdf<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> LeafBsdf<'_, N> {
-        let reflectance = self.reflectance.at(uv, wavelengths);
+    pub fn bsdf<const N: usize>(
+        &self,
+        site: &Site<N>,
+        wavelengths: &Wavelengths<N>,
+    ) -> LeafBsdf<'_, N> {
+        let reflectance = self.reflectance.at(site, wavelengths);
         LeafBsdf::new(&self.coats, Tissue::opaque(reflectance))
     }
 }

@@ -1,8 +1,7 @@
 //! The reflectance of a surface: the same everywhere, or by texture coordinates.
 
-use glam::Vec2;
-
 use super::colour_map::ColourMap;
+use super::leaf::Site;
 use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthGrid, Wavelengths};
 
 /// Share of light that a surface reflects, in [0, 1].
@@ -37,12 +36,12 @@ impl Reflectance {
         }
     }
 
-    /// Values at texture coordinates `uv` and a path's wavelengths.
+    /// Values at a site and a path's wavelengths.
     #[inline]
-    pub fn at<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Lanes<N> {
+    pub fn at<const N: usize>(&self, site: &Site<N>, wavelengths: &Wavelengths<N>) -> Lanes<N> {
         match self {
             Self::Even(spectrum) => spectrum.lanes(wavelengths),
-            Self::Picture(map) => map.spectrum(uv, wavelengths),
+            Self::Picture(map) => map.spectrum(site.uv, site.tint, wavelengths),
         }
     }
 }

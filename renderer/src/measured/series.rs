@@ -8,7 +8,8 @@
 
 use std::ops::Range;
 
-use leafmodel::document::rows::{self, Field, Guess, Rows, Separator, without_mark};
+use leafmodel::document::encoding::{Decoded, decoded};
+use leafmodel::document::rows::{self, Field, Guess, Rows, Separator};
 
 use super::columns::{Column, column, is_wavelength};
 use super::known::{Known, Overlap, ValueUnit, WavelengthUnit};
@@ -228,22 +229,20 @@ impl Series {
     }
 }
 
-/// The text of a file without the mark that programs put in front.
+/// The text of a file, in any usual encoding.
 ///
 /// # Errors
 ///
-/// A [`Fault`] if it is not UTF-8.
-pub fn text(bytes: &[u8]) -> Result<&str, Fault> {
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let byte = error.valid_up_to();
+/// A [`Fault`] if it is no text.
+pub fn text(bytes: &[u8]) -> Result<Decoded<'_>, Fault> {
+    decoded(bytes).map_err(|error| {
         if ASD_BINARY.iter().any(|start| bytes.starts_with(start)) {
             let problem = "is a binary file of an ASD";
             let help = "export it as text: in ViewSpec Pro, Process, ASCII Export";
             return Fault::of_file(problem, help);
         }
-        Fault::at(byte..byte, "is not UTF-8", "save it as UTF-8 text")
-    })?;
-    Ok(without_mark(text))
+        Fault::of_file(error.to_string(), "save it as UTF-8 text")
+    })
 }
 
 /// The spectrum of a text.

@@ -15,7 +15,7 @@ use leafmodel::optics::{Constituent, Texel};
 use crate::geometry;
 use crate::image::{ImageError, Picture, colours, openexr, portable_network};
 use crate::material::contents_texture::ContentsTexture;
-use crate::scene::model::{self, Container, Model, ModelError};
+use crate::scene::model::{self, Container, Model, ModelError, Wanted};
 
 /// Largest file that is read, bytes.
 const MOST_BYTES: u64 = 4 << 30;
@@ -408,7 +408,7 @@ fn stored(
 }
 
 /// The model of a glTF file; `beside` are the files that it names, as written there and where they
-/// are. Its pictures are read only if `colours` are asked for.
+/// are. Only what is `wanted` of its pictures is read.
 ///
 /// # Errors
 ///
@@ -417,7 +417,7 @@ pub fn model(
     file: &Path,
     beside: &[(String, PathBuf)],
     scale: f64,
-    colours: bool,
+    wanted: Wanted,
 ) -> Result<Model, AssetError> {
     let bytes = read(file)?;
     let others = beside.iter();
@@ -425,7 +425,7 @@ pub fn model(
     let others = others.collect::<Result<BTreeMap<_, _>, AssetError>>()?;
     let bytes_of = |name: &str| others.get(&name.to_owned()).map(Vec::as_slice);
     let model = Container::open(&bytes)
-        .and_then(|container| model::read(&container, &bytes_of, scale, colours));
+        .and_then(|container| model::read(&container, &bytes_of, scale, wanted));
     model.map_err(|source| AssetError::Model {
         file: file.to_owned(),
         source,
@@ -472,14 +472,13 @@ impl Assets for Decoder {
         let extension = file.extension().and_then(|ending| ending.to_str());
         let mesh = geometry::import(&bytes, extension.unwrap_or(""), scale as f32)
             .map_err(|error| (error.to_string(), "save the mesh anew as PLY or OBJ"))?;
-        let dropped = mesh.dropped();
         Ok(Triangles {
             positions: mesh.positions().iter().map(|p| p.as_dvec3()).collect(),
             faces: mesh.triangles().to_vec(),
             normals: mesh
                 .normals()
                 .map(|normals| normals.iter().map(|normal| normal.as_dvec3()).collect()),
-            dropped: (dropped.total() > 0).then(|| dropped.to_string()),
+            dropped: Some(mesh.remarks().join("; ")).filter(|remarks| !remarks.is_empty()),
         })
     }
 }

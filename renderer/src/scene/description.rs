@@ -20,6 +20,8 @@ use leafmodel::leaf::LeafPlan;
 use leafmodel::plant::PlantPlan;
 use leafmodel::solid::SolidPlan;
 
+use crate::scene::model::Wanted;
+
 pub use self::camera::{Camera, FocusObject};
 pub use self::instrument::{
     Amount, Canopy, DepthProfile, Detector, Estimator, ExcitationLight, FluorescenceReading, Gonio,
@@ -79,15 +81,22 @@ pub struct Description {
 }
 
 impl Description {
-    /// Whether a material takes the colours of the mesh with this number.
-    pub fn wants_colours_of(&self, mesh: usize) -> bool {
-        let mut reflectances = self
-            .materials
+    /// What is used of the mesh with this number besides its triangles.
+    pub fn wanted_of(&self, mesh: usize) -> Wanted {
+        let materials = self.materials.iter().map(|named| &named.value);
+        let of_it = materials.filter(|material| material.colours_of() == Some(mesh));
+        let emission = self
+            .lights
             .iter()
-            .filter_map(|named| named.value.reflectance());
-        reflectances.any(|reflectance| match reflectance {
-            Reflectance::OfMesh(of) => *of == mesh,
-            Reflectance::Even(_) | Reflectance::Picture { .. } => false,
+            .any(|light| light.value.emission_of(&self.objects) == Some(mesh));
+        let nothing = Wanted {
+            emission,
+            ..Wanted::default()
+        };
+        of_it.fold(nothing, |wanted, material| Wanted {
+            colours: true,
+            finishes: wanted.finishes || matches!(material, Material::Model { .. }),
+            emission,
         })
     }
 

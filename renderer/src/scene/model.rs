@@ -1,9 +1,9 @@
-//! Models from glTF 2.0 files (\[gltf2022\]): a mesh, and the base colours of its materials.
+//! Models from glTF 2.0 files (\[gltf2022\]): a mesh, and what its materials say of its surface.
 //!
 //! - **In**: the bytes of a `.gltf` or `.glb` file and of the files that it names; they are not
 //!   trusted.
-//! - **Out**: all triangles of the file's scene as one mesh, in metres with +z up, and the colours
-//!   over its texture coordinates; the names of what was left out.
+//! - **Out**: all triangles of the file's scene as one mesh, in metres with +z up, the colours over its
+//!   texture coordinates, and roughness, metal and normals; the names of what was left out.
 //! - **Always true**: nothing is allocated for counts that the file's bytes cannot hold; every index
 //!   is checked.
 //! - **Left out**: sparse accessors, and all that [`Model::left_out`] may name.
@@ -13,12 +13,11 @@
 //! the mesh are moved there: so one mesh has one map of colours.
 
 mod accessors;
-mod base_colours;
 mod container;
 mod cut_out;
 mod left_out;
 mod masks;
-mod painted;
+mod parts;
 mod pictures;
 mod surfaces;
 mod textures;
@@ -29,9 +28,11 @@ mod tests;
 use leafmodel::document::source::escaped;
 use thiserror::Error;
 
+use self::pictures::Pictures;
 use crate::geometry::{MeshError, TriangleMesh};
 use crate::image::ImageError;
 use crate::material::colour_map::ColourMap;
+use crate::material::model::Finish;
 
 pub use container::{Container, FileKind};
 
@@ -94,13 +95,37 @@ fn shown(text: &str) -> String {
     format!("\"{}\"", escaped(text, MOST))
 }
 
-/// A mesh and its colours.
+/// What a scene uses of a model besides its triangles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wanted {
+    /// The base colours.
+    pub colours: bool,
+    /// Roughness, metal and normals, with the colours.
+    pub finishes: bool,
+    /// Emitted light.
+    pub emission: bool,
+}
+
+impl Wanted {
+    /// All that is read.
+    pub const ALL: Self = Self {
+        colours: true,
+        finishes: true,
+        emission: true,
+    };
+}
+
+/// A mesh and its surface.
 #[derive(Clone, Debug)]
 pub struct Model {
     /// All triangles, m, +z up.
     pub mesh: TriangleMesh,
-    /// The base colours, if they were asked for.
+    /// The base colours, if they are wanted.
     pub colours: Option<ColourMap>,
+    /// For each slot of the colours what their material says besides, if it is wanted.
+    pub finishes: Option<Vec<Finish>>,
+    /// The light that it emits, in units of what an emission of 1 stands for, if it is wanted.
+    pub emission: Option<ColourMap>,
     /// What the file has and this lacks, in words.
     pub left_out: Vec<String>,
 }
@@ -109,7 +134,7 @@ pub struct Model {
 pub type Files<'a> = &'a dyn Fn(&str) -> Option<&'a [u8]>;
 
 /// Reads a model; `scale` is metres per unit of the file. `files` gives the bytes of each of
-/// [`Container::files`]. Pictures are decoded only if `colours` are asked for.
+/// [`Container::files`]. Only the pictures are decoded that are needed for what is `wanted`.
 ///
 /// # Errors
 ///
@@ -118,15 +143,16 @@ pub fn read<'a>(
     container: &Container<'a>,
     files: Files<'a>,
     scale: f64,
-    colours: bool,
+    wanted: Wanted,
 ) -> Result<Model, ModelError> {
     let root = container.root();
     let buffers = container.buffers(files)?;
     let accessors = accessors::Accessors::new(root, &buffers);
-    let mut left_out = left_out::of_document(root);
+    let mut pictures = Pictures::new(root, &buffers, files);
+    let mut left_out = left_out::of_document(root, wanted);
     let mut patches = surfaces::patches(root, &accessors, scale, &mut left_out)?;
     let some = !patches.is_empty();
-    masks::cut_out(root, &mut patches, &buffers, files)?;
+    masks::cut_out(&pictures, &mut patches)?;
     if patches.is_empty() {
         let only = match left_out.iter().find(|what| what.contains("lines")) {
             _ if some => " that the alpha masks of its materials leave",
@@ -135,20 +161,38 @@ pub fn read<'a>(
         };
         return Err(ModelError::NoTriangles(only.to_owned()));
     }
-    if colours {
-        painted::paint(root, &mut patches, &mut left_out);
+    if !wanted.colours {
+        for patch in &mut patches {
+            patch.colours = None;
+        }
     }
-    let slots = base_colours::side_by_side(root, &mut patches, &mut left_out);
-    let colours = if colours {
-        Some(base_colours::colours(root, &slots, &buffers, files)?)
-    } else {
-        None
-    };
+    if !wanted.finishes {
+        for patch in &mut patches {
+            patch.tangents = None;
+        }
+    }
+    let parts = parts::side_by_side(&mut patches, &mut left_out);
     let mesh = surfaces::joined(patches)?;
+    let mut colours = None;
+    if wanted.colours {
+        let map = parts::colours(&parts, &mut pictures, &mut left_out)?;
+        let is_tinted = mesh.colours().is_some();
+        colours = Some(if is_tinted { map.tinted() } else { map });
+    }
+    let mut finishes = None;
+    if wanted.finishes {
+        finishes = Some(parts::finishes(&parts, &mut pictures, &mut left_out)?);
+    }
+    let mut emission = None;
+    if wanted.emission {
+        emission = Some(parts::emission(&parts, &mut pictures, &mut left_out)?);
+    }
     let left_out = left_out.into_iter().collect();
     Ok(Model {
         mesh,
         colours,
+        finishes,
+        emission,
         left_out,
     })
 }

@@ -353,6 +353,7 @@ fn hang(
         },
     });
     let pattern = (panel.edge < 1.0).then_some(AreaPattern {
+        emission: false,
         edge: panel.edge,
         picture: None,
         layer: None,

@@ -28,7 +28,7 @@ pub use self::error::WorldError;
 use self::light_colours::{brightest, check_brightness, check_white, light_colours};
 use self::lights::build_lights;
 use self::materials::{Known, build_materials};
-use self::meshes::build_mesh;
+use self::meshes::{OwnSurface, build_mesh};
 pub use self::notes::on_mesh;
 pub use self::placing::{Pieces, WorldObject, WorldObjects};
 use self::placing::{Placed, place};
@@ -43,7 +43,6 @@ use crate::image::light_colour::LightColour;
 use crate::light::Light;
 use crate::light::selection::Selections;
 use crate::material::Material;
-use crate::material::colour_map::ColourMap;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
 use crate::medium::Media;
@@ -145,12 +144,12 @@ impl World {
     /// As [`World::build`]; a cache that fails only gives a note.
     pub fn build_with(scene: &Description, options: &BuildOptions<'_>) -> Result<Self, WorldError> {
         let mut notes = Vec::new();
-        let (mut meshes, colours) = build_meshes(scene, &mut notes)?;
+        let (mut meshes, surfaces) = build_meshes(scene, &mut notes)?;
         let of_film = || WavelengthSampler::new(&scene.film.kind);
         let wavelengths = options.wavelengths.cloned().unwrap_or_else(of_film);
         let range_nm = wavelengths.range_nm();
         let mut known = Known::on(wavelengths.grid());
-        let mut materials = build_materials(scene, &colours, &mut known, &mut notes)?;
+        let mut materials = build_materials(scene, &surfaces, &mut known, &mut notes)?;
         let names = scene.materials.iter().map(|named| named.name.as_str());
         notes.extend(notes::on_maps(names.zip(&materials)));
         notes.extend(notes::on_missing_uvs(scene, &meshes, &materials));
@@ -212,7 +211,7 @@ impl World {
             .map_err(WorldError::Focus)?;
         let seen = (&meshes[..], &instances[..], &objects);
         let origin = look(scene, &mut view, seen, options, &mut notes);
-        let placed = (&meshes[..], &instances[..], &first[..]);
+        let placed = (&meshes[..], &surfaces[..], &instances[..], &first[..]);
         let mut lights = all_lights(scene, placed, origin, &mut objects, &mut notes)?;
         let light_colours = colours_on_film(scene, &lights, &wavelengths, options)?;
         tabulate(&mut materials, &mut lights, wavelengths.grid());
@@ -302,10 +301,18 @@ fn tabulate(materials: &mut [Material], lights: &mut [Light], grid: &WavelengthG
     }
 }
 
+/// The meshes with the surfaces that they bring along, their instances, and the first one of each object.
+type Shining<'a> = (
+    &'a [TriangleMesh],
+    &'a [OwnSurface],
+    &'a [Instance],
+    &'a [usize],
+);
+
 /// The scene's lights; objects that emit light are told so.
 fn all_lights(
     scene: &Description,
-    (meshes, instances, first): (&[TriangleMesh], &[Instance], &[usize]),
+    (meshes, surfaces, instances, first): Shining<'_>,
     origin: DVec3,
     objects: &mut WorldObjects,
     notes: &mut Vec<String>,
@@ -319,7 +326,7 @@ fn all_lights(
         lights.extend(build_lights(
             &light.name,
             &light.value,
-            meshes,
+            (meshes, surfaces),
             instance_of,
             origin,
             notes,
@@ -328,22 +335,22 @@ fn all_lights(
     Ok(lights)
 }
 
-/// Meshes, and the colours that each brings along.
-type MeshesAndColours = (Vec<TriangleMesh>, Vec<Option<ColourMap>>);
+/// Meshes, and the surface that each brings along.
+type MeshesAndSurfaces = (Vec<TriangleMesh>, Vec<OwnSurface>);
 
 /// Reads or makes the scene's meshes; what was dropped of them is noted.
 fn build_meshes(
     scene: &Description,
     notes: &mut Vec<String>,
-) -> Result<MeshesAndColours, WorldError> {
-    let (mut meshes, mut colours) = (Vec::new(), Vec::new());
+) -> Result<MeshesAndSurfaces, WorldError> {
+    let (mut meshes, mut surfaces) = (Vec::new(), Vec::new());
     for (number, mesh) in scene.meshes.iter().enumerate() {
-        let built = build_mesh(&mesh.name, &mesh.value, scene.wants_colours_of(number))?;
+        let built = build_mesh(&mesh.name, &mesh.value, scene.wanted_of(number))?;
         notes.extend(on_mesh(&mesh.name, &built.mesh, &built.left_out));
         meshes.push(built.mesh);
-        colours.push(built.colours);
+        surfaces.push(built.surface);
     }
-    Ok((meshes, colours))
+    Ok((meshes, surfaces))
 }
 
 /// Grows the scene's leaves; each is returned with its palette of pigments.

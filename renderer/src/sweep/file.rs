@@ -9,9 +9,11 @@ use leafmodel::document::opened::Opened;
 use leafmodel::document::path::{Wanted, resolve};
 use leafmodel::document::reader::Block;
 use leafmodel::document::report::DocumentErrors;
+use leafmodel::document::rows::{Decimal, Form, Separator};
 use leafmodel::document::schema::BlockSchema;
 use leafmodel::document::source::{Place, escaped};
 use leafmodel::document::tree::{Entry, Node, Table, Value};
+use leafmodel::document::value_kind::{Kind, Word};
 use leafmodel::document::values::{integer_at, number_at, text_at, wrong_type};
 use leafmodel::document::write::value_to_toml;
 
@@ -97,11 +99,18 @@ impl Draft {
             && let Some((written, at)) = text_at(cx, node, "rows")
         {
             let wanted = Wanted {
-                endings: &["csv"],
+                endings: &["csv", "tsv", "txt"],
                 most_bytes: rows::MOST_BYTES,
             };
             let path = resolve(cx, written, at, wanted);
-            let axis = path.and_then(|path| rows::read(cx, &path, written, at));
+            let mut form = Form::default();
+            if let Some(node) = root.node("separator") {
+                form.separator = Word(&Separator::ALL).read(cx, node, "separator");
+            }
+            if let Some(node) = root.node("decimal") {
+                form.decimal = Word(&Decimal::ALL).read(cx, node, "decimal");
+            }
+            let axis = path.and_then(|path| rows::read(cx, &path, written, at, form));
             self.axes.extend(axis);
         }
         root.finish();

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use leafmodel::document::context::{Context, QUOTED};
+use leafmodel::document::encoding::decoded;
 use leafmodel::document::error::DocumentError;
-use leafmodel::document::rows::{Field, Ragged, Row, Rows, without_mark};
+use leafmodel::document::rows::{Field, Form, Ragged, Row, Rows};
 use leafmodel::document::source::{Place, escaped};
 
 use super::{Axis, Cell, Key, MOST_TASKS, cell, impossible};
@@ -13,7 +14,13 @@ use super::{Axis, Cell, Key, MOST_TASKS, cell, impossible};
 pub(super) const MOST_BYTES: u64 = 1 << 30;
 
 /// The columns of the file at `path`, which `written` names at `at`.
-pub(super) fn read(cx: &Context, path: &Path, written: &str, at: &Place) -> Option<Axis> {
+pub(super) fn read(
+    cx: &Context,
+    path: &Path,
+    written: &str,
+    at: &Place,
+    form: Form,
+) -> Option<Axis> {
     let bad = |problem: String, help: &str| {
         let error = DocumentError::BadFile {
             path: escaped(written, QUOTED),
@@ -22,17 +29,16 @@ pub(super) fn read(cx: &Context, path: &Path, written: &str, at: &Place) -> Opti
         };
         cx.error(at, error);
     };
-    let text = match std::fs::read_to_string(path) {
-        Ok(text) => text,
-        Err(error) => {
-            bad(format!("cannot be read: {error}"), "save it as UTF-8 text");
-            return None;
-        }
-    };
+    let bytes = std::fs::read(path)
+        .map_err(|error| bad(format!("cannot be read: {error}"), "make it readable"))
+        .ok()?;
+    let decoded = decoded(&bytes)
+        .map_err(|error| bad(error.to_string(), "save it as UTF-8 text"))
+        .ok()?;
     let errors = cx.error_count();
-    let text = without_mark(&text);
+    let text = &*decoded.text;
     let source = cx.sources.borrow_mut().add(escaped(written, QUOTED), text);
-    let table = Rows::of(text);
+    let table = Rows::written(text, form);
     let good = |row: Result<Row, Ragged>| {
         let ragged = row.map(|row| row.fields);
         ragged
@@ -49,7 +55,7 @@ pub(super) fn read(cx: &Context, path: &Path, written: &str, at: &Place) -> Opti
     // One more than may be, which the sweep refuses.
     let rows = records
         .take(MOST_TASKS + 1)
-        .filter_map(|fields| row(cx, source, &keys, fields))
+        .filter_map(|fields| row(cx, source, &keys, fields, &table))
         .collect();
     let axis = Axis { keys, rows };
     if axis.rows.is_empty() && cx.error_count() == errors {
@@ -57,6 +63,14 @@ pub(super) fn read(cx: &Context, path: &Path, written: &str, at: &Place) -> Opti
             "has no rows".to_owned(),
             "write keys into its first line, and values into a line for each task",
         );
+    }
+    for guess in decoded.guess().into_iter().chain(table.guesses()) {
+        let message = format!("\"{}\": {}", escaped(written, QUOTED), guess.what);
+        let help = guess.key();
+        let help = help
+            .as_deref()
+            .unwrap_or("save it as UTF-8 if that is wrong");
+        cx.warn(at, "sweep::table", message, help);
     }
     (cx.error_count() == errors).then_some(axis)
 }
@@ -73,9 +87,24 @@ fn header(cx: &Context, source: usize, names: Vec<Field>) -> Vec<Key> {
     keys.collect()
 }
 
-fn row(cx: &Context, source: usize, keys: &[Key], fields: Vec<Field>) -> Option<Vec<Cell>> {
+fn row(
+    cx: &Context,
+    source: usize,
+    keys: &[Key],
+    fields: Vec<Field>,
+    table: &Rows<'_>,
+) -> Option<Vec<Cell>> {
     let cells = fields.into_iter().zip(keys);
     cells
-        .map(|(field, key)| cell(cx, &key.path, &field.text, field.at(source)))
+        .map(|(field, key)| {
+            let at = field.at(source);
+            let has_comma = field.text.contains(',') && table.is_number(&field.text);
+            let text = if has_comma {
+                field.text.replace(',', ".")
+            } else {
+                field.text
+            };
+            cell(cx, &key.path, &text, at)
+        })
         .collect()
 }

@@ -25,6 +25,23 @@ fn good(text: &str, rows: &str) -> Sweep {
     of(&text, rows).unwrap_or_else(|report| panic!("{report}"))
 }
 
+#[test]
+fn rows_with_decimal_commas_set_numbers_and_a_note_names_the_key() {
+    let table = "a;b\n0,5;red\n1;1,5\n";
+    let sweep = good("rows = \"rows.csv\"\n", table);
+    assert_eq!(all(&sweep), ["a=0.5 b=red", "a=1 b=1.5"]);
+    let [note] = sweep.notes.as_slice() else {
+        panic!("{:?}", sweep.notes);
+    };
+    assert!(note.contains("write `decimal = \"point\"`"), "{note}");
+    let known = good(
+        "rows = \"rows.csv\"\nseparator = \"semicolon\"\ndecimal = \"point\"\n",
+        table,
+    );
+    assert_eq!(all(&known), ["a=0,5 b=red", "a=1 b=1,5"]);
+    assert_eq!(known.notes, [""; 0]);
+}
+
 /// The settings of all tasks, one line each, a seed behind them.
 fn all(sweep: &Sweep) -> Vec<String> {
     let line = |number| {

@@ -90,11 +90,18 @@ impl Separator {
     /// What separates the fields of a text: the first that gives its first lines as many fields
     /// each, or else the one that the first line has most of.
     pub fn of(text: &str) -> Self {
+        Self::with_rival(text).0
+    }
+
+    /// What separates the fields of a text, and what might as well, if anything does: another mark
+    /// that the first line has, and all lines equally often if that is what the choice rests on. Blanks
+    /// are no rival, because they are part of names.
+    pub(super) fn with_rival(text: &str) -> (Self, Option<Self>) {
         let lines = text.split(['\n', '\r']).map(str::trim);
         let lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
         let lines: Vec<&str> = lines.take(SAMPLE).collect();
         let Some((first, rest)) = lines.split_first() else {
-            return Self::Comma;
+            return (Self::Comma, None);
         };
         let is_even = |separator: &Self| {
             let count = separator.count(first);
@@ -104,17 +111,31 @@ impl Separator {
                 && !lines.iter().any(|line| separator.leaves_numbers(line))
         };
         let all = Self::ALL.map(|(_, separator)| separator);
+        let marks = || all.into_iter().filter(|mark| *mark != Self::Blanks);
         if let Some(even) = all.into_iter().find(is_even) {
-            return even;
+            let rival = marks().find(|mark| *mark != even && is_even(mark));
+            return (even, rival);
         }
         // Blanks are often part of names. The last of equals is taken, so that the comma wins.
-        let most = all
-            .into_iter()
-            .filter(|separator| *separator != Self::Blanks);
-        let most = most.max_by_key(|separator| separator.count(first));
-        let most = most.filter(|separator| separator.count(first) > 1);
-        let blanks = (Self::Blanks.count(first) > 1 && !rest.is_empty()).then_some(Self::Blanks);
-        most.or(blanks).unwrap_or(Self::Comma)
+        let is_there = |separator: &Self| separator.count(first) > 1;
+        let most = marks().max_by_key(|separator| separator.count(first));
+        if let Some(most) = most.filter(is_there) {
+            let rival = marks().find(|mark| *mark != most && is_there(mark));
+            return (most, rival);
+        }
+        let has_blanks = is_there(&Self::Blanks) && !rest.is_empty();
+        let found = if has_blanks {
+            Self::Blanks
+        } else {
+            Self::Comma
+        };
+        (found, None)
+    }
+
+    /// Its word in flags.
+    pub(super) fn word(self) -> &'static str {
+        let known = Self::ALL.iter().find(|(_, separator)| *separator == self);
+        known.map_or("", |(word, _)| word)
     }
 }
 

@@ -127,6 +127,37 @@ fn a_known_separator_counts_more_than_the_looks_of_the_text() {
 }
 
 #[test]
+fn what_may_separate_as_well_is_a_guess_and_the_usual_table_has_none() {
+    let said = |text: &str| {
+        let rows = Rows::of(text);
+        let all: Vec<Row> = rows.of_any_length().collect();
+        let fields = all.iter().flat_map(|row| &row.fields);
+        for field in fields {
+            let _ = rows.number(field);
+        }
+        let guesses = rows.guesses().into_iter();
+        guesses.map(|guess| guess.to_string()).collect::<Vec<_>>()
+    };
+    let usual = [
+        "a,b\n1.5,x y\n",
+        "a, b\n1, 2\n",
+        "a;b\n1,x;2\n",
+        "a b\n1 2\n",
+        "",
+    ];
+    for text in usual {
+        assert_eq!(said(text), [""; 0], "{text}");
+    }
+    let semicolon = "each semicolon separates fields (if not, say --separator comma)";
+    assert_eq!(said("oak, red;R\nelm, white;T\n"), [semicolon]);
+    let comma = "commas in numbers are decimal marks (if not, say --decimal point)";
+    assert_eq!(said("1,5;2,5\n3,5;4,5\n"), [comma]);
+    // Lines of unlike lengths: the first one decides.
+    let tab = "each tab separates fields (if not, say --separator semicolon)";
+    assert_eq!(said("a\tb\tc;d\n1\t2\n"), [tab]);
+}
+
+#[test]
 fn rows_of_numbers_may_end_in_comments_and_have_separators_of_their_own() {
     let text = "nm,R\n400,0.1\n500; 0.2 # peak, high\n\n600\t0.3\n700 4e-1# x";
     let rows = Rows::of(text).of_numbers();

@@ -156,6 +156,41 @@ fn every_change_of_parent_saves_what_the_definition_says() {
 }
 
 #[test]
+fn cells_that_are_passed_over_would_have_kept_their_parents() {
+    for (mirrored, beta) in [(false, 0.4), (true, 0.4), (true, 1.2)] {
+        let plan = TransportPlan {
+            beta,
+            mirrored,
+            ..TransportPlan::default()
+        };
+        let [mut passing, mut forgetful] = [plan.seedling(1), plan.seedling(1)];
+        let mut passed_over = 0;
+        while passing.apply(3.0).expect("below the limit") > 0 {
+            let tree = &passing.tree;
+            let mut fresh = Optimiser::default();
+            fresh.stamps.resize(tree.nodes.len(), 0);
+            fresh.relative.resize(tree.nodes.len(), 0.0);
+            let better = (1..tree.count()).find(|&v| fresh.better_parent(tree, v).is_some());
+            assert_eq!(better, None);
+            passed_over += (1..tree.count())
+                .filter(|&v| passing.optimiser.settled.has(v))
+                .count();
+            // One that looks at every cell after each step of growth comes to the same leaf.
+            forgetful.optimiser = Optimiser::default();
+            forgetful.apply(3.0).expect("below the limit");
+            let parents = |tree: &Tree| {
+                tree.nodes
+                    .iter()
+                    .map(|node| node.parent)
+                    .collect::<Vec<_>>()
+            };
+            assert_eq!(parents(tree), parents(&forgetful.tree));
+        }
+        assert!(passed_over > 50, "{passed_over}");
+    }
+}
+
+#[test]
 fn small_leaves_cost_little_more_than_the_cheapest_of_all_systems() {
     // Six cells and the root: all choices of parents, 6⁶ including cycles.
     let plan = TransportPlan {

@@ -36,7 +36,8 @@ pub struct CompareNetworksArguments {
     #[command(flatten)]
     pub groups: Groups,
     /// A table with a row for each leaf: `file`, and where wanted `group`, `name`, `nodes`,
-    /// `outline`, `area_mm2`, `mm_per_unit`, `y_down`, `root`
+    /// `outline`, `area_mm2`, `mm_per_unit`, `y_down`, `root`, `separator`, `decimal`; --separator and
+    /// --decimal say how the table itself is written
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["networks", "group"])]
     pub table: Option<PathBuf>,
     /// How files are read; a table has its own.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use leafmodel::import::Format;
 
+use super::tables::{self, TableArguments};
 use super::{between, two_numbers};
 
 pub(super) const EXAMPLES: &str = "\
@@ -43,6 +44,9 @@ pub struct ReadingArguments {
     /// of a wide vein
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = place)]
     pub root: Option<[f64; 2]>,
+    /// How tables are written.
+    #[command(flatten)]
+    pub form: TableArguments,
     /// Fail where there is anything to warn of
     #[arg(long)]
     pub strict: bool,
@@ -50,13 +54,15 @@ pub struct ReadingArguments {
 
 impl ReadingArguments {
     /// The flags as columns of a table of leaves.
-    pub const COLUMNS: [&str; 6] = [
+    pub const COLUMNS: [&str; 8] = [
         "nodes",
         "outline",
         "area_mm2",
         "mm_per_unit",
         "y_down",
         "root",
+        "separator",
+        "decimal",
     ];
 
     /// Sets what a column says.
@@ -75,6 +81,8 @@ impl ReadingArguments {
                 self.y_down = is_down.ok_or("it must be true or false")? == 0;
             }
             "root" => self.root = Some(place(word)?),
+            "separator" => self.form.separator = Some(tables::separator(word)?),
+            "decimal" => self.form.decimal = Some(tables::decimal(word)?),
             _ => return Err(format!("it must be one of {}", Self::COLUMNS.join(", "))),
         }
         Ok(())
@@ -89,6 +97,8 @@ impl ReadingArguments {
             self.mm_per_unit.is_some(),
             self.y_down,
             self.root.is_some(),
+            false,
+            false,
         ];
         let mut columns = Self::COLUMNS.into_iter().zip(given);
         columns.find(|(_, given)| *given).map(|(column, _)| column)

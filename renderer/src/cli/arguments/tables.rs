@@ -8,12 +8,12 @@ use crate::measured::known::{AngleUnit, Known, Measure, Overlap, ValueUnit, Wave
 /// The form of a table.
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TableArguments {
-    /// What separates the fields of the table: tab, semicolon, comma or blanks; the default is found
-    /// from its first lines
-    #[arg(long, value_name = "WORD", value_parser = |text: &str| word(text, &Separator::ALL))]
+    /// What separates the fields of tables: tab, semicolon, comma or blanks; the default is found
+    /// from their first lines
+    #[arg(long, value_name = "WORD", value_parser = separator)]
     pub separator: Option<Separator>,
-    /// The decimal mark of the table: point or comma; by default a comma within a field is one
-    #[arg(long, value_name = "WORD", value_parser = |text: &str| word(text, &Decimal::ALL))]
+    /// The decimal mark of tables: point or comma; by default a comma within a field is one
+    #[arg(long, value_name = "WORD", value_parser = decimal)]
     pub decimal: Option<Decimal>,
 }
 
@@ -45,6 +45,16 @@ impl ReadingTablesArguments {
             ..Known::default()
         }
     }
+}
+
+/// What separates fields.
+pub(super) fn separator(text: &str) -> Result<Separator, String> {
+    word(text, &Separator::ALL)
+}
+
+/// The decimal mark.
+pub(super) fn decimal(text: &str) -> Result<Decimal, String> {
+    word(text, &Decimal::ALL)
 }
 
 /// The unit of values.

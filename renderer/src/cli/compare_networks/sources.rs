@@ -10,7 +10,8 @@ use leafmodel::document::source::quoted;
 use crate::cli::Failure;
 use crate::cli::arguments::{CompareNetworksArguments, ReadingArguments, file_and_leaf};
 use crate::cli::grow::is_word;
-use crate::cli::measure::{has_ending, text_of};
+use crate::cli::measure::has_ending;
+use crate::cli::texts::text_of;
 
 /// The columns of a table of leaves, besides those that say how a file is read.
 const COLUMNS: [&str; 3] = ["file", "group", "name"];
@@ -61,7 +62,7 @@ impl Sources {
                      `{column}`"
                 )));
             }
-            sources.add_table(table, arguments.reading.strict, seeds)?;
+            sources.add_table(table, &arguments.reading, seeds)?;
         } else if arguments.groups.0.is_empty() {
             let stems: Vec<String> = arguments.networks.iter().map(|given| stem(given)).collect();
             for (given, own) in arguments.networks.iter().zip(&stems) {
@@ -157,10 +158,15 @@ impl Sources {
         }
     }
 
-    fn add_table(&mut self, path: &Path, strict: bool, seeds: Option<u32>) -> Result<(), Failure> {
+    fn add_table(
+        &mut self,
+        path: &Path,
+        given: &ReadingArguments,
+        seeds: Option<u32>,
+    ) -> Result<(), Failure> {
         let shown = path.display();
         let text = text_of(path)?;
-        let table = Rows::of(&text);
+        let table = Rows::written(&text, given.form.form());
         let refused_at =
             |line: usize, problem: String| Failure::bad(format!("{shown}:{line}: {problem}"));
         let ragged = |ragged: Ragged| refused_at(ragged.line, ragged.to_string());
@@ -191,7 +197,7 @@ impl Sources {
                 (false, _) => cell("name").unwrap_or(file).to_owned(),
             };
             let mut reading = ReadingArguments {
-                strict,
+                strict: given.strict,
                 ..ReadingArguments::default()
             };
             for column in ReadingArguments::COLUMNS {
@@ -214,6 +220,9 @@ impl Sources {
             };
             let number = self.group(&group);
             self.add(number, file, &place, cell("name"), &reading, seeds);
+        }
+        for guess in table.guesses() {
+            eprintln!("note: {shown}: {guess}");
         }
         Ok(())
     }

@@ -6,6 +6,7 @@ use leafmodel::document::source::quoted;
 
 use crate::cli::Failure;
 use crate::cli::arguments::FitArguments;
+use crate::cli::texts::text_of;
 use crate::measured::Slack;
 use crate::measured::known::Known;
 use crate::measured::series::{self, Series};
@@ -45,20 +46,15 @@ fn gaps(leaf: &Leaf) -> Vec<String> {
     gaps.collect()
 }
 
-fn read(file: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(file).map_err(|error| Failure::bad(format!("{}: {error}", file.display())))
-}
-
 fn of_table(file: &Path, known: &Known) -> Result<Vec<Leaf>, Failure> {
-    let bytes = read(file)?;
-    let text = series::text(&bytes).map_err(|fault| Failure::bad(fault.shown(file, "")))?;
-    let refused = |fault: &crate::measured::Fault| Failure::bad(fault.shown(file, text));
-    let found = spectra::read(text, known).map_err(|fault| refused(&fault))?;
+    let text = text_of(file)?;
+    let refused = |fault: &crate::measured::Fault| Failure::bad(fault.shown(file, &text));
+    let found = spectra::read(&text, known).map_err(|fault| refused(&fault))?;
     for note in &found.notes {
         eprintln!("note: {note}");
     }
     for leaf in &found.leaves {
-        let checked = leaf.check(text, Slack::NOISE);
+        let checked = leaf.check(&text, Slack::NOISE);
         checked.map_err(|fault| refused(&fault))?;
     }
     Ok(found.leaves)
@@ -88,10 +84,9 @@ fn of_single_files(arguments: &FitArguments) -> Result<Leaf, Failure> {
 
 /// A spectrum in nm and shares, whose wavelengths rise.
 fn one_spectrum(file: &Path, known: &Known) -> Result<Series, Failure> {
-    let bytes = read(file)?;
-    let text = series::text(&bytes).map_err(|fault| Failure::bad(fault.shown(file, "")))?;
-    let refused = |fault: &crate::measured::Fault| Failure::bad(fault.shown(file, text));
-    let mut series = series::series(text, known).map_err(|fault| refused(&fault))?;
+    let text = text_of(file)?;
+    let refused = |fault: &crate::measured::Fault| Failure::bad(fault.shown(file, &text));
+    let mut series = series::series(&text, known).map_err(|fault| refused(&fault))?;
     series.require_rising().map_err(|fault| refused(&fault))?;
     let notes = series.to_nm_and_fractions(known);
     for note in notes.map_err(|fault| refused(&fault))? {

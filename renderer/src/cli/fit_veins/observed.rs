@@ -10,6 +10,7 @@ use serde_json::{Map, Value};
 
 use crate::cli::Failure;
 use crate::cli::arguments::FitVeinsArguments;
+use crate::cli::texts::bytes_of;
 
 /// Most bytes of a file of measures; those of a leaf have a few thousand.
 const MOST_BYTES: u64 = 1 << 24;
@@ -141,15 +142,8 @@ fn number(key: &str, value: &Value) -> Result<Option<f64>, String> {
 /// The members of the object in a JSON file.
 fn members(path: &Path) -> Result<Map<String, Value>, Failure> {
     let shown = path.display();
-    let refused = |error: std::io::Error| Failure::bad(format!("{shown}: {error}"));
-    let size = std::fs::metadata(path).map_err(refused)?.len();
-    if size > MOST_BYTES {
-        return Err(Failure::bad(format!(
-            "{shown} has {size} bytes, more than the {MOST_BYTES} that are read"
-        )));
-    }
-    let text = std::fs::read_to_string(path).map_err(refused)?;
-    let value = serde_json::from_str::<Value>(&text).map_err(|error| {
+    let bytes = bytes_of(path, MOST_BYTES)?;
+    let value = serde_json::from_slice::<Value>(&bytes).map_err(|error| {
         Failure::bad(format!(
             "{shown}:{}:{}: not JSON: {error}",
             error.line(),

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use leafmodel::document::encoding::{Decoded, decoded};
 use leafmodel::import::{self, Draft, Fault, FaultKind, Format, ImportError, Imported, Wanted};
 use leafmodel::measure::{Blade, Known};
 use leafmodel::shape::outline::Outline;
 use leafmodel::tracing::{Finding, FindingKind};
 use leafmodel::venation::network::VenationNetwork;
 
-use crate::cli::arguments::{MeasureArguments, ReadingArguments};
+use crate::cli::arguments::{MeasureArguments, ReadingArguments, TableArguments};
+use crate::cli::texts::text_of;
 use crate::cli::{Failure, trace};
 
 /// Endings of pictures, which are no networks; the first [`READ`] of them can be traced.
@@ -126,6 +126,8 @@ impl Input {
             ("--area", arguments.area.is_some()),
             ("--root", arguments.root.is_some()),
             ("--y-down", arguments.y_down),
+            ("--separator", arguments.form.separator.is_some()),
+            ("--decimal", arguments.form.decimal.is_some()),
         ];
         if let Some((flag, _)) = foreign.into_iter().find(|(_, given)| *given) {
             return Err(Failure::bad(format!(
@@ -155,10 +157,17 @@ impl Input {
                 path.display()
             )));
         }
+        if arguments.form != TableArguments::default() && format != Format::Table {
+            return Err(Failure::bad(format!(
+                "{}: --separator and --decimal go with a table, a csv or tsv",
+                path.display()
+            )));
+        }
         let nodes = arguments.nodes.as_deref().map(text_of).transpose()?;
         let text = text_of(path)?;
         let told = |error: ImportError| Failure::bad(format!("{}: {error}", path.display()));
-        let draft = import::read(format, &text, nodes.as_deref()).map_err(told)?;
+        let form = arguments.form.form();
+        let draft = import::read_written(format, &text, nodes.as_deref(), form).map_err(told)?;
         drop((text, nodes));
         if arguments.area.is_some() && draft.has_margin() {
             return Err(Failure::bad(format!(
@@ -219,7 +228,7 @@ fn is_fault(finding: &Finding) -> bool {
         | FindingKind::Spurs { .. }
         | FindingKind::Crossings { .. }
         | FindingKind::Petiole
-        | FindingKind::BaseGuessed
+        | FindingKind::BaseGuessed { .. }
         | FindingKind::Moved { .. } => false,
     }
 }
@@ -255,18 +264,4 @@ fn margin(path: &Path, arguments: &ReadingArguments) -> Result<Outline, Failure>
             "{shown}: holds {count} margins; name a file with one"
         ))),
     }
-}
-
-/// The text of a file; a note says so if its encoding is a guess.
-pub(in crate::cli) fn text_of(path: &Path) -> Result<String, Failure> {
-    let bad = |error: &dyn std::fmt::Display| Failure::bad(format!("{}: {error}", path.display()));
-    let bytes = std::fs::read(path).map_err(|error| bad(&error))?;
-    let Decoded { text, is_guessed } = decoded(&bytes).map_err(|error| bad(&error))?;
-    if is_guessed {
-        eprintln!(
-            "note: {} is not in UTF-8; it is read as Latin-1 (Windows-1252)",
-            path.display()
-        );
-    }
-    Ok(text)
 }

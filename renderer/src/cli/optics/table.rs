@@ -10,7 +10,7 @@ use leafmodel::document::error::DocumentError;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::nearest::nearest;
 use leafmodel::document::report::DocumentErrors;
-use leafmodel::document::rows::{Field, Form, Rows, without_mark};
+use leafmodel::document::rows::{Field, Form, Rows};
 use leafmodel::document::source::{Sources, escaped};
 use leafmodel::optics::{Constituent, Contents, ProspectD};
 
@@ -18,6 +18,7 @@ use super::leaf::{self, Chosen};
 use super::warn_of_mixtures;
 use crate::cli::arguments::OpticsArguments;
 use crate::cli::places::check_outputs;
+use crate::cli::texts::text_of;
 use crate::cli::{Failure, note_output, say};
 use crate::image::atomic;
 
@@ -45,8 +46,7 @@ pub(super) fn run(arguments: &OpticsArguments, table: &Path, out: &Path) -> Resu
         }
         check_outputs(&[out], &[table.to_owned()], "the command")?;
     }
-    let bytes = std::fs::read_to_string(table);
-    let text = bytes.map_err(|error| Failure::bad(format!("{}: {error}", table.display())))?;
+    let text = text_of(table)?;
     let leaves = read(
         &leaf::choose(arguments)?,
         arguments.form.form(),
@@ -98,7 +98,6 @@ enum Column {
 fn read(chosen: &Chosen, form: Form, file: &Path, text: &str) -> Result<Leaves, DocumentErrors> {
     let shown = escaped(&file.display().to_string(), 4 * QUOTED);
     let cx = Context::new(Sources::default(), ".".into());
-    let text = without_mark(text);
     let source = cx.sources.borrow_mut().add(shown.as_str(), text);
     let rows = Rows::written(text, form);
     let mut records = rows.records().filter_map(|row| {

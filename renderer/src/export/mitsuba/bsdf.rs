@@ -19,6 +19,8 @@ const LEAF: &str = "lamina_leaf";
 const RELIEF: &str = "lamina_relief";
 /// Plugin for diffuse bodies below a coat, in `reference/`.
 const PLASTIC: &str = "lamina_plastic";
+/// Plugin for the materials of models, in `reference/`.
+const MODEL: &str = "lamina_model";
 /// Plugin for solid tissue, in `reference/`.
 const SOLID: &str = "lamina_solid";
 
@@ -35,6 +37,7 @@ pub(super) fn layered(scene: &Description) -> Option<String> {
             Material::Diffuse { .. }
             | Material::Dielectric { .. }
             | Material::Plastic { .. }
+            | Material::Model { .. }
             | Material::Solid { .. } => None,
         };
         ("materials", &material.name, faces)
@@ -67,6 +70,7 @@ pub(super) fn is_stock(material: &material::Material) -> bool {
         material::Material::Diffuse(_) => true,
         material::Material::Dielectric(dielectric) => dielectric.eta != 1.0,
         material::Material::Plastic(_)
+        | material::Material::Model(_)
         | material::Material::Leaf(_)
         | material::Material::Solid(_) => false,
     }
@@ -145,6 +149,7 @@ pub(super) fn bsdf(
             .float("eta", *eta)
             .float("alpha", *roughness)
             .holding(shared(&id, own, reflectance, spectra)),
+        Material::Model { .. } => model(&id, own),
         Material::Leaf {
             tissue,
             pigments: _,
@@ -168,6 +173,21 @@ pub(super) fn bsdf(
             optics,
         } => solid_optics(plugin(SOLID, held.extrapolates()), optics),
     }
+}
+
+/// The materials of a model.
+fn model(id: &str, own: &material::Material) -> Element {
+    let material::Material::Model(model) = own else {
+        unreachable!("it was built of one")
+    };
+    let maps = ["colours", "finish", "normals"].into_iter();
+    let maps = maps.zip(colours::maps(id, own));
+    let maps = maps.map(|(name, (id, map))| colours::texture(&id, name, Some(&map)));
+    let bsdf = Element::plugin("bsdf", MODEL).called(id).holding_all(maps);
+    let scales = model.normal_scales().enumerate();
+    scales.fold(bsdf, |bsdf, (slot, scale)| {
+        bsdf.float(&format!("normal_scale_{slot}"), f64::from(scale))
+    })
 }
 
 /// The parameter `reflectance`: a spectrum, or a texture that is written to files beside.

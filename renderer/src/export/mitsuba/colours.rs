@@ -5,6 +5,7 @@
 
 use crate::export::element::Element;
 use crate::image::{Layer, Picture};
+use crate::material::Material;
 use crate::material::colour_map::{ColourMap, Wrap};
 
 /// Path, within the export, of the spectra of red, green and blue.
@@ -27,7 +28,8 @@ pub(super) fn texture(id: &str, name: &'static str, map: Option<&ColourMap>) -> 
         .with("name", name)
         .string("basis", BASIS)
         .float("repeats_u", u)
-        .float("repeats_v", v);
+        .float("repeats_v", v)
+        .boolean("tinted", map.is_tinted());
     let slots = map.slots().iter().enumerate();
     slots.fold(texture, |texture, (number, slot)| {
         let [r, g, b] = slot.factor;
@@ -40,6 +42,24 @@ pub(super) fn texture(id: &str, name: &'static str, map: Option<&ColourMap>) -> 
         let value = format!("{begins:e} {shift:e} {r:e} {g:e} {b:e}{picture}");
         texture.string(&format!("slot_{number}"), value)
     })
+}
+
+/// The maps of colours, and of numbers stored as such, that a material has, each with its id.
+pub(super) fn maps(id: &str, material: &Material) -> Vec<(String, ColourMap)> {
+    let colours = material.colour_map().cloned();
+    let colours = colours.map(|map| (id.to_owned(), map));
+    let further = match material {
+        Material::Model(model) => {
+            let ids = ["finish", "normals"].map(|of| format!("{id}.{of}"));
+            ids.into_iter().zip(model.finish_maps()).collect()
+        }
+        Material::Diffuse(_)
+        | Material::Dielectric(_)
+        | Material::Plastic(_)
+        | Material::Leaf(_)
+        | Material::Solid(_) => Vec::new(),
+    };
+    colours.into_iter().chain(further).collect()
 }
 
 /// The pictures of a map, each with its path within the export.

@@ -5,15 +5,18 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use crate::export::element::{Element, Layout};
+use crate::light;
 use crate::light::daylight::sun::HALF_DIAMETER as SUN_HALF_DIAMETER;
-use crate::scene::description::{AreaPattern, Light, Named, Spectrum};
+use crate::material::colour_map::ColourMap;
+use crate::scene::description::{AreaPattern, Description, Light, Named, Spectrum};
 use crate::scene::world::World;
 use crate::spectrum::Curve;
 use crate::spectrum::rgb::Primaries;
 
+use super::colours;
 use super::plugin::look_at;
 use super::spectra::Spectra;
-use super::units::{UNITS_PER_METRE, weights_file};
+use super::units::{UNITS_PER_METRE, light_id, weights_file};
 
 /// Distance of suns in scene radii. Over the scene irradiance deviates from that at the centre by
 /// up to twice the inverse of this.
@@ -78,17 +81,19 @@ pub(super) fn emitter(
 /// The emitter that makes a shape emit a radiance times a factor, in the pattern of an area light.
 pub(super) fn area(
     radiance: &Spectrum,
-    pattern: Option<(&str, &AreaPattern)>,
+    pattern: Option<(&str, &AreaPattern, Option<&ColourMap>)>,
     factor: f64,
     spectra: &mut Spectra,
 ) -> Element {
     let even = spectra.element("radiance", radiance, factor);
     let radiance = match pattern {
         None => even,
-        Some((light, pattern)) => {
+        Some((light, pattern, emission)) => {
             let texture = Element::plugin("texture", "lamina_pattern").with("name", "radiance");
             let texture = texture.holding(even).float("edge_share", pattern.edge);
-            if pattern.picture.is_some() {
+            if emission.is_some() {
+                texture.holding(colours::texture(&light_id(light), "colours", emission))
+            } else if pattern.picture.is_some() {
                 texture
                     .string("picture", weights_file(light))
                     .holding_all(primaries(spectra))
@@ -100,6 +105,21 @@ pub(super) fn area(
     Element::plugin("emitter", "area")
         .holding(radiance)
         .laid_out(Layout::Level)
+}
+
+/// What the materials of a model emit that is the light with this number, if it is one.
+pub(super) fn emission<'w>(
+    scene: &Description,
+    world: &'w World,
+    number: usize,
+) -> Option<&'w ColourMap> {
+    let before = scene.lights[..number].iter();
+    let first: usize = before.map(|light| light.value.parts()).sum();
+    if let Some(light::Light::Area(area)) = world.lights.get(first) {
+        area.emission()
+    } else {
+        None
+    }
 }
 
 /// The spectra of red, green and blue under an even white of 1.

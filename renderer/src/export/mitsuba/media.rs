@@ -73,6 +73,7 @@ fn interior(material: &Material) -> Option<usize> {
         Material::Dielectric { interior, .. } => *interior,
         Material::Diffuse { .. }
         | Material::Plastic { .. }
+        | Material::Model { .. }
         | Material::Leaf { .. }
         | Material::Solid { .. } => None,
     }

@@ -2,8 +2,9 @@
 
 use crate::geometry::TriangleMesh;
 
-/// Little-endian PLY with positions (m), and normals and uv where the mesh has them; mirrored in x
-/// if `mirrored`.
+/// Little-endian PLY with positions (m), and normals, uv and colours where the mesh has them; mirrored
+/// in x if `mirrored`. Mitsuba calls the colours `vertex_tint`; it makes spectra of its own of what it takes
+/// for colours by its name.
 pub(super) fn ply(mesh: &TriangleMesh, mirrored: bool) -> Vec<u8> {
     let side = if mirrored { -1.0 } else { 1.0 };
     let mut lines = vec![
@@ -19,6 +20,9 @@ pub(super) fn ply(mesh: &TriangleMesh, mirrored: bool) -> Vec<u8> {
     }
     if mesh.uvs().is_some() {
         property(&["u", "v"]);
+    }
+    if mesh.colours().is_some() {
+        property(&["tint_0", "tint_1", "tint_2"]);
     }
     lines.push(format!("element face {}", mesh.triangles().len()));
     lines.push("property list uchar uint vertex_indices".to_owned());
@@ -38,6 +42,9 @@ pub(super) fn ply(mesh: &TriangleMesh, mirrored: bool) -> Vec<u8> {
         }
         if let Some(uvs) = mesh.uvs() {
             write(&uvs[vertex].to_array());
+        }
+        if let Some(colours) = mesh.colours() {
+            write(&colours[vertex]);
         }
     }
     for triangle in mesh.triangles() {

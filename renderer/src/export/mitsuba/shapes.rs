@@ -76,16 +76,17 @@ pub(super) fn write(
         meshes: BTreeSet::new(),
     };
     let mut shining = BTreeMap::new();
-    for light in &scene.lights {
+    for (number, light) in scene.lights.iter().enumerate() {
         if let Light::Area {
             object,
             radiance,
             pattern,
         } = &light.value
         {
+            let emission = emitter::emission(scene, world, number);
             let pattern = pattern
                 .as_ref()
-                .map(|pattern| (light.name.as_str(), pattern));
+                .map(|pattern| (light.name.as_str(), pattern, emission));
             shining.insert(*object, (radiance, pattern));
         }
     }

@@ -359,6 +359,72 @@ position_m = [0, 0, 0.1]
 }
 
 #[test]
+fn models_are_exported_with_what_their_materials_say_and_without_tangents() {
+    const BLOCKS: &str = "
+[meshes.pot.gltf]
+path = \"pot.gltf\"
+[materials.pot.gltf]
+mesh = \"pot\"
+[objects.pot]
+mesh = \"pot\"
+material = \"pot\"
+position_m = [0, 0, 0.1]
+[lights.pot.area]
+object = \"pot\"
+radiance_w_m2_sr_nm = 1
+emission = true
+";
+    // Three corners, then a tangent for each.
+    const BYTES: &str = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAACAPwAAAAAAAAAAAACAPwAAgD8AAAAAAAAAAAAAgD8AAIA/AAAAAAAAAAAAAIA/";
+    // One pixel.
+    const PNG: &str = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNoaPgPAAODAgAApfuJAAAAAElFTkSuQmCC";
+    let model = |attributes: &str, material: &str| {
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],"meshes":[{{"primitives":[{{"attributes":
+            {{"POSITION":0{attributes}}},"material":0}}]}}],"accessors":[
+            {{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}},
+            {{"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC4"}},
+            {{"bufferView":0,"componentType":5126,"count":3,"type":"VEC2"}}],
+            "bufferViews":[{{"buffer":0,"byteLength":84}}],
+            "buffers":[{{"byteLength":84,"uri":"data:;base64,{BYTES}"}}],"textures":[{{"source":0}}],
+            "images":[{{"uri":"data:image/png;base64,{PNG}"}}],"materials":[{{"emissiveFactor":[1,0.5,0],
+            "pbrMetallicRoughness":{{"roughnessFactor":0.5,"metallicFactor":0.25}}{material}}}]}}"#
+        )
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("pot.gltf");
+    fs::write(&file, model("", "")).expect("a folder");
+    let (scene, world) = scene_with(BLOCKS, folder.path());
+    let out = folder.path().join("out");
+    write(&scene, &world, &out).expect("it is written");
+    let xml = fs::read_to_string(out.join("scene.xml")).expect("scene.xml");
+    for part in [
+        "<bsdf type=\"lamina_model\" id=\"material-pot\">",
+        // Nothing is 0 of 1: base colour, roughness and metal, the surface's own normal, and light.
+        "name=\"slot_0\" value=\"-3.4028235e38 0e0 1e0 1e0 1e0\"/>",
+        "name=\"slot_0\" value=\"-3.4028235e38 0e0 1e0 5e-1 2.5e-1\"/>",
+        "name=\"slot_0\" value=\"-3.4028235e38 0e0 5e-1 5e-1 1e0\"/>",
+        "<float name=\"normal_scale_0\" value=\"1\"/>",
+        "<texture type=\"lamina_colours\" name=\"colours\">",
+        "name=\"slot_0\" value=\"-3.4028235e38 0e0 1e0 5e-1 0e0\"/>",
+    ] {
+        assert!(xml.contains(part), "{part} is not in {xml}");
+    }
+    let tangents = (
+        ",\"TANGENT\":1,\"TEXCOORD_0\":2",
+        ",\"normalTexture\":{\"index\":0}",
+    );
+    fs::write(&file, model(tangents.0, tangents.1)).expect("a folder");
+    let (scene, world) = scene_with(BLOCKS, folder.path());
+    let error = write(&scene, &world, &out).expect_err("it has tangents");
+    assert!(
+        error
+            .to_string()
+            .contains("the object `pot` has a map of normals with tangents")
+    );
+}
+
+#[test]
 fn an_earlier_export_is_replaced_and_another_folder_is_left_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     let (scene, world) = scene(folder.path());

@@ -25,7 +25,12 @@ pub(super) fn material_id(scene: &Description, world: &World, number: usize) -> 
     }
 }
 
+/// Name of a light in the export.
+pub(super) fn light_id(light: &str) -> String {
+    format!("light-{light}")
+}
+
 /// Path, within the export, of the weights of a light.
 pub(super) fn weights_file(light: &str) -> String {
-    format!("maps/light-{light}.exr")
+    format!("maps/{}.exr", light_id(light))
 }

@@ -3,7 +3,8 @@
 //! - **In**: the corners of a polygon, in space, in their order.
 //! - **Out**: triangles whose corners are those of the polygon and which cover it; every corner is
 //!   one of a triangle, so that neighbouring faces meet along whole edges.
-//! - **Left out**: polygons that cross themselves, and those without area: they stay a fan.
+//! - **Left out**: polygons that cross themselves, and those without area: they stay a fan, the former
+//!   are counted.
 //!
 //! A polygon is convex in most files, and its fan is right. Others are triangulated by Delaunay's
 //! rule in the plane in which they appear largest, along their edges.
@@ -16,9 +17,19 @@ use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 
 type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
-/// Triangles of a polygon as numbers of its corners; `None` if the fan around its first corner
-/// covers it, or nothing can.
-pub(super) fn triangles(corners: &[Vec3]) -> Option<Vec<[usize; 3]>> {
+/// The triangles of a polygon.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Cover {
+    /// The fan around its first corner covers it, or it has no area.
+    Fan,
+    /// These, as numbers of its corners.
+    Triangles(Vec<[usize; 3]>),
+    /// It crosses itself, and nothing covers it.
+    Nothing,
+}
+
+/// What covers a polygon.
+pub(super) fn cover(corners: &[Vec3]) -> Cover {
     let points: Vec<DVec3> = corners.iter().map(|corner| corner.as_dvec3()).collect();
     let from_first = |point: DVec3| point - points[0];
     let fan = points[1..].windows(2);
@@ -26,12 +37,17 @@ pub(super) fn triangles(corners: &[Vec3]) -> Option<Vec<[usize; 3]>> {
         .map(|pair| from_first(pair[0]).cross(from_first(pair[1])))
         .collect();
     let normal: DVec3 = fan.iter().sum();
-    if !normal.is_finite() || normal == DVec3::ZERO || fan.iter().all(|part| part.dot(normal) > 0.0)
-    {
-        return None;
+    let has_area = fan.iter().any(|part| *part != DVec3::ZERO);
+    if !normal.is_finite() || !has_area || fan.iter().all(|part| part.dot(normal) > 0.0) {
+        return Cover::Fan;
+    }
+    // As much of it has one side up as the other.
+    if normal == DVec3::ZERO {
+        return Cover::Nothing;
     }
     // Leaving out a coordinate rounds nothing: corners on a line stay on one.
-    let dropped = (0..3).max_by(|&a, &b| normal[a].abs().total_cmp(&normal[b].abs()))?;
+    let dropped = (0..3).max_by(|&a, &b| normal[a].abs().total_cmp(&normal[b].abs()));
+    let dropped = dropped.expect("there are three");
     let [across, up] = if normal[dropped] > 0.0 {
         [(dropped + 1) % 3, (dropped + 2) % 3]
     } else {
@@ -40,7 +56,7 @@ pub(super) fn triangles(corners: &[Vec3]) -> Option<Vec<[usize; 3]>> {
     let flat = points
         .iter()
         .map(|point| DVec2::new(point[across], point[up]));
-    inside(&flat.collect::<Vec<_>>())
+    inside(&flat.collect::<Vec<_>>()).map_or(Cover::Nothing, Cover::Triangles)
 }
 
 /// The triangles inside of a polygon of the plane, counter-clockwise; `None` if it crosses itself.
@@ -146,6 +162,15 @@ mod tests {
         twice.fold([0.0; 2], |[net, all], area| [net + area, all + area.abs()])
     }
 
+    /// The triangles of a polygon that something covers.
+    fn triangles(points: &[Vec3]) -> Vec<[usize; 3]> {
+        match cover(points) {
+            Cover::Fan => (1..points.len() - 1).map(|i| [0, i, i + 1]).collect(),
+            Cover::Triangles(triangles) => triangles,
+            Cover::Nothing => panic!("{points:?} crosses itself"),
+        }
+    }
+
     fn flat(points: &[[f32; 2]]) -> Vec<Vec3> {
         points.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect()
     }
@@ -163,8 +188,7 @@ mod tests {
         for turn in 0..6 {
             let mut points = ell.clone();
             points.rotate_left(turn);
-            let triangles =
-                triangles(&points).unwrap_or_else(|| (1..5).map(|i| [0, i, i + 1]).collect());
+            let triangles = triangles(&points);
             assert_eq!(triangles.len(), 4);
             assert_eq!(
                 areas(&points, &triangles),
@@ -183,7 +207,7 @@ mod tests {
             [1.0, 1.0],
             [-1.0, 1.0],
         ]);
-        let triangles = triangles(&points).expect("the fan has a triangle without area");
+        let triangles = triangles(&points);
         assert_eq!(areas(&points, &triangles), [4.0, 4.0]);
         assert_eq!(triangles.len(), 3);
         for corner in 0..points.len() {
@@ -197,24 +221,35 @@ mod tests {
     #[test]
     fn repeated_corners_count_once_and_a_way_to_a_hole_bounds_nothing() {
         let points = flat(&[[0.0, 0.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
-        assert_eq!(triangles(&points), Some(vec![[0, 2, 3]]));
+        assert_eq!(cover(&points), Cover::Triangles(vec![[0, 2, 3]]));
         // A square of 4 with a hole of 2, which a way from corner to corner joins.
         let outer = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [0.0, 0.0]];
         let hole = [[1.0, 1.0], [1.0, 3.0], [3.0, 3.0], [3.0, 1.0], [1.0, 1.0]];
         let points = flat(&[&outer[..], &hole[..]].concat());
-        let triangles = triangles(&points).expect("its fan covers the hole");
+        let triangles = triangles(&points);
         assert_eq!(areas(&points, &triangles), [12.0, 12.0]);
     }
 
     #[test]
-    fn what_is_convex_crosses_itself_or_has_no_area_stays_a_fan() {
-        for points in [
-            vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
-            vec![[0.0, 0.0], [3.0, 3.0], [3.0, 0.0], [0.0, 2.0]],
-            vec![[0.0, 0.0], [1.0, 1.0], [2.0, 2.0], [3.0, 3.0]],
-            vec![[0.0, 0.0], [1.0, f32::NAN], [2.0, 2.0], [3.0, 0.0]],
+    fn what_is_convex_or_has_no_area_stays_a_fan_and_nothing_covers_what_crosses_itself() {
+        for (points, expected) in [
+            ([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], Cover::Fan),
+            ([[0.0, 0.0], [1.0, 1.0], [2.0, 2.0], [3.0, 3.0]], Cover::Fan),
+            (
+                [[0.0, 0.0], [1.0, f32::NAN], [2.0, 2.0], [3.0, 0.0]],
+                Cover::Fan,
+            ),
+            (
+                [[0.0, 0.0], [3.0, 3.0], [3.0, 0.0], [0.0, 2.0]],
+                Cover::Nothing,
+            ),
+            // Both of its sides are as large.
+            (
+                [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]],
+                Cover::Nothing,
+            ),
         ] {
-            assert_eq!(triangles(&flat(&points)), None, "{points:?}");
+            assert_eq!(cover(&flat(&points)), expected, "{points:?}");
         }
     }
 
@@ -235,8 +270,7 @@ mod tests {
             };
             let mut points: Vec<Vec3> = radii.iter().enumerate().map(corner).collect();
             points.rotate_left(turn % count);
-            let triangles = triangles(&points)
-                .unwrap_or_else(|| (1..count - 1).map(|i| [0, i, i + 1]).collect());
+            let triangles = triangles(&points);
             let [net, all] = areas(&points, &triangles);
             let next = points.iter().cycle().skip(1);
             let expected: f64 = points.iter().zip(next).map(|(a, b)| {

@@ -122,6 +122,17 @@ fn an_obj_without_some_uvs_has_none_and_without_some_normals_uses_those_of_faces
 }
 
 #[test]
+fn faces_that_cross_themselves_are_counted() {
+    // The second crosses itself with as much on one side as on the other.
+    let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1.5 0\nv 2 0 0\nv 3 1 0\nv 3 0 0\nv 2 1 0\n";
+    let text = format!("{corners}f 1 2 3 4\nf 5 6 7 8\nf 2 4 6 8\nf 1 3 5 4\n");
+    let mesh = import(text.as_bytes(), "obj", 1.0).expect("a mesh with odd faces");
+    let remarks = mesh.remarks();
+    let last = remarks.last().expect("two faces are odd");
+    assert_eq!(last, "2 faces cross themselves, and are fans of triangles");
+}
+
+#[test]
 fn errors_say_where() {
     let line = |text: String, extension: &str| match import(text.as_bytes(), extension, 1.0) {
         Err(ImportError::Line { line, what }) => (line, what),

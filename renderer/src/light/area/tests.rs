@@ -1,4 +1,5 @@
 use super::*;
+use crate::light::pattern::Colours;
 use crate::light::texels::Texels;
 
 /// Unit square at z = 1 that shines downwards, with u along x and v along y.
@@ -21,7 +22,8 @@ fn uvs() -> [[Vec2; 3]; 2] {
 
 fn gels() -> Pattern {
     let picture = [[4.0, 1.0, 0.5], [0.0; 3], [1.0; 3], [0.2, 0.5, 2.0]];
-    Pattern::new(0.3, Some(Texels::new(picture.into(), 2)))
+    let picture = Texels::new(picture.into(), 2);
+    Pattern::new(0.3, Some(Colours::Picture(picture)))
 }
 
 fn wavelengths() -> Wavelengths<4> {
@@ -126,7 +128,7 @@ fn a_patch_is_chosen_by_its_share_of_the_pattern_but_never_forgotten() {
         .map(|face| face.map(Vec3::truncate))
         .collect();
     let picture = Texels::new(vec![[1.0; 3], [1.0; 3], [0.0; 3], [0.0; 3]], 1);
-    let pattern = Pattern::new(1.0, Some(picture));
+    let pattern = Pattern::new(1.0, Some(Colours::Picture(picture)));
     let light = AreaLight::with_pattern(&triangles, &uvs, Curve::Constant(1.0), pattern);
     let intensities: Vec<f32> = light
         .emitters([400.0, 700.0])

@@ -27,8 +27,9 @@ use crate::scene::description::InstancePlace;
 use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
+use leafmodel::document::rows::{Decimal, Form, Separator};
 use leafmodel::document::source::{Place, escaped};
-use leafmodel::document::value_kind::{FilePath, NamedFile};
+use leafmodel::document::value_kind::{FilePath, NamedFile, Word};
 
 /// Greatest number of wrong rows of a file that are reported one by one.
 const MOST_TOLD: usize = 20;
@@ -119,13 +120,23 @@ pub(super) fn instances(
     );
     let mut named = NamedFile::default();
     keys.needed("file", &mut named, PATH, "The file.");
+    let mut form = Form::default();
+    let about = "What separates the fields of a text, instead of a guess.";
+    keys.optional(
+        "separator",
+        &mut form.separator,
+        Word(&Separator::ALL),
+        about,
+    );
+    let about = "The decimal mark of a text, instead of a guess.";
+    keys.optional("decimal", &mut form.decimal, Word(&Decimal::ALL), about);
     let (Some(block), true) = (keys.reader(), keys.is_sound()) else {
         return;
     };
     let at = block.node("file").map_or(&block.at, |node| &node.at);
     if let (Some(shapes), Some(frame)) = (shapes, frame) {
         let table = Table::new(escaped(&named.written, 2 * QUOTED), shapes, frame);
-        let rows = read_rows(block.cx, &table, &named.file, at);
+        let rows = read_rows(block.cx, &table, &named.file, at, form);
         if let Some(rows) = rows
             && table.report(block.cx, at, &rows).is_some()
         {
@@ -134,7 +145,7 @@ pub(super) fn instances(
     }
 }
 
-fn read_rows(cx: &Context, table: &Table<'_>, file: &Path, at: &Place) -> Option<Rows> {
+fn read_rows(cx: &Context, table: &Table<'_>, file: &Path, at: &Place, form: Form) -> Option<Rows> {
     let bytes = match fs::read(file) {
         Ok(bytes) => bytes,
         Err(error) => {
@@ -153,7 +164,7 @@ fn read_rows(cx: &Context, table: &Table<'_>, file: &Path, at: &Place) -> Option
     if is_array {
         npy::read(cx, table, at, &bytes)
     } else {
-        text::read(cx, table, at, &bytes)
+        text::read(cx, table, at, &bytes, form)
     }
 }
 

@@ -8,7 +8,7 @@ use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
 use leafmodel::document::names::NameIn;
 use leafmodel::document::source::escaped;
-use leafmodel::document::value_kind::{Degrees, FilePath, NamedFile, Number, Vector};
+use leafmodel::document::value_kind::{Degrees, FilePath, Flag, NamedFile, Number, Vector};
 
 use super::camera::COORDINATES_M;
 use super::daylight::daylight;
@@ -238,7 +238,7 @@ const KINDS: [Variant<Light>; 8] = [
     },
 ];
 
-/// `edge_share` and `picture` of an area light.
+/// `edge_share`, `picture` and `emission` of an area light.
 fn area_pattern(pattern: &mut Option<AreaPattern>, keys: &mut Keys<'_>) {
     let mut edge = 1.0;
     let limits = Number(Limits::above(0.0, 1.0));
@@ -252,21 +252,28 @@ fn area_pattern(pattern: &mut Option<AreaPattern>, keys: &mut Keys<'_>) {
     let picture = picture.map(|named| named.file);
     let mut layer = None;
     super::picture_layer(&mut layer, keys);
+    let mut emission = false;
+    let about = "Whether the light that the materials of the object's glTF file emit multiplies the radiance: \
+        what an emission of RGB 1 1 1 stands for is `radiance_w_m2_sr_nm`.";
+    keys.key("emission", &mut emission, Flag, about);
+    keys.exclude("emission", "picture");
     if layer.is_some() && picture.is_none() && keys.reader().is_some() {
         let problem = "there is no picture that could have layers".to_owned();
         keys.refuse(&["layer"], problem, "write `picture` too, or leave it out");
     }
-    if picture.is_some()
+    if (picture.is_some() || emission)
         && let Some(block) = keys.reader()
     {
-        let at = block.node("picture").map_or(&block.at, |node| &node.at);
+        let key = if emission { "emission" } else { "picture" };
+        let at = block.node(key).map_or(&block.at, |node| &node.at);
         require_coverage(block.cx, at, "a picture's colour", rgb::RANGE_NM);
     }
-    if edge < 1.0 || picture.is_some() {
+    if edge < 1.0 || picture.is_some() || emission {
         *pattern = Some(AreaPattern {
             edge,
             picture,
             layer,
+            emission,
         });
     }
 }

@@ -1,4 +1,4 @@
-//! `[materials.NAME.…]`: diffuse, dielectric, plastic, leaf, solid.
+//! `[materials.NAME.…]`: diffuse, dielectric, plastic, gltf, leaf, solid.
 
 use std::path::PathBuf;
 
@@ -12,7 +12,7 @@ use leafmodel::plan_file::{self, held_contents, require_prospect};
 use super::fluorescence::fluorescence;
 use super::leaf::{DARK_LAYERS, faces, impossible};
 use super::measured::{measured, set_abaxial};
-use super::reflectance::reflectance;
+use super::reflectance::{model, reflectance};
 use super::solid::optics;
 use crate::scene::description::{
     Held, LeafFaces, LeafOptics, LeafTissue, Material, Reflectance, SolidOptics, Spectrum,
@@ -26,7 +26,7 @@ pub(super) fn material(material: &mut Material, keys: &mut Keys<'_>) {
     keys.kind(material, &KINDS);
 }
 
-const KINDS: [Variant<Material>; 5] = [
+const KINDS: [Variant<Material>; 6] = [
     Variant {
         name: "diffuse",
         about: "Lambertian.",
@@ -70,6 +70,19 @@ const KINDS: [Variant<Material>; 5] = [
         },
         is: |material| matches!(material, Material::Plastic { .. }),
         declare: plastic,
+    },
+    Variant {
+        name: "gltf",
+        about: "The materials of a mesh from a glTF file: base colour, metal, roughness, normals.",
+        // Replaced when the key is read.
+        new: || Material::Model { mesh: usize::MAX },
+        is: |material| matches!(material, Material::Model { .. }),
+        declare: |material, keys| {
+            if let Material::Model { mesh } = material {
+                let about = "Each part of that mesh has its own material.";
+                model(mesh, about, keys);
+            }
+        },
     },
     Variant {
         name: "leaf",

@@ -4,6 +4,7 @@ use leafmodel::document::coverage::require_coverage;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::reader::Block;
+use leafmodel::document::rows::{Decimal, Separator};
 use leafmodel::document::source::quoted;
 use leafmodel::document::value_kind::{FilePath, NamedFile, Text, Word};
 use leafmodel::document::values::listed;
@@ -18,6 +19,9 @@ use crate::scene::description::{LeafFaces, LeafTissue, Spectrum};
 
 /// Largest table of leaves, bytes.
 const MOST_BYTES: u64 = 64 << 20;
+/// Guesses about a table that have keys of their names.
+const KEYS: [&str; 4] = ["wavelengths", "values", "separator", "decimal"];
+
 /// The spectra of a leaf.
 #[derive(Clone, Debug)]
 pub(super) struct Measured {
@@ -91,16 +95,23 @@ fn of_table(keys: &mut Keys<'_>) -> Option<Measured> {
     keys.optional("wavelengths", &mut known.wavelengths, units, about);
     let about = "Unit of its values, instead of a guess.";
     keys.optional("values", &mut known.values, Word(&ValueUnit::ALL), about);
+    let about = "What separates its fields, instead of a guess.";
+    let separators = Word(&Separator::ALL);
+    keys.optional("separator", &mut known.form.separator, separators, about);
+    let about = "Its decimal mark, instead of a guess.";
+    let marks = Word(&Decimal::ALL);
+    keys.optional("decimal", &mut known.form.decimal, marks, about);
     let block = keys.reader().filter(|_| keys.is_sound())?;
     let at = &block.node("file")?.at;
     let bytes = bytes(block.cx, &file.file, &file.written, at)?;
-    let text = text(block.cx, &file.written, at, &bytes)?;
+    let text = &*text(block.cx, &file.written, at, &bytes)?;
     let refuse = |fault| report(block.cx, &file.written, at, text, &fault);
     let found = spectra::read(text, &known).map_err(refuse).ok()?;
-    let help =
-        "if that is wrong, write `wavelengths = \"nm\"` or `values = \"fraction\"` beside the file";
     for note in &found.notes {
-        tell(block.cx, &file.written, at, note, help);
+        let is_key = note.otherwise.is_some_and(|(key, _)| KEYS.contains(&key));
+        let help = note.key().filter(|_| is_key);
+        let help = help.unwrap_or_else(|| "change the file if that is not meant".to_owned());
+        tell(block.cx, &file.written, at, note, &help);
     }
     let leaf = chosen(block, &file.written, &found.leaves, leaf.as_deref())?;
     leaf.check(text, Slack::NONE).map_err(refuse).ok()?;

@@ -12,7 +12,7 @@ use leafmodel::document::values::listed;
 
 use super::Purpose;
 use crate::scene::description::{
-    Description, InstrumentKind, Light, Material, Mesh, Named, Object, ObjectShape, Reflectance,
+    Description, InstrumentKind, Light, Material, Mesh, Named, Object, ObjectShape,
 };
 
 /// Sections to whose blocks others refer.
@@ -97,6 +97,10 @@ fn check_white_light(scene: &Description, keys: &Keys<'_>) {
 /// An area light needs a mesh object, and an object has at most one area light.
 fn check_shining(scene: &Description, keys: &Keys<'_>) {
     let mut shining = BTreeSet::new();
+    let is_plain = |mesh: usize| {
+        let mesh = scene.meshes.get(mesh);
+        mesh.is_some_and(|mesh| !matches!(mesh.value, Mesh::Gltf { .. }))
+    };
     for light in &scene.lights {
         let Light::Area { object, .. } = light.value else {
             continue;
@@ -117,6 +121,16 @@ fn check_shining(scene: &Description, keys: &Keys<'_>) {
         } else if shape.is_some_and(|shape| is_no_surface(scene, *shape)) {
             "is the boundary of a medium, and those do not shine"
         } else if shining.insert(object) {
+            if light
+                .value
+                .emission_of(&scene.objects)
+                .is_some_and(is_plain)
+            {
+                let problem = format!("`{}` has no mesh from a glTF file", named.name);
+                let help = "leave `emission` out, or name an object with a mesh of the kind `gltf`";
+                let path = ["lights", &light.name, "area", "emission"];
+                keys.refuse(&path, problem, help);
+            }
             continue;
         } else {
             "has an area light already"
@@ -193,10 +207,7 @@ fn check_samples(scene: &Description, keys: &Keys<'_>) {
 
 /// A material that takes the colours of a mesh needs one from a glTF file, and is made for that.
 fn check_colours(scene: &Description, keys: &Keys<'_>) {
-    let taken = |material: &Named<Material>| match material.value.reflectance() {
-        Some(Reflectance::OfMesh(mesh)) => Some(*mesh),
-        Some(Reflectance::Even(_) | Reflectance::Picture { .. }) | None => None,
-    };
+    let taken = |material: &Named<Material>| material.value.colours_of();
     for material in &scene.materials {
         // An unknown name is reported where it is written.
         let Some(mesh) = taken(material).and_then(|mesh| scene.meshes.get(mesh)) else {
@@ -209,13 +220,22 @@ fn check_colours(scene: &Description, keys: &Keys<'_>) {
             );
             let kind = match material.value {
                 Material::Plastic { .. } => "plastic",
+                Material::Model { .. } => "gltf",
                 Material::Diffuse { .. }
                 | Material::Dielectric { .. }
                 | Material::Leaf { .. }
                 | Material::Solid { .. } => "diffuse",
             };
-            let help =
-                "write `reflectance` or `picture` instead, or name a mesh of the kind `gltf`";
+            let help = match material.value {
+                Material::Model { .. } => "name a mesh of the kind `gltf`",
+                Material::Plastic { .. }
+                | Material::Diffuse { .. }
+                | Material::Dielectric { .. }
+                | Material::Leaf { .. }
+                | Material::Solid { .. } => {
+                    "write `reflectance` or `picture` instead, or name a mesh of the kind `gltf`"
+                }
+            };
             keys.refuse(&["materials", &material.name, kind, "mesh"], problem, help);
         }
     }
@@ -299,6 +319,7 @@ fn warn_of_the_unused(scene: &Description, keys: &Keys<'_>) {
         Material::Dielectric { interior, .. } => interior,
         Material::Diffuse { .. }
         | Material::Plastic { .. }
+        | Material::Model { .. }
         | Material::Leaf { .. }
         | Material::Solid { .. } => None,
     });

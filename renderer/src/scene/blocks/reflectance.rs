@@ -34,14 +34,19 @@ pub(super) fn reflectance(reflectance: &mut Reflectance, about: &'static str, ke
             _ => {
                 // Replaced when the key is read.
                 let mut mesh = usize::MAX;
-                let kind = NameIn("meshes", "the name of a mesh from a glTF file");
                 let about = "The base colours of that mesh's own materials.";
-                keys.required("mesh", &mut mesh, kind, about);
-                require_colours("mesh", keys);
+                model(&mut mesh, about, keys);
                 *reflectance = Reflectance::OfMesh(mesh);
             }
         }
     }
+}
+
+/// The key `mesh`: a mesh whose file says what its surface is.
+pub(super) fn model(mesh: &mut usize, about: &'static str, keys: &mut Keys<'_>) {
+    let kind = NameIn("meshes", "the name of a mesh from a glTF file");
+    keys.required("mesh", mesh, kind, about);
+    require_colours("mesh", keys);
 }
 
 /// RGB says nothing of light that the eye does not see.

@@ -120,7 +120,7 @@ impl Sensitivities {
         };
         let file = resolve(cx, path, at, wanted)?;
         let bytes = bytes(cx, &file, path, at)?;
-        let text = text(cx, path, at, &bytes)?;
+        let text = &*text(cx, path, at, &bytes)?;
         let rows = match sensitivities::read(text) {
             Ok(rows) => rows,
             Err(fault) => {

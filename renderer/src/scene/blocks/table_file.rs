@@ -1,12 +1,13 @@
 //! Tables of spectra in files, read by [`series`]: what is wrong with one becomes a report in it.
 
+use std::borrow::Cow;
 use std::fs;
 
 use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::path::{Wanted, resolve};
 use leafmodel::document::rows::Guess;
-use leafmodel::document::source::{Place, escaped, line_of_byte};
+use leafmodel::document::source::{Place, escaped};
 
 use crate::measured::known::Known;
 use crate::measured::{Fault, What, series};
@@ -54,7 +55,7 @@ pub(super) fn bytes(
 }
 
 fn rows_of(cx: &Context, path: &str, at: &Place, bytes: &[u8], guess: bool) -> Option<Rows> {
-    let text = text(cx, path, at, bytes)?;
+    let text = &*text(cx, path, at, bytes)?;
     let known = Known::default();
     let read = series::series(text, &known).and_then(|mut found| {
         let notes = if guess {
@@ -68,8 +69,12 @@ fn rows_of(cx: &Context, path: &str, at: &Place, bytes: &[u8], guess: bool) -> O
     let (found, notes) = read
         .map_err(|fault| report(cx, path, at, text, &fault))
         .ok()?;
-    let help = "if that is wrong, write `scale` beside the file, and wavelengths in nm";
     for note in notes {
+        let help = match note.otherwise {
+            Some(("decimal", _)) => "if that is wrong, write numbers with points",
+            Some(("separator", _)) => "if that is wrong, keep one separator in the file",
+            _ => "if that is wrong, write `scale` beside the file, and wavelengths in nm",
+        };
         tell(cx, path, at, &note, help);
     }
     let name = escaped(path, 2 * QUOTED);
@@ -87,23 +92,18 @@ fn rows_of(cx: &Context, path: &str, at: &Place, bytes: &[u8], guess: bool) -> O
 }
 
 /// The text of a file, or an error at the place of its path.
-pub(super) fn text<'b>(cx: &Context, path: &str, at: &Place, bytes: &'b [u8]) -> Option<&'b str> {
-    let is_text = std::str::from_utf8(bytes);
-    match (series::text(bytes), is_text) {
-        (Ok(text), _) => Some(text),
-        // Text with a byte that is wrong; other files say what they are.
-        (Err(Fault { span: Some(_), .. }), Err(error)) => {
-            let byte = error.valid_up_to();
-            let line = line_of_byte(bytes, byte);
-            let path = escaped(path, 2 * QUOTED);
-            cx.error(at, DocumentError::NotUtf8 { path, byte, line });
-            None
-        }
-        (Err(fault), _) => {
-            report(cx, path, at, "", &fault);
-            None
-        }
+pub(super) fn text<'b>(
+    cx: &Context,
+    path: &str,
+    at: &Place,
+    bytes: &'b [u8],
+) -> Option<Cow<'b, str>> {
+    let decoded = series::text(bytes).map_err(|fault| report(cx, path, at, "", &fault));
+    let decoded = decoded.ok()?;
+    if let Some(guess) = decoded.guess() {
+        tell(cx, path, at, &guess, "");
     }
+    Some(decoded.text)
 }
 
 /// Reports a fault in its file, or at the place of the file's path.
@@ -198,7 +198,7 @@ mod tests {
         assert_eq!(read(b"nm,R\nnm,R\n", false).1, ["scene::bad_file"]);
         assert_eq!(read(b"400,0.1,3\n", false).1, ["scene::bad_file"]);
         assert_eq!(read(b"400,inf\n", false).1, ["scene::not_finite"]);
-        assert_eq!(read(b"400,\xff\n", false).1, ["scene::not_utf8"]);
+        assert_eq!(read(b"400,\0\xff\n", false).1, ["scene::bad_file"]);
         assert_eq!(read(b"as7\0\xff", false).1, ["scene::bad_file"]);
     }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 
-use super::{Daylight, Spectrum};
+use super::{Daylight, Named, Object, ObjectShape, Spectrum};
 
 /// A light.
 #[derive(Clone, Debug)]
@@ -88,6 +88,24 @@ impl Light {
         }
     }
 
+    /// The mesh whose own materials say what it emits: index into
+    /// [`Description::meshes`](super::Description::meshes).
+    pub fn emission_of(&self, objects: &[Named<Object>]) -> Option<usize> {
+        let Self::Area {
+            object,
+            pattern: Some(AreaPattern { emission: true, .. }),
+            ..
+        } = self
+        else {
+            return None;
+        };
+        // An unknown name is reported where it is written.
+        match objects.get(*object)?.value.shapes.first()? {
+            ObjectShape::Mesh { mesh, .. } => Some(*mesh),
+            ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
+        }
+    }
+
     /// The picture that it shines by, and the layer of it.
     pub fn picture(&self) -> Option<(&Path, Option<&str>)> {
         match self {
@@ -113,6 +131,8 @@ pub struct AreaPattern {
     pub picture: Option<PathBuf>,
     /// The layer of an EXR; `None` is that without a name.
     pub layer: Option<String>,
+    /// Whether the light that the mesh's own materials emit multiplies it.
+    pub emission: bool,
 }
 
 impl AreaPattern {

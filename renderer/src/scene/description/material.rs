@@ -32,6 +32,12 @@ pub enum Material {
         /// Its GGX roughness.
         roughness: f64,
     },
+    /// All that a mesh from a glTF file says of its surface: index into
+    /// [`meshes`](super::Description::meshes).
+    Model {
+        /// The mesh.
+        mesh: usize,
+    },
     /// A leaf of uniform contents or measured spectra (grown leaves bring their own maps).
     Leaf {
         /// Its tissue, which determines R and T.
@@ -66,6 +72,7 @@ impl Material {
             Self::Diffuse { .. }
             | Self::Dielectric { .. }
             | Self::Plastic { .. }
+            | Self::Model { .. }
             | Self::Leaf { .. } => None,
         }
     }
@@ -77,6 +84,7 @@ impl Material {
             Self::Dielectric { eta, interior, .. } => interior.is_some() || *eta == 1.0,
             Self::Diffuse { .. }
             | Self::Plastic { .. }
+            | Self::Model { .. }
             | Self::Leaf { .. }
             | Self::Solid { .. } => false,
         }

@@ -27,11 +27,28 @@ pub enum Reflectance {
 }
 
 impl Material {
+    /// The mesh whose own colours it has: index into [`Description::meshes`](super::Description::meshes).
+    pub fn colours_of(&self) -> Option<usize> {
+        match self {
+            Self::Model { mesh } => Some(*mesh),
+            Self::Diffuse { reflectance } | Self::Plastic { reflectance, .. } => {
+                match reflectance {
+                    Reflectance::OfMesh(mesh) => Some(*mesh),
+                    Reflectance::Even(_) | Reflectance::Picture { .. } => None,
+                }
+            }
+            Self::Dielectric { .. } | Self::Leaf { .. } | Self::Solid { .. } => None,
+        }
+    }
+
     /// Its reflectance, if it is given as such.
     pub fn reflectance(&self) -> Option<&Reflectance> {
         match self {
             Self::Diffuse { reflectance } | Self::Plastic { reflectance, .. } => Some(reflectance),
-            Self::Dielectric { .. } | Self::Leaf { .. } | Self::Solid { .. } => None,
+            Self::Dielectric { .. }
+            | Self::Model { .. }
+            | Self::Leaf { .. }
+            | Self::Solid { .. } => None,
         }
     }
 }

@@ -47,22 +47,23 @@ pub(super) struct Corner {
     pub(super) normal: Vec3,
     pub(super) uv: Vec2,
     pub(super) colour: [f32; 3],
+    pub(super) tangent: [f32; 4],
 }
 
 impl Corner {
     fn between(self, other: Self, share: f32) -> Self {
-        let colour = self.colour.iter().zip(other.colour);
-        let mut mixed = [0.0; 3];
-        for (mixed, (one, other)) in mixed.iter_mut().zip(colour) {
-            *mixed = one + share * (other - one);
-        }
         Self {
             position: self.position.lerp(other.position, share),
             normal: self.normal.lerp(other.normal, share),
             uv: self.uv.lerp(other.uv, share),
-            colour: mixed,
+            colour: mixed(self.colour, other.colour, share),
+            tangent: mixed(self.tangent, other.tangent, share),
         }
     }
+}
+
+fn mixed<const N: usize>(one: [f32; N], other: [f32; N], share: f32) -> [f32; N] {
+    std::array::from_fn(|i| one[i] + share * (other[i] - one[i]))
 }
 
 /// What becomes of a triangle.
@@ -256,6 +257,7 @@ mod tests {
             normal: Vec3::Z,
             uv: Vec2::new(x, y),
             colour: [1.0; 3],
+            tangent: [0.0; 4],
         };
         let [a, b, c, d] = [
             corner(0.0, 0.0),

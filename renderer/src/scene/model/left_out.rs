@@ -8,7 +8,7 @@ use gltf_json::mesh::Semantic;
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root};
 
-use super::shown;
+use super::{Wanted, shown};
 
 /// Most extensions that are named.
 const MOST_NAMED: usize = 10;
@@ -16,8 +16,11 @@ const MOST_NAMED: usize = 10;
 /// Extensions that are read, or change nothing of what is.
 const HARMLESS: [&str; 2] = ["KHR_texture_transform", "KHR_mesh_quantization"];
 
-/// What is left out, in words.
-pub(super) fn of_document(root: &Root) -> BTreeSet<String> {
+/// The extension by which materials emit more than 1, read with the light that they emit.
+const STRENGTH: &str = "KHR_materials_emissive_strength";
+
+/// What is left out of a document of which this is wanted, in words.
+pub(super) fn of_document(root: &Root, wanted: Wanted) -> BTreeSet<String> {
     let mut left_out = BTreeSet::new();
     let mut add = |is_there: bool, what: &str| {
         if is_there {
@@ -52,11 +55,12 @@ pub(super) fn of_document(root: &Root) -> BTreeSet<String> {
         );
     }
     for material in &root.materials {
-        of_material(material, &mut add);
+        of_material(material, wanted, &mut add);
     }
     let extensions = root.extensions_used.iter().chain(&root.extensions_required);
     let extensions = extensions.map(String::as_str);
-    let extensions: BTreeSet<&str> = extensions.filter(|name| !HARMLESS.contains(name)).collect();
+    let is_read = |name: &str| HARMLESS.contains(&name) || (name == STRENGTH && wanted.emission);
+    let extensions: BTreeSet<&str> = extensions.filter(|name| !is_read(name)).collect();
     let count = extensions.len();
     for name in extensions.into_iter().take(MOST_NAMED) {
         left_out.insert(format!("extension {}", shown(name)));
@@ -67,22 +71,32 @@ pub(super) fn of_document(root: &Root) -> BTreeSet<String> {
     left_out
 }
 
-fn of_material(material: &Material, add: &mut impl FnMut(bool, &str)) {
+fn of_material(material: &Material, wanted: Wanted, add: &mut impl FnMut(bool, &str)) {
     let colour = &material.pbr_metallic_roughness;
+    let is_plain = !wanted.finishes;
     // Pictures of roughness and metal are one; without one the factors hold.
     let is_metal = colour.metallic_factor.0 > 0.0;
     add(
-        is_metal,
-        "metal (its base colour is taken as that of paint)",
+        is_plain && is_metal,
+        "metal (its base colour is taken as that of paint; the material `gltf` uses it)",
     );
     let is_rough = colour.roughness_factor.0 == 1.0 && colour.metallic_roughness_texture.is_none();
-    add(!is_rough, "roughness (that of the scene's material holds)");
+    add(
+        is_plain && !is_rough,
+        "roughness (that of the scene's material holds; the material `gltf` uses it)",
+    );
     add(
         material.alpha_mode == Checked::Valid(AlphaMode::Blend),
         "partial transparency (alpha mode BLEND is taken as opaque)",
     );
     add(material.occlusion_texture.is_some(), "maps of occlusion");
-    add(material.normal_texture.is_some(), "maps of normals");
+    add(
+        is_plain && material.normal_texture.is_some(),
+        "maps of normals (the material `gltf` uses them)",
+    );
     let glows = material.emissive_factor.0.iter().any(|part| *part > 0.0);
-    add(glows, "emitted light");
+    add(
+        glows && !wanted.emission,
+        "emitted light (`emission = true` of an area light uses it)",
+    );
 }

@@ -1,29 +1,26 @@
 //! The alpha masks of a glTF file's materials.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
 use glam::Vec2;
-use gltf_json::Root;
 use gltf_json::material::AlphaMode;
 use gltf_json::validation::Checked;
 
+use super::ModelError;
 use super::cut_out::{Corner, Cut, MOST_OF_ONE, MOST_TRIANGLES, Mask};
-use super::pictures::picture;
+use super::pictures::Pictures;
 use super::surfaces::Patch;
-use super::textures::{source, texture};
-use super::{Files, ModelError};
+use super::textures::{Of, texture};
 use crate::image::portable_network;
 use crate::material::colour_map::{ColourTexture, Wrap};
 
 /// Cuts what the mask of its material leaves out off each part.
 pub(super) fn cut_out(
-    root: &Root,
+    pictures: &Pictures<'_, '_>,
     patches: &mut Vec<Patch>,
-    buffers: &[Cow<'_, [u8]>],
-    files: Files<'_>,
 ) -> Result<(), ModelError> {
+    let root = pictures.root;
     let mut masks: BTreeMap<(usize, bool), Mask> = BTreeMap::new();
     for patch in patches.iter_mut() {
         let Some(number) = patch.material else {
@@ -35,7 +32,7 @@ pub(super) fn cut_out(
         let key = (number, patch.uvs.is_some());
         let mask = match masks.entry(key) {
             Entry::Occupied(entry) => entry.into_mut(),
-            Entry::Vacant(entry) => entry.insert(mask(root, key, buffers, files)?),
+            Entry::Vacant(entry) => entry.insert(mask(pictures, key)?),
         };
         cut(patch, mask).ok_or_else(|| {
             let what = format!(
@@ -50,21 +47,17 @@ pub(super) fn cut_out(
 }
 
 /// The mask of a material, on parts with texture coordinates or on others.
-fn mask(
-    root: &Root,
-    (number, has_uvs): (usize, bool),
-    buffers: &[Cow<'_, [u8]>],
-    files: Files<'_>,
-) -> Result<Mask, ModelError> {
+fn mask(pictures: &Pictures<'_, '_>, (number, has_uvs): (usize, bool)) -> Result<Mask, ModelError> {
+    let root = pictures.root;
     let material = &root.materials[number];
     let factor = material.pbr_metallic_roughness.base_color_factor.0[3];
     let least = material.alpha_cutoff.unwrap_or_default().0;
     let (mut width, mut values, mut wrap) = (1, vec![1.0], [Wrap::Repeat; 2]);
-    if let Some(info) = texture(root, Some(number)).filter(|_| has_uvs) {
+    if let Some(texture) = texture(root, Some(number), Of::Colour).filter(|_| has_uvs) {
         let image;
-        (wrap, image) = source(root, info);
+        (wrap, image) = texture.source(root);
         // A JPEG has no alpha and is there everywhere.
-        let alpha = picture(root, image, buffers, files, |bytes| {
+        let alpha = pictures.decode(image, |bytes| {
             let is_png = bytes.starts_with(b"\x89PNG");
             is_png
                 .then(|| portable_network::decode_alpha(bytes))
@@ -101,6 +94,10 @@ fn cut(patch: &mut Patch, mask: &Mask) -> Option<()> {
                     .colours
                     .as_ref()
                     .map_or([1.0; 3], |colours| colours[corner]),
+                tangent: patch
+                    .tangents
+                    .as_ref()
+                    .map_or([0.0; 4], |tangents| tangents[corner]),
             }
         });
         match mask.cut(triangle, MOST_TRIANGLES - added)? {
@@ -116,6 +113,8 @@ fn cut(patch: &mut Patch, mask: &Mask) -> Option<()> {
                         patch.uvs.iter_mut().for_each(|uvs| uvs.push(corner.uv));
                         let colours = patch.colours.iter_mut();
                         colours.for_each(|colours| colours.push(corner.colour));
+                        let tangents = patch.tangents.iter_mut();
+                        tangents.for_each(|tangents| tangents.push(corner.tangent));
                     }
                 }
             }

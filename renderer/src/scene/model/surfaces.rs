@@ -1,7 +1,6 @@
 //! The triangles of a glTF file's scene, where its nodes place them.
 
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DQuat, DVec3, Vec2, Vec3};
 use gltf_json::mesh::{Mode, Primitive, Semantic};
@@ -11,9 +10,8 @@ use gltf_json::{Accessor, Index, Root};
 
 use super::ModelError;
 use super::accessors::Accessors;
-use super::textures::Place;
+use super::textures::{Of, Place, texture};
 use crate::geometry::TriangleMesh;
-use crate::material::colour_map::ColourTexture;
 
 /// Greatest number of triangles of a model.
 const MOST_TRIANGLES: u64 = 1 << 27;
@@ -30,9 +28,9 @@ pub(super) struct Patch {
     pub(super) uvs: Option<Vec<Vec2>>,
     /// Factors on the base colour, each in [0, 1].
     pub(super) colours: Option<Vec<[f32; 3]>>,
+    /// Directions of the x axis of a map of normals, and the sign of its y axis.
+    pub(super) tangents: Option<Vec<[f32; 4]>>,
     pub(super) triangles: Vec<[u32; 3]>,
-    /// Those factors as a picture over `uvs`.
-    pub(super) painted: Option<Arc<ColourTexture>>,
 }
 
 impl Patch {
@@ -243,6 +241,18 @@ fn patch(
         Some(colours) => Some(accessors.colours(colours, &used)?),
         None => None,
     };
+    let tangents = match attribute(primitive, Semantic::Tangents) {
+        Some(tangents) if texture(root, material, Of::Normals).is_some() => {
+            let turned = |[x, y, z, sign]: [f32; 4]| {
+                let tangent = linear * DVec3::from([x, y, z].map(f64::from));
+                let [x, y, z] = tangent.normalize_or_zero().as_vec3().to_array();
+                [x, y, z, if mirrors { -sign } else { sign }]
+            };
+            let tangents = accessors.vectors::<4>(tangents, &used)?;
+            Some(tangents.into_iter().map(turned).collect())
+        }
+        Some(_) | None => None,
+    };
     let triangles = corners.iter().map(|corners| {
         let [a, b, c] = corners.map(own);
         if mirrors { [a, c, b] } else { [a, b, c] }
@@ -253,8 +263,8 @@ fn patch(
         normals,
         uvs,
         colours,
+        tangents,
         triangles: triangles.collect(),
-        painted: None,
     })
 }
 
@@ -264,8 +274,11 @@ pub(super) fn joined(patches: Vec<Patch>) -> Result<TriangleMesh, ModelError> {
         .iter()
         .any(|patch| patch.normals.iter().any(|normal| *normal != Vec3::ZERO));
     let has_uvs = patches.iter().any(|patch| patch.uvs.is_some());
+    let has_colours = patches.iter().any(|patch| patch.colours.is_some());
     let (mut positions, mut normals) = (Vec::new(), Vec::new());
     let (mut uvs, mut triangles) = (Vec::new(), Vec::new());
+    let has_tangents = patches.iter().any(|patch| patch.tangents.is_some());
+    let (mut colours, mut tangents) = (Vec::new(), Vec::new());
     for patch in patches {
         let first = positions.len() as u32;
         let count = patch.vertices();
@@ -273,8 +286,21 @@ pub(super) fn joined(patches: Vec<Patch>) -> Result<TriangleMesh, ModelError> {
         positions.extend(patch.positions);
         normals.extend(patch.normals);
         uvs.extend(patch.uvs.unwrap_or_else(|| vec![Vec2::ZERO; count]));
+        if has_colours {
+            colours.extend(patch.colours.unwrap_or_else(|| vec![[1.0; 3]; count]));
+        }
+        if has_tangents {
+            tangents.extend(patch.tangents.unwrap_or_else(|| vec![[0.0; 4]; count]));
+        }
     }
     let normals = has_normals.then_some(normals);
     let uvs = has_uvs.then_some(uvs);
-    Ok(TriangleMesh::new(positions, normals, uvs, triangles)?)
+    let mut mesh = TriangleMesh::new(positions, normals, uvs, triangles)?;
+    if has_colours {
+        mesh = mesh.with_colours(colours);
+    }
+    if has_tangents {
+        mesh = mesh.with_tangents(tangents);
+    }
+    Ok(mesh)
 }

@@ -2,11 +2,31 @@
 
 use std::collections::BTreeMap;
 
-use glam::{Vec2, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use serde_json::{Value, json};
 
 use super::*;
+use crate::bsdf::Bsdf;
+use crate::geometry::{Geometry, Instance, Ray};
 use crate::image::portable_network;
+use crate::integrator::cone::Cone;
+use crate::integrator::encounter::Encounter;
+use crate::material::Material;
+use crate::material::model::ModelMaterial;
+use crate::material::reflectance::Reflectance;
+use crate::spectrum::rgb::Primaries;
+use crate::spectrum::{Curve, Lanes, Wavelengths};
+
+/// What all but a few tests look at.
+const COLOURS: Wanted = Wanted {
+    colours: true,
+    finishes: false,
+    emission: false,
+};
+
+fn wavelengths() -> Wavelengths<4> {
+    Wavelengths::new([450.0, 530.0, 610.0, 700.0])
+}
 
 /// A document under construction: JSON and the bytes of its buffer.
 struct Made {
@@ -149,7 +169,7 @@ impl Made {
 }
 
 fn opened(bytes: &[u8]) -> Result<Model, ModelError> {
-    read(&Container::open(bytes)?, &|_| None, 1.0, true)
+    read(&Container::open(bytes)?, &|_| None, 1.0, COLOURS)
 }
 
 fn square() -> Made {
@@ -319,10 +339,10 @@ fn pictures_may_be_files_beside_and_names_may_be_written_in_percent() {
     let png = portable_network::encoded(1, 1, &[255, 0, 0]).expect("one pixel");
     let files = BTreeMap::from([("pot.bin", made.bytes), ("the bark.png", png)]);
     let bytes_of = |name: &str| files.get(name).map(Vec::as_slice);
-    let model = read(&container, &bytes_of, 0.5, true).expect("a good model");
+    let model = read(&container, &bytes_of, 0.5, COLOURS).expect("a good model");
     assert_eq!(colours(&model, Vec2::splat(0.5)), [[1.0, 0.0, 0.0]]);
     near(model.mesh.positions()[2], Vec3::new(0.25, 0.0, 0.25));
-    let none = read(&container, &|_| None, 1.0, false).map(|_| ());
+    let none = read(&container, &|_| None, 1.0, Wanted::default()).map(|_| ());
     let text = none.expect_err("its buffer is not there").to_string();
     assert_eq!(text, "buffers[0]: the file \"pot.bin\" is not there");
 }
@@ -344,14 +364,14 @@ fn what_is_left_out_is_told_by_name() {
     list.expect("a list").push(line);
     let expected = [
         "animations",
-        "emitted light",
+        "emitted light (`emission = true` of an area light uses it)",
         "extension \"KHR_lights_punctual\"",
         "extension \"KHR_materials_sheen\"",
         "lines and points",
         "maps of occlusion",
-        "metal (its base colour is taken as that of paint)",
+        "metal (its base colour is taken as that of paint; the material `gltf` uses it)",
         "partial transparency (alpha mode BLEND is taken as opaque)",
-        "roughness (that of the scene's material holds)",
+        "roughness (that of the scene's material holds; the material `gltf` uses it)",
     ];
     assert_eq!(made.model().expect("a good model").left_out, expected);
 }
@@ -417,44 +437,275 @@ fn an_alpha_mask_cuts_its_material_out_of_the_mesh() {
     assert!(faint.to_string().contains("alpha masks"), "{faint}");
 }
 
+/// What light meets at a place of the file's xy plane, seen from a direction of the scene.
+fn met<T>(
+    (mesh, material): (&TriangleMesh, &Material),
+    [x, y]: [f32; 2],
+    from: Vec3,
+    look: impl FnOnce(Encounter<'_, 4>) -> T,
+) -> T {
+    let place = Instance::new(0, &DAffine3::IDENTITY);
+    let geometry = Geometry::build(vec![mesh.clone()], vec![place]).expect("a square");
+    let ray = Ray::new(Vec3::new(x, 0.0, y) + from, -from);
+    let hit = geometry.intersect(&ray).expect("it is there");
+    let beam = (&ray, &Cone::of_pixel([1e-3; 2]));
+    look(Encounter::new(
+        &geometry,
+        material,
+        beam,
+        &hit,
+        &wavelengths(),
+    ))
+}
+
+/// The spectrum of a colour.
+fn spectrum(colour: [f32; 3]) -> Lanes<4> {
+    let primaries = Primaries::new(Curve::Constant(1.0));
+    primaries.spectrum(colour, &wavelengths())
+}
+
 #[test]
-fn colours_of_vertices_are_linear_over_each_triangle() {
-    let mut made = Made::empty();
-    let factor = made.paint([0.5, 1.0, 1.0, 1.0], None);
-    made.square(0.0, Some(factor));
-    made.square(1.0, Some(factor));
+fn colours_of_vertices_are_linear_over_each_triangle_and_factors_on_a_picture() {
     let corners = [
         [1.0, 0.0, 0.0, 1.0],
         [0.0, 1.0, 0.0, 1.0],
         [0.0, 0.0, 1.0, 1.0],
         [1.0; 4],
     ];
-    let colours = made.floats(&corners);
-    made.json["meshes"][0]["primitives"][1]["attributes"]["COLOR_0"] = json!(colours);
-    let model = made.model().expect("a good model");
+    for has_picture in [false, true] {
+        let mut made = Made::empty();
+        let picture = has_picture.then(|| json!({ "index": made.texture(33071) }));
+        let paint = made.paint([0.5, 1.0, 1.0, 1.0], picture);
+        made.square(0.0, Some(paint));
+        let colours = made.floats(&corners);
+        made.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(colours);
+        let model = made.model().expect("a good model");
+        assert_eq!(model.left_out, Vec::<String>::new());
+        let map = model.colours.clone().expect("they were asked for");
+        let paint = Material::Diffuse(Reflectance::Picture(Box::new(map)));
+        for (place, colour) in [
+            // 0.2 of the first, 0.3 of the second, 0.5 of the third corner.
+            ([0.3, 0.0], [0.2, 0.3, 0.5]),
+            // 0.25 of the first, 0.5 of the third, 0.25 of the fourth.
+            ([0.0, 0.25], [0.5, 0.25, 0.75]),
+        ] {
+            let [x, _] = place;
+            // The picture is black at u = 1/4 and white at 3/4.
+            let [r, g, b] = colour.map(|of: f32| {
+                let shade: f32 = if has_picture { 2.0 * x + 0.5 } else { 1.0 };
+                of * shade.clamp(0.0, 1.0)
+            });
+            let found = met((&model.mesh, &paint), place, -Vec3::Y, |met| {
+                met.bsdf.albedo(met.wo)
+            });
+            let expected = spectrum([0.5 * r, g, b]);
+            for (found, expected) in found.0.into_iter().zip(expected.0) {
+                assert!((found - expected).abs() < 1e-5, "{found}, not {expected}");
+            }
+        }
+    }
+}
+
+/// The surface of a model with all that its materials say.
+fn whole(made: &Made) -> (TriangleMesh, Material, Vec<String>) {
+    let glb = made.glb();
+    let container = Container::open(&glb).expect("good JSON");
+    let model = read(&container, &|_| None, 1.0, Wanted::ALL).expect("a good model");
+    let colours = model.colours.expect("they were asked for");
+    let finishes = model.finishes.expect("they were asked for").into();
+    let material = Material::Model(Box::new(ModelMaterial::new(colours, finishes)));
+    (model.mesh, material, model.left_out)
+}
+
+#[test]
+fn roughness_and_metal_are_factors_times_channels_of_a_picture() {
+    let mut made = Made::empty();
+    // Left: roughness 0.6, metal 0.2; right: roughness 0.2, metal 1. Red is of another use.
+    let png = portable_network::encoded(2, 1, &[255, 153, 51, 0, 51, 255]).expect("two pixels");
+    let texture = made.texture(33071);
+    let view = made.view(&png);
+    made.json["images"][0]["bufferView"] = json!(view);
+    let paint = made.paint([0.5, 0.5, 0.5, 1.0], None);
+    let of = &mut made.json["materials"][paint]["pbrMetallicRoughness"];
+    of["metallicRoughnessTexture"] = json!({ "index": texture });
+    of["roughnessFactor"] = json!(0.5);
+    of["metallicFactor"] = json!(0.75);
+    made.square(0.0, Some(paint));
+    // One more without a picture, beside it.
+    let plain = made.paint([0.2, 0.2, 0.2, 1.0], None);
+    made.json["materials"][plain]["pbrMetallicRoughness"]["roughnessFactor"] = json!(0.9);
+    made.square(-1.0, Some(plain));
+    made.json["nodes"] = json!([{ "mesh": 0 }]);
+    let (mesh, material, left_out) = whole(&made);
+    assert_eq!(left_out, Vec::<String>::new());
+    for (place, from, roughness, metallic) in [
+        ([-0.3, 0.1], -Vec3::Y, 0.3, 0.15),
+        ([0.3, 0.1], -Vec3::Y, 0.1, 0.75),
+        // From behind, where the other one is.
+        ([0.3, 0.1], 2.0 * Vec3::Y, 0.9, 0.0),
+    ] {
+        met((&mesh, &material), place, from, |met| {
+            let Bsdf::Metallic(surface) = &met.bsdf else {
+                panic!("{:?}", met.bsdf);
+            };
+            let alpha: f32 = (roughness * roughness) as f32;
+            assert!(
+                (surface.coat.ggx.alpha_x - alpha.max(0.02)).abs() < 1e-5,
+                "{place:?}"
+            );
+            assert!((surface.metallic - metallic).abs() < 1e-5, "{place:?}");
+        });
+    }
+}
+
+#[test]
+fn a_map_of_normals_turns_them_along_u_and_v_on_mirrored_parts_too() {
+    // 0.6 along u, 0 along v, 0.8 away from the surface.
+    let png = portable_network::encoded(1, 1, &[204, 128, 230]).expect("one pixel");
+    for (mirrored, scale) in [(false, 1.0), (true, 1.0), (false, 0.5)] {
+        let mut made = Made::empty();
+        let texture = made.texture(33071);
+        let view = made.view(&png);
+        made.json["images"][0]["bufferView"] = json!(view);
+        let paint = made.paint([0.5; 4], None);
+        made.json["materials"][paint]["normalTexture"] =
+            json!({ "index": texture, "scale": scale });
+        made.square(0.0, Some(paint));
+        if mirrored {
+            let corners = [[0.5, -0.5], [-0.5, -0.5], [-0.5, 0.5], [0.5, 0.5]];
+            let uvs = made.floats(&corners.map(|[x, y]| [x + 0.5, 0.5 - y]));
+            made.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uvs);
+        }
+        let (mesh, material, left_out) = whole(&made);
+        assert_eq!(left_out, Vec::<String>::new());
+        let along_u = if mirrored { -Vec3::X } else { Vec3::X };
+        let expected = (0.6 * scale * along_u - 0.8 * Vec3::Y).normalize();
+        for side in [1.0, -1.0] {
+            let found = met((&mesh, &material), [0.1, 0.2], -Vec3::Y * side, |met| {
+                met.frame.to_world(met.bsdf.normal(met.wo))
+            });
+            // A channel has 256 steps.
+            assert!(
+                (found - side * expected).length() < 0.01,
+                "{found} {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn emitted_light_is_a_factor_times_a_strength_times_a_picture() {
+    let mut made = Made::empty();
+    let texture = made.texture(33071);
+    let paint = made.paint([1.0; 4], None);
+    let of = &mut made.json["materials"][paint];
+    of["emissiveFactor"] = json!([1.0, 0.5, 0.0]);
+    of["emissiveTexture"] = json!({ "index": texture });
+    of["extensions"] = json!({ "KHR_materials_emissive_strength": { "emissiveStrength": 3 } });
+    made.square(0.0, Some(paint));
+    made.square(1.0, None);
+    made.json["extensionsUsed"] = json!(["KHR_materials_emissive_strength"]);
+    let read = |made: &Made| {
+        let glb = made.glb();
+        let container = Container::open(&glb).expect("good JSON");
+        read(&container, &|_| None, 1.0, Wanted::ALL)
+    };
+    let model = read(&made).expect("a good model");
     assert_eq!(model.left_out, Vec::<String>::new());
-    let map = model.colours.as_ref().expect("they were asked for");
+    let map = model.emission.as_ref().expect("it was asked for");
     let uvs = model.mesh.uvs().expect("it has them");
-    let at = |face: usize, weights: [f32; 3]| {
-        let corners = model.mesh.triangles()[face].map(|corner| uvs[corner as usize]);
-        let uv: Vec2 = corners
-            .into_iter()
-            .zip(weights)
-            .map(|(uv, weight)| uv * weight)
-            .sum();
-        map.colour(uv)
-    };
-    let close = |found: [f32; 3], expected: [f32; 3]| {
-        let mut pairs = found.into_iter().zip(expected);
-        assert!(
-            pairs.all(|(a, b)| (a - b).abs() < 1e-5),
-            "{found:?}, not {expected:?}"
-        );
-    };
-    close(at(0, [0.2, 0.3, 0.5]), [0.5, 1.0, 1.0]);
-    close(at(2, [0.2, 0.3, 0.5]), [0.1, 0.3, 0.5]);
-    // The second triangle has the first, third and fourth corner.
-    close(at(3, [0.25, 0.5, 0.25]), [0.25, 0.25, 0.75]);
+    // Half way between the middles of black and white; the other square has no material.
+    assert_eq!(map.colour(uvs[0].lerp(uvs[2], 0.5)), [1.5, 0.75, 0.0]);
+    assert_eq!(map.colour(uvs[4].lerp(uvs[6], 0.5)), [0.0; 3]);
+    assert_eq!(map.greatest(), [3.0, 1.5, 0.0]);
+    made.json["materials"][paint]["doubleSided"] = json!(true);
+    let left_out = read(&made).expect("a good model").left_out;
+    assert_eq!(
+        left_out,
+        ["light that backs of faces emit (lamps shine from the front)"]
+    );
+    let of = &mut made.json["materials"][paint]["extensions"];
+    of["KHR_materials_emissive_strength"]["emissiveStrength"] = json!(-1);
+    let error = read(&made).map(|_| ()).expect_err("light is not negative");
+    assert!(
+        error
+            .to_string()
+            .contains("emissiveStrength: is -1; allowed is 0 to"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_map_of_normals_follows_the_tangents_of_the_file_as_nodes_turn_and_mirror_them() {
+    // 0.6 along x of the map, 0.48 along y, 0.64 away from the surface.
+    let png = portable_network::encoded(1, 1, &[204, 189, 209]).expect("one pixel");
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    for (sign, node, tangent) in [
+        (1.0, json!({ "mesh": 0 }), Vec3::Z),
+        (-1.0, json!({ "mesh": 0 }), Vec3::Z),
+        // The tangent, up in the file, is turned about its z axis, which is −y of the scene.
+        (
+            1.0,
+            json!({ "mesh": 0, "rotation": [0, 0, half, half] }),
+            -Vec3::X,
+        ),
+        (1.0, json!({ "mesh": 0, "scale": [-1, 1, 1] }), Vec3::Z),
+    ] {
+        let mut made = Made::empty();
+        let texture = made.texture(33071);
+        let view = made.view(&png);
+        made.json["images"][0]["bufferView"] = json!(view);
+        let paint = made.paint([0.5; 4], None);
+        made.json["materials"][paint]["normalTexture"] = json!({ "index": texture });
+        let mirrors = node["scale"][0] == json!(-1);
+        made.json["nodes"] = json!([node]);
+        made.square(0.0, Some(paint));
+        let tangents = made.floats(&[[0.0, 1.0, 0.0, sign]; 4]);
+        made.json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = json!(tangents);
+        let (mesh, material, left_out) = whole(&made);
+        assert_eq!(left_out, Vec::<String>::new());
+        let normal = -Vec3::Y;
+        let sign = if mirrors { -sign } else { sign };
+        let bitangent = sign * normal.cross(tangent);
+        let expected = 0.6 * tangent + 0.48 * bitangent + 0.64 * normal;
+        let found = met((&mesh, &material), [0.1, 0.2], normal, |met| {
+            met.frame.to_world(met.bsdf.normal(met.wo))
+        });
+        assert!((found - expected).length() < 0.01, "{found} {expected}");
+        // Twice as large, turned about z, and mirrored in x after that, alone and among others.
+        let turn = DMat3::from_rotation_z(0.5 * std::f64::consts::PI);
+        let placed = DMat3::from_diagonal(DVec3::new(-2.0, 2.0, 2.0)) * turn;
+        for count in [1, 2] {
+            let place = Instance::new(0, &DAffine3::from_mat3(placed));
+            let places = vec![place; count];
+            let geometry = Geometry::build(vec![mesh.clone()], places).expect("squares");
+            let ray = Ray::new(Vec3::new(-1.0, 0.2, 0.4), Vec3::X);
+            let hit = geometry.intersect(&ray).expect("it is there");
+            let (found, found_sign) = geometry.tangent(&hit).expect("it has them");
+            let tangent = placed.as_mat3() * tangent;
+            assert!(
+                found.normalize().dot(tangent.normalize()) > 0.999,
+                "{found} {tangent}"
+            );
+            assert_eq!(found_sign, -sign);
+        }
+    }
+}
+
+#[test]
+fn a_map_with_other_texture_coordinates_than_the_first_is_left_out_by_name() {
+    let mut made = Made::empty();
+    let texture = made.texture(33071);
+    let paint = made.paint([1.0; 4], Some(json!({ "index": texture })));
+    let transform = json!({ "KHR_texture_transform": { "scale": [2, 2] } });
+    made.json["materials"][paint]["normalTexture"] =
+        json!({ "index": texture, "extensions": transform });
+    made.square(0.0, Some(paint));
+    let (_, material, left_out) = whole(&made);
+    assert!(!material.has_normals());
+    let what =
+        "maps of normals with other texture coordinates than the first map of their material";
+    assert_eq!(left_out, [what]);
 }
 
 #[test]

@@ -4,6 +4,7 @@ use glam::{DMat4, DVec3};
 use leafmodel::plant::Wall;
 
 use crate::scene::description::{Description, ObjectShape, Plant};
+use crate::scene::model::Wanted;
 use crate::scene::world::meshes::build_mesh;
 
 /// The key that is wrong, why, and what to do.
@@ -47,7 +48,7 @@ fn surface(scene: &Description, object: usize, to_plant: DMat4) -> Result<Vec<[D
         );
     };
     let shape = &scene.meshes[mesh];
-    let built = match build_mesh(&shape.name, &shape.value, false) {
+    let built = match build_mesh(&shape.name, &shape.value, Wanted::default()) {
         Ok(built) => built.mesh,
         Err(error) => {
             let help = "mend the mesh, or let the plant climb on another";

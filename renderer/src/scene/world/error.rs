@@ -68,6 +68,15 @@ pub enum WorldError {
         /// Name of the light.
         name: String,
     },
+    /// An area light takes the emission of a model that emits nothing.
+    #[error(
+        "lights.{name}.area: no material of its object's mesh emits light: leave `emission` out, so that it \
+         shines evenly"
+    )]
+    NoEmission {
+        /// Name of the light.
+        name: String,
+    },
     /// The mesh of a body with a medium in it has holes.
     #[error(
         "objects.{object}: its mesh does not enclose a body with normals to the outside, and \

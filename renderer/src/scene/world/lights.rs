@@ -2,18 +2,20 @@
 
 use std::path::Path;
 
-use super::WorldError;
-use glam::DVec3;
+use glam::{DVec3, Vec2};
 
+use super::WorldError;
+use super::meshes::OwnSurface;
 use crate::geometry::{Instance, TriangleMesh};
 use crate::light::Light;
 use crate::light::area::AreaLight;
 use crate::light::daylight::sky::SkyLight;
 use crate::light::distant::DistantLight;
 use crate::light::environment::EnvironmentLight;
-use crate::light::pattern::Pattern;
+use crate::light::pattern::{Colours, Pattern};
 use crate::light::spot::SpotLight;
 use crate::light::texels::Texels;
+use crate::material::colour_map::ColourMap;
 use crate::scene::assets::{self, RgbPicture};
 use crate::scene::description;
 use crate::spectrum::Curve;
@@ -23,7 +25,7 @@ use crate::spectrum::Curve;
 pub(super) fn build_lights<'i>(
     name: &str,
     light: &description::Light,
-    meshes: &[TriangleMesh],
+    (meshes, surfaces): (&[TriangleMesh], &[OwnSurface]),
     instance_of: impl Fn(usize) -> &'i Instance,
     origin: DVec3,
     notes: &mut Vec<String>,
@@ -85,13 +87,18 @@ pub(super) fn build_lights<'i>(
             Light::Area(match pattern {
                 None => AreaLight::new(&triangles, radiance),
                 Some(pattern) => {
-                    let Some(uvs) = mesh.uvs() else {
+                    // A model without pictures needs none.
+                    let needs_uvs = !pattern.emission || pattern.edge < 1.0;
+                    if mesh.uvs().is_none() && needs_uvs {
                         return Err(WorldError::NoTextureCoordinates {
                             name: name.to_owned(),
                         });
-                    };
-                    let uvs = corners(mesh, mirrored, |vertex| uvs[vertex]);
-                    let pattern = build_pattern(name, pattern, notes)?;
+                    }
+                    let uv_of = |vertex: usize| mesh.uvs().map_or(Vec2::ZERO, |uvs| uvs[vertex]);
+                    let uvs = corners(mesh, mirrored, uv_of);
+                    let own = surfaces.get(instance.mesh as usize);
+                    let emission = own.and_then(|own| own.emission.as_ref());
+                    let pattern = build_pattern(name, pattern, emission, notes)?;
                     AreaLight::with_pattern(&triangles, &uvs, radiance, pattern)
                 }
             })
@@ -156,16 +163,25 @@ fn picture(
 fn build_pattern(
     light: &str,
     pattern: &description::AreaPattern,
+    emission: Option<&ColourMap>,
     notes: &mut Vec<String>,
 ) -> Result<Pattern, WorldError> {
-    let picture = match pattern.picture() {
-        None => None,
-        Some(file) => {
+    let colours = match (pattern.picture(), emission.filter(|_| pattern.emission)) {
+        (Some(file), _) => {
             let picture = picture(light, file, notes)?;
-            Some(Texels::new(picture.texels, picture.width))
+            Some(Colours::Picture(Texels::new(picture.texels, picture.width)))
         }
+        (None, Some(map)) => {
+            if map.greatest() == [0.0; 3] {
+                return Err(WorldError::NoEmission {
+                    name: light.to_owned(),
+                });
+            }
+            Some(Colours::Model(map.clone()))
+        }
+        (None, None) => None,
     };
-    Ok(Pattern::new(pattern.edge, picture))
+    Ok(Pattern::new(pattern.edge, colours))
 }
 
 /// What the three corners of each face have, counter-clockwise in the world.
@@ -181,6 +197,7 @@ fn corners<T>(mesh: &TriangleMesh, mirrored: bool, of: impl Fn(usize) -> T) -> V
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
     use std::sync::atomic::AtomicBool;
 
     use crate::image::{Attribute, Layer, Picture, openexr};
@@ -201,11 +218,23 @@ mod tests {
     fn seen(sky: &Picture) -> (Picture, Vec<String>) {
         let folder = tempfile::tempdir().expect("a place for temporary files");
         openexr::write(sky, &folder.path().join("sky.exr")).expect("it can be written");
-        let loaded = parse(SCENE, "scene.toml", folder.path(), &[]);
+        let (picture, mut notes) = rendered(SCENE, folder.path());
+        // The dot is behind the camera.
+        assert!(
+            notes
+                .remove(0)
+                .starts_with("camera: no object is in the picture")
+        );
+        (picture, notes)
+    }
+
+    /// The picture of a scene, with the notes on it.
+    fn rendered(scene: &str, folder: &Path) -> (Picture, Vec<String>) {
+        let loaded = parse(scene, "scene.toml", folder, &[]);
         let scene = loaded
             .unwrap_or_else(|errors| panic!("{errors}"))
             .description;
-        let world = World::build(&scene).expect("it can be built");
+        let world = World::build(&scene).unwrap_or_else(|error| panic!("{error}"));
         let job = Job {
             width: 2,
             height: 2,
@@ -215,14 +244,61 @@ mod tests {
         let go = AtomicBool::new(false);
         let rendered = render(&world, &job, &go, &|_| ()).expect("a small film");
         let caption = Caption::of(&scene, &world.view, &world.light_colours);
-        let mut notes = world.notes;
-        // The dot is behind the camera.
+        (develop(&caption, &job, &rendered), world.notes)
+    }
+
+    /// Looks at one half of a square, which glTF has in its xy plane and the scene upright.
+    const LAMP: &str = "format = 1\n[film.rgb]\nsize = [2, 2]\nspp = 1\n[camera.perspective]\n\
+        position_m = [0.25, -1, 0.25]\nlook_at_m = [0.25, 0, 0.25]\nvertical_fov_deg = 10\n\
+        [meshes.lamp.gltf]\npath = \"lamp.gltf\"\n[materials.black.diffuse]\nreflectance = 0\n\
+        [objects.lamp]\nmesh = \"lamp\"\nmaterial = \"black\"\n\
+        [lights.lamp.area]\nobject = \"lamp\"\nradiance_w_m2_sr_nm = { d65 = 2 }\nemission = true\n";
+
+    /// A triangle whose material emits light of this factor, four times.
+    fn lamp(factor: &str) -> String {
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],"meshes":[{{"primitives":[{{"attributes":
+            {{"POSITION":0}},"material":0}}]}}],"accessors":[{{"bufferView":0,"componentType":5126,"count":3,
+            "type":"VEC3","min":[0,0,0],"max":[1,1,0]}}],"bufferViews":[{{"buffer":0,"byteLength":36}}],
+            "buffers":[{{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}],
+            "materials":[{{"emissiveFactor":{factor},"pbrMetallicRoughness":{{"metallicFactor":0}},
+            "extensions":{{"KHR_materials_emissive_strength":{{"emissiveStrength":4}}}}}}],
+            "extensionsUsed":["KHR_materials_emissive_strength"]}}"#
+        )
+    }
+
+    #[test]
+    fn a_model_that_is_a_lamp_shines_as_its_materials_say() {
+        let folder = tempfile::tempdir().expect("a place for temporary files");
+        let file = folder.path().join("lamp.gltf");
+        std::fs::write(&file, lamp("[1, 0.5, 0.25]")).expect("it can be written");
+        let (picture, notes) = rendered(LAMP, folder.path());
+        assert!(notes.is_empty(), "{notes:?}");
+        for (name, expected) in [("R", 8.0), ("G", 4.0), ("B", 2.0)] {
+            let values = &picture.layer(name).expect("it is there").data;
+            let mean = values.iter().sum::<f32>() / values.len() as f32;
+            // D65 of 1 at 560 nm has a luminance of 0.9889, and 0.4 % of blue is below 400 nm.
+            let expected = 0.9889 * expected;
+            assert!((mean / expected - 1.0).abs() < 0.005, "{name}: {mean}");
+        }
+        // What it emits is left out by name if no light has it.
+        let without = LAMP.replace("emission = true\n", "");
+        let (_, notes) = rendered(&without, folder.path());
         assert!(
-            notes
-                .remove(0)
-                .starts_with("camera: no object is in the picture")
+            notes[0].contains("emitted light (`emission = true` of an area light uses it)"),
+            "{notes:?}"
         );
-        (develop(&caption, &job, &rendered), notes)
+        // And a lamp of it that is dark is refused.
+        std::fs::write(&file, lamp("[0, 0, 0]")).expect("it can be written");
+        let loaded = parse(LAMP, "scene.toml", folder.path(), &[]);
+        let scene = loaded.unwrap_or_else(|errors| panic!("{errors}"));
+        let error = World::build(&scene.description).expect_err("it is dark");
+        assert!(
+            error
+                .to_string()
+                .contains("no material of its object's mesh emits light"),
+            "{error}"
+        );
     }
 
     #[test]

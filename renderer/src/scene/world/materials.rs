@@ -5,12 +5,14 @@ use std::sync::Arc;
 use leafmodel::optics::solid::ReflectanceTable;
 
 use super::WorldError;
+use super::meshes::OwnSurface;
 use crate::bsdf::coat::Coat;
 use crate::bsdf::dielectric::Dielectric;
 use crate::material::Material;
 use crate::material::colour_map::{ColourMap, ColourTexture};
 use crate::material::held::Held;
 use crate::material::leaf::LeafTissue;
+use crate::material::model::ModelMaterial;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::plastic::PlasticMaterial;
 use crate::material::reflectance::Reflectance;
@@ -52,23 +54,23 @@ impl Known {
     }
 }
 
-/// Makes the scene's materials; `colours` are those that each of its meshes brings along.
+/// Makes the scene's materials; `surfaces` are those that each of its meshes brings along.
 pub(super) fn build_materials(
     scene: &Description,
-    colours: &[Option<ColourMap>],
+    surfaces: &[OwnSurface],
     known: &mut Known,
     notes: &mut Vec<String>,
 ) -> Result<Vec<Material>, WorldError> {
     let written = scene.materials.iter();
     let built =
-        written.map(|named| build_material(&named.name, &named.value, colours, known, notes));
+        written.map(|named| build_material(&named.name, &named.value, surfaces, known, notes));
     built.collect()
 }
 
 fn build_material(
     name: &str,
     material: &description::Material,
-    colours: &[Option<ColourMap>],
+    surfaces: &[OwnSurface],
     known: &mut Known,
     notes: &mut Vec<String>,
 ) -> Result<Material, WorldError> {
@@ -84,7 +86,7 @@ fn build_material(
     };
     Ok(match material {
         description::Material::Diffuse { reflectance } => {
-            Material::Diffuse(build_reflectance(name, reflectance, colours, notes)?)
+            Material::Diffuse(build_reflectance(name, reflectance, surfaces, notes)?)
         }
         description::Material::Dielectric { eta, roughness, .. } => {
             Material::Dielectric(Dielectric {
@@ -99,8 +101,18 @@ fn build_material(
         } => {
             let alpha = *roughness as f32;
             let coat = Coat::new(*eta as f32, alpha, alpha);
-            let reflectance = build_reflectance(name, reflectance, colours, notes)?;
+            let reflectance = build_reflectance(name, reflectance, surfaces, notes)?;
             Material::Plastic(Box::new(PlasticMaterial::new(reflectance, coat)))
+        }
+        description::Material::Model { mesh } => {
+            let OwnSurface {
+                colours, finishes, ..
+            } = &surfaces[*mesh];
+            let (colours, finishes) = colours
+                .clone()
+                .zip(finishes.clone())
+                .expect("a mesh whose surface is wanted was read with it");
+            Material::Model(Box::new(ModelMaterial::new(colours, finishes)))
         }
         description::Material::Leaf {
             tissue,
@@ -136,13 +148,13 @@ fn build_material(
 fn build_reflectance(
     name: &str,
     reflectance: &description::Reflectance,
-    colours: &[Option<ColourMap>],
+    surfaces: &[OwnSurface],
     notes: &mut Vec<String>,
 ) -> Result<Reflectance, WorldError> {
     match reflectance {
         description::Reflectance::Even(spectrum) => Ok(Curve::from_description(spectrum).into()),
         description::Reflectance::OfMesh(mesh) => {
-            let map = colours[*mesh].clone();
+            let map = surfaces[*mesh].colours.clone();
             let map = map.expect("a mesh whose colours are wanted was read with them");
             Ok(Reflectance::Picture(Box::new(map)))
         }

@@ -1,29 +1,44 @@
 //! Meshes from files, and of shapes that a scene gives by numbers.
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3};
 
 use super::WorldError;
 use crate::geometry::TriangleMesh;
 use crate::geometry::shapes::{cuboid, disc, sphere};
 use crate::material::colour_map::ColourMap;
+use crate::material::model::Finish;
 use crate::scene::assets;
 use crate::scene::description;
+use crate::scene::model::Wanted;
 use crate::scene::plants::tube;
+
+/// What a mesh from a glTF file says of its own surface, as far as it is wanted.
+#[derive(Default)]
+pub(super) struct OwnSurface {
+    /// Its base colours.
+    pub(super) colours: Option<ColourMap>,
+    /// Roughness, metal and normals of each slot of the colours.
+    pub(super) finishes: Option<Arc<[Finish]>>,
+    /// The light that it emits.
+    pub(super) emission: Option<ColourMap>,
+}
 
 /// A mesh that was built.
 pub(in crate::scene) struct Built {
     pub(in crate::scene) mesh: TriangleMesh,
-    /// Its own colours, if it has some and they are wanted.
-    pub(super) colours: Option<ColourMap>,
+    /// Its own surface, as far as it has one and that is wanted.
+    pub(super) surface: OwnSurface,
     /// What of its file was left out.
     pub(super) left_out: Vec<String>,
 }
 
-/// Reads or makes a mesh; `colours` says whether a material wants its own.
+/// Reads or makes a mesh; `wanted` says what of its own surface is.
 pub(in crate::scene) fn build_mesh(
     name: &str,
     mesh: &description::Mesh,
-    colours: bool,
+    wanted: Wanted,
 ) -> Result<Built, WorldError> {
     if let description::Mesh::Gltf {
         file,
@@ -31,20 +46,24 @@ pub(in crate::scene) fn build_mesh(
         scale,
     } = mesh
     {
-        let model = assets::model(file, beside, *scale, colours);
+        let model = assets::model(file, beside, *scale, wanted);
         let model = model.map_err(|source| WorldError::Asset {
             place: format!("meshes.{name}"),
             source,
         })?;
         return Ok(Built {
             mesh: model.mesh,
-            colours: model.colours,
+            surface: OwnSurface {
+                colours: model.colours,
+                finishes: model.finishes.map(Arc::from),
+                emission: model.emission,
+            },
             left_out: model.left_out,
         });
     }
     Ok(Built {
         mesh: plain_mesh(name, mesh)?,
-        colours: None,
+        surface: OwnSurface::default(),
         left_out: Vec::new(),
     })
 }

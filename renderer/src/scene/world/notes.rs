@@ -48,14 +48,15 @@ pub(super) fn on_coats(
     notes.into_iter().map(|(_, note)| note).collect()
 }
 
-/// Notes on a mesh of this name: faces that were dropped, and what was left out of its file.
+/// Notes on a mesh of this name: faces that were dropped or cross themselves, and what was left out
+/// of its file.
 pub fn on_mesh(name: &str, mesh: &TriangleMesh, left_out: &[String]) -> Vec<String> {
-    let dropped = mesh.dropped();
-    let dropped = (dropped.total() > 0).then(|| format!("meshes.{name}: {dropped}"));
+    let remarks = mesh.remarks().into_iter();
+    let remarks = remarks.map(|remark| format!("meshes.{name}: {remark}"));
     let parts = left_out.join(", ");
     let left_out =
         (!parts.is_empty()).then(|| format!("meshes.{name}: left out of its file: {parts}"));
-    dropped.into_iter().chain(left_out).collect()
+    remarks.chain(left_out).collect()
 }
 
 /// Notes on maps with both betalains and anthocyanins in any texels, since no plant has both.

@@ -153,6 +153,7 @@ fn wrong_row(
 mod tests {
     use super::super::text;
     use super::*;
+    use leafmodel::document::rows::Form;
     use leafmodel::document::source::Sources;
 
     fn file(literal: &str) -> Vec<u8> {
@@ -194,7 +195,7 @@ mod tests {
         let names = ["a", "b", "c"].map(str::to_owned);
         let table = Table::new("t".to_owned(), &names, frame);
         let array = read(&cx, &table, &at, &bytes).expect("an array");
-        let text = text::read(&cx, &table, &at, text.as_bytes()).expect("a text");
+        let text = text::read(&cx, &table, &at, text.as_bytes(), Form::default()).expect("a text");
         assert_eq!(cx.error_count(), 0);
         assert_eq!(array.places.len(), count);
         assert!(array.places == text.places);

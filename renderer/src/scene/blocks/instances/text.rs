@@ -1,22 +1,27 @@
 //! Tables of instances as text: a header with the columns' names, then one row per line.
 //!
-//! Fields are separated by comma, semicolon, tab or spaces; `#` begins a comment; empty lines are
-//! ignored. Where anything but commas separates them, commas are decimal marks.
+//! Fields are separated by comma, semicolon, tab or spaces, or by the one that the scene names; `#`
+//! begins a comment; empty lines are ignored. Where anything but commas separates them, commas are
+//! decimal marks.
 
 use rayon::prelude::*;
 
+use super::super::table_file::tell;
 use super::column_names::SHAPE;
 use super::columns::{Header, HeaderError, Row};
 use super::row_error::RowError;
 use super::{Rows, Table, WrongRow};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::{Context, QUOTED};
+use leafmodel::document::encoding::decoded;
 use leafmodel::document::error::DocumentError;
-use leafmodel::document::rows::{Separator, number};
-use leafmodel::document::source::{Place, escaped, line_of_byte};
+use leafmodel::document::rows::{Decimal, Form, Guess, Separator, number};
+use leafmodel::document::source::{Place, escaped};
 
-/// Separators of the fields of a line; the comma comes last.
+/// Separators of the fields of a line.
 const SEPARATORS: [char; 5] = [';', ' ', '\t', '\r', ','];
+/// The same where commas are decimal marks.
+const ALL_BUT_COMMAS: &[char] = &[';', ' ', '\t', '\r'];
 
 /// Size of the piece that one thread reads at a time, bytes.
 const PIECE: usize = 1 << 20;
@@ -25,27 +30,28 @@ const PIECE: usize = 1 << 20;
 const LONGEST: usize = 1 << 14;
 
 /// Reads the rows; `None`, after a report, if the file has no readable rows.
-pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) -> Option<Rows> {
-    let text = match std::str::from_utf8(bytes) {
-        Ok(text) => text.strip_prefix('\u{feff}').unwrap_or(text),
-        Err(error) => {
-            let byte = error.valid_up_to();
-            let error = DocumentError::NotUtf8 {
-                path: table.name.clone(),
-                byte,
-                line: line_of_byte(bytes, byte),
-            };
-            cx.error(at, error);
-            return None;
-        }
-    };
-    let commas = Commas::of(text);
+pub(super) fn read(
+    cx: &Context,
+    table: &Table<'_>,
+    at: &Place,
+    bytes: &[u8],
+    form: Form,
+) -> Option<Rows> {
+    let decoded = decoded(bytes)
+        .map_err(|error| table.refuse(cx, at, error.to_string(), "save it as UTF-8 text"))
+        .ok()?;
+    let text = &*decoded.text;
+    let (marks, guess) = Marks::of(text, form);
+    for guess in decoded.guess().into_iter().chain(guess) {
+        let help = guess.key().unwrap_or_default();
+        tell(cx, &table.name, at, &guess, &help);
+    }
     let mut rest = text;
     let mut line_number = 0;
     let line = loop {
         let (line, below) = rest.split_once('\n').unwrap_or((rest, ""));
         line_number += 1;
-        if fields(line, commas).next().is_some() {
+        if marks.fields(line).next().is_some() {
             rest = below;
             break line;
         }
@@ -60,7 +66,7 @@ pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) ->
         table.refuse(cx, at, problem, "end header and rows with line feeds");
         return None;
     }
-    let header = read_header(cx, table, line, line_number, commas)?;
+    let header = read_header(cx, table, line, line_number, marks)?;
     // Counts lines, including comments and empty ones, which is accurate enough for a bound.
     let lines = rest.bytes().filter(|byte| *byte == b'\n').count();
     if !table.bear(cx, at, lines.max(1)) {
@@ -68,7 +74,7 @@ pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) ->
     }
     let pieces: Vec<(Rows, usize)> = pieces(rest)
         .into_par_iter()
-        .map(|piece| read_piece(table, &header, piece, commas))
+        .map(|piece| read_piece(table, &header, piece, marks))
         .collect();
     let mut above = line_number;
     let mut rows = Vec::with_capacity(pieces.len());
@@ -97,47 +103,72 @@ fn pieces(text: &str) -> Vec<&str> {
     pieces
 }
 
-/// What commas are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Commas {
-    Separate,
-    AreDecimal,
+/// How a table is written.
+#[derive(Clone, Copy, Debug)]
+struct Marks {
+    /// What separates fields.
+    separators: &'static [char],
+    /// The decimal mark, if it is known.
+    decimal: Option<Decimal>,
 }
 
-impl Commas {
-    /// Decimal marks if something else separates the names, and every field with one is a number.
-    fn of(text: &str) -> Self {
+impl Marks {
+    /// What the scene says, and else what the text shows; with a guess, if it is one.
+    fn of(text: &str, Form { separator, decimal }: Form) -> (Self, Option<Guess>) {
+        let is_guess = separator.is_none() && decimal.is_none() && Self::has_decimal_commas(text);
+        let separators: &[char] = match separator {
+            Some(Separator::Tab) => &['\t', '\r'],
+            Some(Separator::Semicolon) => &[';', '\r'],
+            Some(Separator::Comma) => &[',', '\r'],
+            Some(Separator::Blanks) => &[' ', '\t', '\r'],
+            None if is_guess || decimal == Some(Decimal::Comma) => ALL_BUT_COMMAS,
+            None => &SEPARATORS,
+        };
+        let marks = Self {
+            separators,
+            decimal,
+        };
+        (marks, is_guess.then(Guess::decimal_commas))
+    }
+
+    /// Whether there are commas, something else separates the names, and every field with a comma is
+    /// a number.
+    fn has_decimal_commas(text: &str) -> bool {
         const SAMPLE: usize = 64;
-        let mut fields = text
-            .lines()
-            .take(SAMPLE)
-            .flat_map(|line| fields(line, Self::AreDecimal));
-        let is_decimal = Separator::of(text) != Separator::Comma
-            && fields.all(|field| !field.contains(',') || number(field).is_some());
-        if is_decimal {
-            Self::AreDecimal
-        } else {
-            Self::Separate
+        let marks = Self {
+            separators: ALL_BUT_COMMAS,
+            decimal: None,
+        };
+        let has_comma = |field: &str| field.contains(',');
+        let mut sample = text.lines().take(SAMPLE);
+        Separator::of(text) != Separator::Comma
+            && sample.all(|line| {
+                let mut fields = marks.fields(line);
+                fields.all(|field| !has_comma(field) || number(field).is_some())
+            })
+            && has_comma(text)
+            && text.lines().any(|line| marks.fields(line).any(has_comma))
+    }
+
+    /// The fields of a line before its comment, without the quotes that spreadsheets write.
+    fn fields(self, line: &str) -> impl Iterator<Item = &str> {
+        let line = line.split_once('#').map_or(line, |(fields, _)| fields);
+        let fields = line.split(self.separators).map(str::trim);
+        fields.filter(|field| !field.is_empty()).map(|field| {
+            let inner = field
+                .strip_prefix('"')
+                .and_then(|rest| rest.strip_suffix('"'));
+            inner.filter(|inner| !inner.is_empty()).unwrap_or(field)
+        })
+    }
+
+    /// The number in a field.
+    fn number(self, field: &str) -> Option<f64> {
+        match self.decimal {
+            Some(Decimal::Point) => field.parse().ok(),
+            Some(Decimal::Comma) | None => number(field),
         }
     }
-}
-
-/// The fields of a line before its comment, without the quotes that spreadsheets write.
-fn fields(line: &str, commas: Commas) -> impl Iterator<Item = &str> {
-    let line = line.split_once('#').map_or(line, |(fields, _)| fields);
-    let count = match commas {
-        Commas::Separate => SEPARATORS.len(),
-        Commas::AreDecimal => SEPARATORS.len() - 1,
-    };
-    let fields = line
-        .split(&SEPARATORS[..count])
-        .filter(|field| !field.is_empty());
-    fields.map(|field| {
-        let inner = field
-            .strip_prefix('"')
-            .and_then(|rest| rest.strip_suffix('"'));
-        inner.filter(|inner| !inner.is_empty()).unwrap_or(field)
-    })
 }
 
 fn read_header(
@@ -145,9 +176,9 @@ fn read_header(
     table: &Table<'_>,
     line: &str,
     number: usize,
-    commas: Commas,
+    marks: Marks,
 ) -> Option<Header> {
-    let names: Vec<&str> = fields(line, commas).collect();
+    let names: Vec<&str> = marks.fields(line).collect();
     let errors = if names[0].parse::<f64>().is_ok() {
         vec![HeaderError {
             field: Some(0),
@@ -181,7 +212,7 @@ fn read_header(
 }
 
 /// The rows of a piece, with lines counted from 1, and the number of its lines.
-fn read_piece(table: &Table<'_>, header: &Header, piece: &str, commas: Commas) -> (Rows, usize) {
+fn read_piece(table: &Table<'_>, header: &Header, piece: &str, marks: Marks) -> (Rows, usize) {
     let mut rows = Rows::default();
     let mut lines = 0;
     for line in piece.lines() {
@@ -190,9 +221,9 @@ fn read_piece(table: &Table<'_>, header: &Header, piece: &str, commas: Commas) -
             let bytes = line.len();
             let error = RowError::TooLong { bytes };
             rows.push(Err(vec![error]), |errors| too_long(line, lines, errors));
-        } else if fields(line, commas).next().is_some() {
-            rows.push(read_row(table, header, line, commas), |errors| {
-                wrong_row(header, line, lines, errors, commas)
+        } else if marks.fields(line).next().is_some() {
+            rows.push(read_row(table, header, line, marks), |errors| {
+                wrong_row(header, line, lines, errors, marks)
             });
         }
     }
@@ -203,11 +234,11 @@ fn read_row(
     table: &Table<'_>,
     header: &Header,
     line: &str,
-    commas: Commas,
+    marks: Marks,
 ) -> Result<InstancePlace, Vec<RowError>> {
     let mut row = Row::of(header);
     let mut found = 0;
-    for field in fields(line, commas) {
+    for field in marks.fields(line) {
         found += 1;
         let Some(&column) = header.columns.get(found - 1) else {
             continue;
@@ -216,7 +247,7 @@ fn read_row(
             read_shape(table, &mut row, field);
             continue;
         }
-        match number(field) {
+        match marks.number(field) {
             Some(value) => row.number(column, value, || shown(field)),
             None => row.fail(RowError::NotANumber {
                 column,
@@ -275,9 +306,9 @@ fn wrong_row(
     line: &str,
     number: usize,
     errors: Vec<RowError>,
-    commas: Commas,
+    marks: Marks,
 ) -> WrongRow {
-    let all: Vec<&str> = fields(line, commas).collect();
+    let all: Vec<&str> = marks.fields(line).collect();
     let whole = span(line, all[0]).start..span(line, all[all.len() - 1]).end;
     let place = |error: &RowError| {
         let column = error.column()?;
@@ -312,7 +343,7 @@ mod tests {
             source: usize::MAX,
             span: 0..0,
         };
-        let rows = read(&cx, &table, &at, text.as_bytes());
+        let rows = read(&cx, &table, &at, text.as_bytes(), Form::default());
         let rows = rows.and_then(|rows| {
             table.report(&cx, &at, &rows)?;
             Some(rows.places)
@@ -357,6 +388,33 @@ mod tests {
         ] {
             assert_eq!(read_all(text).map(|places| places.len()), Ok(1), "{text}");
         }
+    }
+
+    #[test]
+    fn what_the_scene_says_of_a_table_counts_and_a_guess_names_its_key() {
+        let marks = |text: &str, form: Form| {
+            let (marks, guess) = Marks::of(text, form);
+            let fields = marks.fields(text.lines().last().expect("a row"));
+            let key = guess.and_then(|guess| guess.key()).unwrap_or_default();
+            (fields.map(str::to_owned).collect::<Vec<_>>(), key)
+        };
+        let form = |separator, decimal| Form { separator, decimal };
+        let german = "x_m;y_m;z_m\n0,5; 1;2";
+        let (fields, key) = marks(german, Form::default());
+        assert_eq!(fields, ["0,5", "1", "2"]);
+        assert!(key.contains("`decimal = \"point\"`"), "{key}");
+        let (fields, key) = marks(german, form(None, Some(Decimal::Point)));
+        assert_eq!((fields.len(), key.as_str()), (4, ""));
+        for known in [
+            form(Some(Separator::Semicolon), None),
+            form(None, Some(Decimal::Comma)),
+        ] {
+            let (fields, key) = marks(german, known);
+            assert_eq!((fields.len(), key.as_str()), (3, ""));
+        }
+        // Commas in comments are none in numbers.
+        let commented = "# made by a, b\nx_m y_m z_m\n0.5 1 2";
+        assert_eq!(marks(commented, Form::default()).1, "");
     }
 
     #[test]
