@@ -6,13 +6,14 @@ use std::path::Path;
 
 use image::{ImageReader, Limits};
 
-use super::{openexr, portable_network};
+use super::{MOST_PIXELS, openexr, portable_network};
 
 /// Bytes of a pixel of a PNG, JPEG or Radiance HDR, while its colours are made: as stored, in 16
 /// bits, and as three layers, which become one map.
 const OF_A_PIXEL: f64 = 24.0;
 
-/// Bytes that a picture takes while it is read; 0 of what is none, since reading reports that.
+/// Bytes that a picture takes while it is read; 0 of what is none, or larger than any that is read, since
+/// reading reports that.
 pub fn bytes_of_file(path: &Path) -> f64 {
     File::open(path).map_or(0.0, |file| bytes(BufReader::new(file)))
 }
@@ -30,9 +31,11 @@ pub fn bytes(mut file: impl BufRead + Seek) -> f64 {
         reader.limits(limits);
         reader.into_dimensions().ok()
     });
-    size.map_or(0.0, |(width, height)| {
-        OF_A_PIXEL * f64::from(width) * f64::from(height)
-    })
+    let pixels = size.map_or(0, |(width, height)| u64::from(width) * u64::from(height));
+    if pixels > MOST_PIXELS {
+        return 0.0;
+    }
+    OF_A_PIXEL * pixels as f64
 }
 
 #[cfg(test)]

@@ -412,7 +412,7 @@ pub fn model(
 ///
 /// # Errors
 ///
-/// As [`model`].
+/// As [`model()`].
 pub fn claims_of_model(
     file: &Path,
     beside: &[(String, PathBuf)],
