@@ -54,17 +54,33 @@ pub fn usual_leaf(length_mm: f64) -> LeafPlan {
     }
 }
 
+/// What is wanted of a leaf.
+#[derive(Clone, Copy, PartialEq)]
+enum Wanted {
+    /// All of it.
+    Whole,
+    /// Margin and veins: its contents need not be said.
+    Veins,
+    /// All of it, from a file of this program: tests have tried its margin.
+    Preset,
+}
+
 /// The keys of a leaf.
 pub fn leaf(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
-    whole_or_veins(plan, keys, true);
+    whole_or_veins(plan, keys, Wanted::Whole);
+}
+
+/// The keys of a leaf in the file of a preset.
+pub(super) fn leaf_of_preset(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
+    whole_or_veins(plan, keys, Wanted::Preset);
 }
 
 /// The keys of a leaf of which only margin and veins are wanted: its contents need not be said.
 pub(super) fn veins_alone(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
-    whole_or_veins(plan, keys, false);
+    whole_or_veins(plan, keys, Wanted::Veins);
 }
 
-fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
+fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, wanted: Wanted) {
     let before = plan.length_mm;
     let limits = Number(Limits::closed(0.1, 10_000.0));
     let about = "Length of the midrib.";
@@ -84,7 +100,7 @@ fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
     let errors = error_count(keys);
     let about = "The margin.";
     keys.required_block("outline", about, &names, |keys| outline(plan, keys));
-    let can_be_tried = is_whole(keys, "outline", errors);
+    let can_be_tried = wanted != Wanted::Preset && is_whole(keys, "outline", errors);
     let tried = can_be_tried.then(|| outline::tried(plan, keys)).flatten();
     let names = venation::KINDS.map(|kind| kind.name);
     let errors = error_count(keys);
@@ -95,7 +111,7 @@ fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
     if is_whole(keys, "venation", errors) {
         venation::check(plan, tried.as_ref(), keys);
     }
-    tissue(plan, keys, whole);
+    tissue(plan, keys, wanted != Wanted::Veins);
     let about = "Which substances its pigments are.";
     keys.block("pigments", about, |keys| pigments(&mut plan.pigments, keys));
     let base = plan.tissue.lamina;

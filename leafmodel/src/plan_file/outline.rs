@@ -158,7 +158,9 @@ fn transport(plan: &mut TransportPlan, keys: &mut Keys<'_>) {
         keys.key("steps", &mut steps, count, about);
     }
     let about = "Instead: one step for each rise that brings a cell, the smallest there are.";
-    keys.key("events", &mut events, Flag, about);
+    if events || keys.reader().is_some() || keys.is_description() {
+        keys.key("events", &mut events, Flag, about);
+    }
     plan.ladder = if events {
         Ladder::Events
     } else {

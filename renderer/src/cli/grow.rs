@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
         let longest = PRESETS.iter().map(|preset| preset.name.len()).max();
         for preset in PRESETS {
             let width = longest.unwrap_or(0);
-            say(format!("{:<width$}  {}", preset.name, preset.about));
+            say(format!("{:<width$}  {}", preset.name, preset.about()));
         }
         return Ok(());
     }
