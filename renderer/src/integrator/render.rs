@@ -387,7 +387,7 @@ impl Rendered {
                 film.overflowed()
             ));
         }
-        let pixels = film.map(|pixel| pixel.luminance());
+        let pixels = film.map(|pixel| pixel.luminance().abs());
         let mean = pixels.iter().sum::<f64>() / pixels.len() as f64;
         if 0.0 < mean && mean < LEAST_LUMINANCE {
             notes.push(format!(
