@@ -5,8 +5,8 @@
 //! - **Left out**: the net of fine veins, for which no flora gives numbers;
 //!   `docs/src/theory/species.md` holds it against cleared leaves.
 
-use super::find;
 use super::traits::{Provenance, Quantity};
+use super::{Preset, find};
 use crate::leaf::LeafPlan;
 use crate::measure::description::{Description, describe};
 use crate::measure::projections::{Projections, projections};
@@ -47,7 +47,7 @@ pub fn findings(
     network: &VenationNetwork,
 ) -> Vec<Finding> {
     let preset = find(preset);
-    let traits = preset.and_then(|preset| preset.traits());
+    let traits = preset.and_then(Preset::traits);
     let green = traits.filter(|traits| !traits.is_coloured());
     let (Some(preset), Some(traits)) = (preset, green) else {
         return Vec::new();

@@ -7,8 +7,8 @@
 //!   that a flora gives for the species, where the preset's [traits](super::traits) have one.
 //! - **Left out**: why leaves differ: age, light and place on the shoot.
 
-use super::find;
 use super::traits::Traits;
+use super::{Preset, find};
 use crate::blade::senescence::AgeSource;
 use crate::blade::tissue::MOST_HELD;
 use crate::leaf::LeafPlan;
@@ -68,7 +68,7 @@ impl LeafPlan {
         let factor = |cv: f64, of: Trait| (1.0 + cv * z(of)).max(0.3);
         let mut leaf = self.clone();
         leaf.seed = seed;
-        let traits = preset.and_then(find).and_then(|preset| preset.traits());
+        let traits = preset.and_then(find).and_then(Preset::traits);
         leaf.length_mm = length(self.length_mm, traits, z(Trait::Length));
         let ratio = leaf.length_mm / self.length_mm;
         leaf.scale_veins(ratio);
@@ -239,7 +239,7 @@ mod tests {
     fn twelve_leaves_of_a_tree_differ_and_are_as_long_as_its_flora_says() {
         for name in ["birch", "maple", "red-oak", "willow", "birch-autumn"] {
             let plan = find(name).expect("a preset").plan();
-            let traits = find(name).and_then(|preset| preset.traits());
+            let traits = find(name).and_then(Preset::traits);
             let range = |name| {
                 let trait_of_summer = traits.and_then(|traits| traits.summer(name));
                 trait_of_summer.expect("a species").range

@@ -115,7 +115,7 @@ fn all_coloured() -> impl Iterator<Item = &'static Preset> {
 }
 
 fn traits(preset: &str) -> &'static Traits {
-    let traits = find(preset).and_then(|preset| preset.traits());
+    let traits = find(preset).and_then(Preset::traits);
     traits.expect("a coloured leaf")
 }
 

@@ -28,7 +28,7 @@ const ASKED_FOR: [&str; 18] = [
 ];
 
 fn traits(name: &str) -> &'static Traits {
-    let found = find(name).and_then(|preset| preset.traits());
+    let found = find(name).and_then(Preset::traits);
     found.unwrap_or_else(|| panic!("{name} is no species"))
 }
 

@@ -7,7 +7,7 @@ use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::{Number, Word};
 use leafmodel::leaf::LeafPlan;
 use leafmodel::plan_file::{self, require_prospect};
-use leafmodel::species;
+use leafmodel::species::{self, Preset};
 
 use super::fluorescence::fluorescence;
 use super::spectrum::SpectrumOf;
@@ -82,7 +82,7 @@ pub(super) fn leaf(leaf: &mut Leaf, keys: &mut Keys<'_>) {
     }
     plan_file::leaf_preset(&mut leaf.plan, keys);
     let preset = keys.base().and_then(species::find);
-    if let Some(alpha) = preset.and_then(|preset| preset.adaxial_roughness()) {
+    if let Some(alpha) = preset.and_then(Preset::adaxial_roughness) {
         let [adaxial, _] = &mut leaf.faces.coats;
         (adaxial.alpha_across, adaxial.alpha_along) = (alpha, alpha);
     }
