@@ -15,6 +15,7 @@
 pub mod assets;
 pub mod context;
 pub mod coverage;
+pub mod declared;
 pub mod encoding;
 pub mod error;
 pub mod keys;
@@ -25,6 +26,7 @@ pub mod opened;
 mod other_format;
 pub mod overrides;
 pub mod path;
+pub mod ranges;
 pub mod reader;
 pub mod report;
 pub mod rows;

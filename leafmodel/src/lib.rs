@@ -68,6 +68,9 @@
 //! `leafmodel/examples` has whole programs: a leaf within one's own margin, a sweep of two
 //! parameters, a network as CSV, a spectrum.
 
+// Derived code names this crate as others do.
+extern crate self as leafmodel;
+
 pub mod blade;
 pub mod compound;
 pub mod development;
