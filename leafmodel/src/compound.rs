@@ -37,6 +37,8 @@ use thiserror::Error;
 pub use self::flat::FlatLeaf;
 pub use self::form::{Arrangement, CompoundForm, Feather};
 pub use self::whole::{Placement, WholeLeaf, joined_stalks, leaflet_plans};
+use crate::document::keys::Keys;
+use crate::document::ranges::RangeError;
 use crate::leaf::outline_plan::Contour;
 use crate::leaf::{LeafError, LeafPlan};
 use crate::shape::outline::Outline;
@@ -102,14 +104,13 @@ pub struct CompoundLeaf {
 #[derive(Debug, Error)]
 pub enum CompoundError {
     /// A number out of its range.
-    #[error("{key} is {value}, outside {range}")]
-    OutOfRange {
-        /// Which parameter.
-        key: &'static str,
-        /// What it was.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
+    #[error(transparent)]
+    Range(#[from] RangeError),
+    /// More leaflets than a leaf may have.
+    #[error("leaflets in all is {leaflets}, outside 1 to 2000")]
+    TooMany {
+        /// How many.
+        leaflets: usize,
     },
     /// Two leaflets overlap.
     #[error("leaflets {first} and {second} overlap")]
@@ -198,81 +199,29 @@ impl CompoundForm {
     ///
     /// # Errors
     ///
-    /// [`CompoundError::OutOfRange`].
+    /// [`CompoundError::Range`], [`CompoundError::TooMany`].
     pub fn validate(&self) -> Result<(), CompoundError> {
-        in_range("petiole", self.petiole, [0.0, 100.0], "0 to 100")?;
-        in_range("petiolule", self.petiolule, [0.0, 10.0], "0 to 10")?;
-        let radius = self.stalk_radius_mm;
-        in_range("stalk_radius_mm", radius, [1e-3, 100.0], "0.001 to 100")?;
-        in_range("variants", f64::from(self.variants), [1.0, 50.0], "1 to 50")?;
-        in_range("curl", self.curl, [-6.2, 6.2], "-6.2 to 6.2 (radians)")?;
-        in_range("fold", self.fold, [-1.4, 1.4], "-1.4 to 1.4 (radians)")?;
-        in_range("tilt", self.tilt, [0.0, 1.0], "0 to 1 (radians)")?;
-        in_range("irregularity", self.irregularity, [0.0, 0.25], "0 to 0.25")?;
+        let mut own = self.clone();
+        if let Some(error) = Keys::check(|keys| own.keys(keys)).into_iter().next() {
+            return Err(error.into());
+        }
         let leaflets = match &self.arrangement {
-            Arrangement::Pinnate(feather) => {
-                feather.validate()?;
-                feather.count()
-            }
-            Arrangement::Palmate {
-                leaflets,
-                spread,
-                sizes,
-            } => {
-                in_range("leaflets", f64::from(*leaflets), [2.0, 100.0], "2 to 100")?;
-                in_range("spread", *spread, [0.05, 6.2], "0.05 to 6.2 (radians)")?;
-                for size in sizes {
-                    in_range("sizes", *size, [0.01, 1.0], "0.01 to 1")?;
-                }
-                *leaflets as usize
-            }
+            Arrangement::Pinnate(feather) => feather.count(),
+            Arrangement::Palmate { leaflets, .. } => *leaflets as usize,
             Arrangement::Bipinnate {
-                pinnae,
-                leaflets,
-                stalk,
-            } => {
-                in_range("stalk", *stalk, [0.01, 100.0], "0.01 to 100")?;
-                pinnae.validate()?;
-                leaflets.validate()?;
-                pinnae.count() * leaflets.count()
-            }
+                pinnae, leaflets, ..
+            } => pinnae.count() * leaflets.count(),
         };
-        let most = [1.0, MOST_LEAFLETS as f64];
-        in_range("leaflets in all", leaflets as f64, most, "1 to 2000")
+        if leaflets > MOST_LEAFLETS {
+            return Err(CompoundError::TooMany { leaflets });
+        }
+        Ok(())
     }
 }
 
 impl Feather {
     fn count(&self) -> usize {
         2 * self.pairs as usize + usize::from(self.terminal)
-    }
-
-    fn validate(&self) -> Result<(), CompoundError> {
-        in_range("pairs", f64::from(self.pairs), [1.0, 200.0], "1 to 200")?;
-        in_range("rachis", self.rachis, [0.01, 100.0], "0.01 to 100")?;
-        in_range("alternation", self.alternation, [0.0, 0.9], "0 to 0.9")?;
-        in_range("turn", self.turn, [-2.0, 2.0], "-2 to 2 (radians)")?;
-        for angle in self.angles {
-            in_range("angles", angle, [0.05, 3.0], "0.05 to 3 (radians)")?;
-        }
-        for size in self.sizes {
-            in_range("sizes", size, [0.01, 1.0], "0.01 to 1")?;
-        }
-        Ok(())
-    }
-}
-
-/// Refuses a `value` outside a range; NaN is outside every range.
-fn in_range(
-    key: &'static str,
-    value: f64,
-    [low, high]: [f64; 2],
-    range: &'static str,
-) -> Result<(), CompoundError> {
-    if (low..=high).contains(&value) {
-        Ok(())
-    } else {
-        Err(CompoundError::OutOfRange { key, value, range })
     }
 }
 

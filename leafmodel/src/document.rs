@@ -20,6 +20,7 @@ pub mod encoding;
 pub mod error;
 pub mod keys;
 pub mod limits;
+pub(crate) mod named_asset;
 pub mod names;
 pub mod nearest;
 pub mod opened;

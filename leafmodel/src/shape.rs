@@ -23,6 +23,7 @@ pub mod growth_form;
 mod interior_grid;
 pub(crate) mod outer_boundary;
 pub mod outline;
+pub(crate) mod rates;
 pub(crate) mod segments;
 mod slabs;
 pub mod specimen;

@@ -12,7 +12,9 @@ pub(crate) struct Key {
     pub(crate) value: Option<ValueKind>,
     /// `required`: it must be there, unless a preset lies beneath.
     pub(crate) is_required: bool,
-    /// `about = "…"`: its sentence, where that is not the first paragraph of the doc comment.
+    /// The first paragraph of the doc comment above it.
+    pub(crate) sentence: String,
+    /// `about = "…"`: its sentence, where it is another one.
     pub(crate) about: Option<Expr>,
     /// `default = …`: what a block has that is left out.
     pub(crate) default: Option<Expr>,
@@ -50,6 +52,16 @@ pub(crate) enum Limits {
     Named(Expr),
 }
 
+impl Key {
+    /// Its sentence, as an expression.
+    pub(crate) fn about(&self) -> TokenStream {
+        let sentence = &self.sentence;
+        self.about
+            .as_ref()
+            .map_or_else(|| quote! { #sentence }, ToTokens::to_token_stream)
+    }
+}
+
 impl Limits {
     /// As an expression of type `Limits`.
     pub(crate) fn of_numbers(&self) -> TokenStream {
@@ -63,10 +75,45 @@ impl Limits {
     }
 }
 
-/// All `#[key(…)]` among attributes.
+/// All `#[key(…)]` among attributes, each with the doc comment between it and the one before.
 pub(crate) fn keys(attributes: &[Attribute]) -> Result<Vec<Key>> {
-    let of_key = attributes.iter().filter(|one| one.path().is_ident("key"));
-    of_key.map(key).collect()
+    let (mut keys, mut lines) = (Vec::new(), Vec::new());
+    for attribute in attributes {
+        lines.extend(doc_line(attribute));
+        if attribute.path().is_ident("key") {
+            let mut key = key(attribute)?;
+            key.sentence = first_paragraph(std::mem::take(&mut lines));
+            keys.push(key);
+        }
+    }
+    Ok(keys)
+}
+
+/// The `#[key(…)]` of a variant, which may be left out.
+pub(crate) fn key_of_variant(attributes: &[Attribute]) -> Result<Key> {
+    let found = keys(attributes)?.into_iter().next();
+    Ok(found.unwrap_or_else(|| Key {
+        sentence: first_paragraph(attributes.iter().filter_map(doc_line)),
+        ..Key::default()
+    }))
+}
+
+fn first_paragraph(lines: impl IntoIterator<Item = String>) -> String {
+    let lines = lines.into_iter().take_while(|line| !line.is_empty());
+    lines.collect::<Vec<String>>().join(" ")
+}
+
+fn doc_line(attribute: &Attribute) -> Option<String> {
+    let Meta::NameValue(meta) = &attribute.meta else {
+        return None;
+    };
+    match &meta.value {
+        Expr::Lit(ExprLit {
+            lit: Lit::Str(text),
+            ..
+        }) if meta.path.is_ident("doc") => Some(text.value().trim().to_owned()),
+        _ => None,
+    }
 }
 
 fn key(attribute: &Attribute) -> Result<Key> {
@@ -147,7 +194,11 @@ fn limits(expr: &Expr) -> Option<Limits> {
                 "within" => return Some(Limits::Named(call.args.first()?.clone())),
                 _ => return None,
             };
-            Some(Limits::Ends(made, call.args[0].clone(), call.args[1].clone()))
+            Some(Limits::Ends(
+                made,
+                call.args[0].clone(),
+                call.args[1].clone(),
+            ))
         }
         _ => None,
     }
@@ -166,24 +217,6 @@ fn list(call: &ExprCall) -> Result<ValueKind> {
     };
     let (most, wanted) = (named("most")?, named("wanted")?);
     Ok(ValueKind::List { most, wanted })
-}
-
-/// The first paragraph of a doc comment, in one line.
-pub(crate) fn sentence(attributes: &[Attribute]) -> String {
-    let lines = attributes.iter().filter_map(|attribute| {
-        let Meta::NameValue(meta) = &attribute.meta else {
-            return None;
-        };
-        match &meta.value {
-            Expr::Lit(ExprLit {
-                lit: Lit::Str(text),
-                ..
-            }) if meta.path.is_ident("doc") => Some(text.value().trim().to_owned()),
-            _ => None,
-        }
-    });
-    let first: Vec<String> = lines.take_while(|line| !line.is_empty()).collect();
-    first.join(" ")
 }
 
 /// The `T` of an `Option<T>`.

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{DataStruct, DeriveInput, Error, Field, Member, Result, Type};
 
-use crate::attribute::{Key, ValueKind, inside_option, keys, sentence};
+use crate::attribute::{Key, ValueKind, inside_option, keys};
 
 /// `Declared` of a struct.
 pub(crate) fn of_struct(input: &DeriveInput, data: &DataStruct) -> Result<TokenStream> {
@@ -54,14 +54,12 @@ fn of_key(field: &Field, key: &Key, place: &TokenStream) -> Result<TokenStream> 
         });
     }
     let Some(name) = &key.name else {
-        return Err(Error::new_spanned(field, "a key has a name: #[key(\"name\")]"));
+        return Err(Error::new_spanned(
+            field,
+            "a key has a name: #[key(\"name\")]",
+        ));
     };
-    let about = if let Some(about) = &key.about {
-        quote! { #about }
-    } else {
-        let about = sentence(&field.attrs);
-        quote! { #about }
-    };
+    let about = key.about();
     let (place, ty) = match (&key.at, &field.ty) {
         (Some(index), Type::Array(array)) => (quote! { (&mut #place[#index]) }, &*array.elem),
         (Some(_), other) => return Err(Error::new_spanned(other, "`at` is for arrays")),
@@ -99,7 +97,13 @@ fn of_key(field: &Field, key: &Key, place: &TokenStream) -> Result<TokenStream> 
     })
 }
 
-fn block(key: &Key, name: &str, about: &TokenStream, place: &TokenStream, ty: &Type) -> TokenStream {
+fn block(
+    key: &Key,
+    name: &str,
+    about: &TokenStream,
+    place: &TokenStream,
+    ty: &Type,
+) -> TokenStream {
     let inner = inside_option(ty);
     let of = inner.unwrap_or(ty);
     let declare = if let Some(with) = &key.with {
@@ -137,7 +141,10 @@ fn of_type(ty: &Type) -> Result<TokenStream> {
         Some("u64") => Ok(quote! {
             ::leafmodel::document::value_kind::Integer::within(0, ::core::primitive::u64::MAX)
         }),
-        Some(_) | None => Err(Error::new_spanned(ty, "what is the key's range, or its kind?")),
+        Some(_) | None => Err(Error::new_spanned(
+            ty,
+            "what is the key's range, or its kind?",
+        )),
     }
 }
 
@@ -165,7 +172,10 @@ fn numbers(ty: &Type, limits: &crate::attribute::Limits, degrees: bool) -> Resul
                 Err(Error::new_spanned(ty, "integers lie within `low..=high`"))
             }
         },
-        Some(_) | None => Err(Error::new_spanned(ty, "this type has no range; name its kind")),
+        Some(_) | None => Err(Error::new_spanned(
+            ty,
+            "this type has no range; name its kind",
+        )),
     }
 }
 

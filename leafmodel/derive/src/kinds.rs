@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{DataEnum, DeriveInput, Error, Fields, Result, Variant};
 
-use crate::attribute::{keys, sentence};
+use crate::attribute::{key_of_variant, keys};
 use crate::fields::of_field;
 
 /// `Declared` and `Kinds` of an enum: one block for each of its variants.
@@ -33,14 +33,9 @@ pub(crate) fn of_enum(input: &DeriveInput, data: &DataEnum) -> Result<TokenStrea
 
 fn of_variant(variant: &Variant) -> Result<TokenStream> {
     let ident = &variant.ident;
-    let key = keys(&variant.attrs)?.into_iter().next().unwrap_or_default();
+    let key = key_of_variant(&variant.attrs)?;
+    let about = key.about();
     let name = key.name.unwrap_or_else(|| snake_case(&ident.to_string()));
-    let about = if let Some(about) = &key.about {
-        quote! { #about }
-    } else {
-        let about = sentence(&variant.attrs);
-        quote! { #about }
-    };
     let last = key.last.map(|last| quote! { #last(value, keys); });
     let (new, declare) = match &variant.fields {
         Fields::Unit => (quote! { Self::#ident }, TokenStream::new()),

@@ -8,18 +8,20 @@
 use glam::DVec2;
 
 use super::contents_map::ContentsMap;
-use super::error::Field;
 use super::frame::UvFrame;
 use super::relief::smooth_step;
+use crate::document::declared::Declared;
 use crate::optics::Constituent;
 use crate::shape::outline::Outline;
 
 /// How thick the margin is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct MarginThickness {
-    /// Thickness at the margin over that of the blade, 0.05 to 1 (no thinner).
+    /// Thickness at the margin over that between veins; contents per area fall with it.
+    #[key("margin_thickness", 0.05..=1.0)]
     pub share: f64,
-    /// Distance from the margin within which the thickness falls, mm, 0.01 to 100.
+    /// Distance from the margin within which the thickness falls to that.
+    #[key("margin_width_mm", 0.01..=100.0)]
     pub width_mm: f64,
 }
 
@@ -29,18 +31,6 @@ impl MarginThickness {
         share: 1.0,
         width_mm: 1.0,
     };
-
-    pub(super) fn fields(&self) -> [Field; 2] {
-        [
-            ("margin_thickness", self.share, 0.05..=1.0, "0.05 to 1"),
-            (
-                "margin_width_mm",
-                self.width_mm,
-                0.01..=100.0,
-                "0.01 to 100 (millimetres)",
-            ),
-        ]
-    }
 
     /// Whether no place is thinner than another.
     pub(super) fn is_even(&self) -> bool {

@@ -40,7 +40,8 @@ use super::distances::Distances;
 use super::frame::UvFrame;
 use super::mesh::BladeMesh;
 use super::senescence::Withering;
-use super::tissue::{Tissue, TissueError};
+use super::tissue::Tissue;
+use crate::document::ranges::RangeError;
 use crate::memory;
 use crate::venation::network::VeinSegment;
 
@@ -95,12 +96,12 @@ impl SurfaceMap {
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for a plan out of range.
+    /// [`RangeError`] for a plan out of range.
     pub fn of(
         plan: &SurfacePlan,
         blade: &SurfaceOf<'_>,
         [width, height]: [u32; 2],
-    ) -> Result<Self, TissueError> {
+    ) -> Result<Self, RangeError> {
         plan.validate()?;
         let frame = blade.frame;
         let size = [width as usize, height as usize];

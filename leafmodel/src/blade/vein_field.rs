@@ -2,9 +2,10 @@
 
 use glam::DVec2;
 
-use super::tissue::{Tissue, TissueError};
+use super::tissue::Tissue;
 use super::vein_cover::{Covers, Moments, VeinCover};
 use super::vein_profile::{Profile, Surplus, strength};
+use crate::document::ranges::RangeError;
 use crate::venation::network::VeinSegment;
 
 /// The veins of a leaf in a uniform grid; each cell lists every segment within reach.
@@ -95,9 +96,9 @@ impl VeinField {
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for a vein that has a coordinate beyond 10⁵ mm or a radius not above 0 and up
+    /// [`RangeError`] for a vein that has a coordinate beyond 10⁵ mm or a radius not above 0 and up
     /// to 1000 mm.
-    pub(crate) fn check(veins: impl IntoIterator<Item = VeinSegment>) -> Result<(), TissueError> {
+    pub(crate) fn check(veins: impl IntoIterator<Item = VeinSegment>) -> Result<(), RangeError> {
         veins.into_iter().try_for_each(|vein| check(&vein))
     }
 
@@ -106,12 +107,12 @@ impl VeinField {
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for a tissue out of range, for a vein that has a coordinate beyond 10⁵ mm or
+    /// [`RangeError`] for a tissue out of range, for a vein that has a coordinate beyond 10⁵ mm or
     /// a radius not above 0 and up to 1000 mm, and for a texel below 0 or above 10⁵ mm.
-    pub fn new(veins: &[VeinSegment], tissue: &Tissue, texel_mm: f64) -> Result<Self, TissueError> {
+    pub fn new(veins: &[VeinSegment], tissue: &Tissue, texel_mm: f64) -> Result<Self, RangeError> {
         tissue.validate()?;
         let valid = (0.0..=1e5).contains(&texel_mm);
-        TissueError::unless(valid, "texel width", texel_mm, "from 0 to 100000 mm")?;
+        RangeError::unless(valid, "texel width", texel_mm, "from 0 to 100000 mm")?;
         Self::check(veins.iter().copied())?;
         let profile = Profile {
             sheath: tissue.sheath_width_mm,
@@ -229,14 +230,14 @@ fn bounds(segment: &Segment) -> (DVec2, DVec2) {
     )
 }
 
-fn check(vein: &VeinSegment) -> Result<(), TissueError> {
+fn check(vein: &VeinSegment) -> Result<(), RangeError> {
     for value in [vein.from.x, vein.from.y, vein.to.x, vein.to.y] {
         let valid = value.abs() <= 1e5;
-        TissueError::unless(valid, "vein coordinate", value, "within ±100000 mm")?;
+        RangeError::unless(valid, "vein coordinate", value, "within ±100000 mm")?;
     }
     for value in [vein.radius_from, vein.radius_to] {
         let valid = value > 0.0 && value <= 1000.0;
-        TissueError::unless(valid, "vein radius", value, "above 0, to 1000 mm")?;
+        RangeError::unless(valid, "vein radius", value, "above 0, to 1000 mm")?;
     }
     Ok(())
 }
@@ -339,7 +340,7 @@ mod tests {
             ),
         ] {
             let error = VeinField::new(&[bad], &GREEN, 0.0).expect_err("out of range");
-            assert_eq!(error.field, field);
+            assert_eq!(error.path, field);
         }
         assert!(VeinField::new(&[], &GREEN, f64::NAN).is_err());
     }

@@ -109,7 +109,9 @@ impl Stray {
                     leaflets.push(leaflet);
                     pinnae.extend(0..self.pinnae.len());
                 }
-                CompoundError::OutOfRange { .. } | CompoundError::Leaflet(_) => {}
+                CompoundError::Range(_)
+                | CompoundError::TooMany { .. }
+                | CompoundError::Leaflet(_) => {}
             }
         }
         // Not `||` for the first two: both are calmed.

@@ -302,64 +302,64 @@ fn every_bad_number_is_named() {
         plan(Arrangement::Pinnate(feather))
     };
     let bad = [
-        ("pairs", with(|f| f.pairs = 0)),
-        ("rachis", with(|f| f.rachis = f64::NAN)),
-        ("alternation", with(|f| f.alternation = 1.0)),
-        ("angles", with(|f| f.angles[1] = 0.0)),
-        ("sizes", with(|f| f.sizes[2] = 1.1)),
-        ("turn", with(|f| f.turn = 3.0)),
+        ("pinnate.pairs", with(|f| f.pairs = 0)),
+        ("pinnate.rachis", with(|f| f.rachis = f64::NAN)),
+        ("pinnate.alternation", with(|f| f.alternation = 1.0)),
+        ("pinnate.angles_deg", with(|f| f.angles[1] = 0.0)),
+        ("pinnate.sizes", with(|f| f.sizes[2] = 1.1)),
+        ("pinnate.turn_deg", with(|f| f.turn = 3.0)),
         (
-            "petiole",
+            "palmate.petiole",
             CompoundForm {
                 petiole: -1.0,
                 ..plan(palmate())
             },
         ),
         (
-            "petiolule",
+            "palmate.petiolule",
             CompoundForm {
                 petiolule: 11.0,
                 ..plan(palmate())
             },
         ),
         (
-            "stalk_radius_mm",
+            "palmate.stalk_radius_mm",
             CompoundForm {
                 stalk_radius_mm: 0.0,
                 ..plan(palmate())
             },
         ),
         (
-            "variants",
+            "palmate.variants",
             CompoundForm {
                 variants: 0,
                 ..plan(palmate())
             },
         ),
         (
-            "curl",
+            "palmate.curl_deg",
             CompoundForm {
                 curl: 7.0,
                 ..plan(palmate())
             },
         ),
         (
-            "fold",
+            "palmate.fold_deg",
             CompoundForm {
                 fold: f64::NAN,
                 ..plan(palmate())
             },
         ),
         (
-            "tilt",
+            "palmate.tilt_deg",
             CompoundForm {
                 tilt: -0.1,
                 ..plan(palmate())
             },
         ),
-        ("irregularity", irregular(palmate(), 0.3)),
+        ("palmate.irregularity", irregular(palmate(), 0.3)),
         (
-            "leaflets",
+            "palmate.leaflets",
             plan(Arrangement::Palmate {
                 leaflets: 1,
                 spread: 1.0,
@@ -367,7 +367,7 @@ fn every_bad_number_is_named() {
             }),
         ),
         (
-            "spread",
+            "palmate.spread_deg",
             plan(Arrangement::Palmate {
                 leaflets: 3,
                 spread: 7.0,
@@ -377,7 +377,7 @@ fn every_bad_number_is_named() {
     ];
     for (expected, plan) in bad {
         match plan.arrange(&leaflet()) {
-            Err(CompoundError::OutOfRange { key, .. }) => assert_eq!(key, expected),
+            Err(CompoundError::Range(error)) => assert_eq!(error.path, expected),
             other => panic!("{expected}: {other:?}"),
         }
     }

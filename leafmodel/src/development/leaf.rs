@@ -4,6 +4,7 @@ use super::check::DevelopmentError;
 use super::network::MainVeinStyle;
 use super::plan::DevelopmentPlan;
 use super::steps::Developing;
+use crate::document::declared::Declared;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;
 
@@ -110,13 +111,13 @@ impl DevelopedLeaf {
     ///
     /// # Errors
     ///
-    /// [`DevelopmentError::OutOfRange`] of the style.
+    /// [`DevelopmentError::Range`] of the style.
     pub fn network(
         &self,
         length_mm: f64,
         style: MainVeinStyle,
     ) -> Result<VenationNetwork, DevelopmentError> {
-        style.validate()?;
+        style.in_range()?;
         Ok(self.grown.network(length_mm, style))
     }
 

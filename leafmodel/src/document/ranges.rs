@@ -3,9 +3,9 @@
 use thiserror::Error;
 
 use super::keys::Keys;
-use super::schema::{Type, default_in_words};
+use super::limits::Plain;
+use super::schema::Type;
 use super::tree::Value;
-use super::values::number;
 
 /// A value outside the range of its key.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -17,6 +17,17 @@ pub struct RangeError {
     pub value: String,
     /// What it may be.
     pub limits: String,
+}
+
+impl RangeError {
+    /// `Ok` if `valid`, which should be false for a NaN.
+    pub(crate) fn unless(valid: bool, path: &str, value: f64, limits: &str) -> Result<(), Self> {
+        valid.then_some(()).ok_or_else(|| Self {
+            path: path.to_owned(),
+            value: Plain(value).to_string(),
+            limits: limits.to_owned(),
+        })
+    }
 }
 
 /// What is out of range in a block, and where the block lies.
@@ -42,12 +53,12 @@ impl Ranges {
             (Type::Number(limits), Value::Integer(_) | Value::Number(_)) => {
                 let value = as_number(value);
                 if !limits.contain(value) {
-                    self.refuse(name, value, limits.to_string());
+                    self.refuse(name, Plain(value).to_string(), limits.to_string());
                 }
             }
             (Type::Integer { least, most }, Value::Integer(integer)) => {
                 if !(i128::from(*least)..=i128::from(*most)).contains(integer) {
-                    self.refuse(name, *integer as f64, of.in_brief());
+                    self.refuse(name, integer.to_string(), of.in_brief());
                 }
             }
             (Type::Tuple(types), Value::List(values)) => {
@@ -103,14 +114,14 @@ impl Ranges {
     /// Checks the length of a list.
     pub(super) fn length(&mut self, name: &str, found: usize, least: usize, most: usize, of: &str) {
         if !(least..=most).contains(&found) {
-            self.refuse(&format!("{name}, its length,"), found as f64, of.to_owned());
+            self.refuse(name, format!("a list of {found}"), of.to_owned());
         }
     }
 
-    fn refuse(&mut self, name: &str, value: f64, limits: String) {
+    fn refuse(&mut self, name: &str, value: String, limits: String) {
         let error = RangeError {
             path: self.path_of(name),
-            value: default_in_words(&number(value)),
+            value,
             limits,
         };
         self.errors.push(error);
@@ -191,7 +202,7 @@ mod tests {
             [
                 "blades is 1, outside 2 to 12",
                 "pitch_deg is -90.5, outside -90 to 90",
-                "motor.power_w is nan, outside the values above 0 and up to 1000",
+                "motor.power_w is NaN, outside the values above 0 and up to 1000",
             ]
         );
     }

@@ -4,6 +4,7 @@
 use super::cells::NONE;
 use super::leaf::TransportLeaf;
 use super::plan::TransportError;
+use crate::document::ranges::RangeError;
 
 impl TransportLeaf {
     /// For each cell the share of the full-grown leaf's revenue `ε` at which it dies as `ε` falls
@@ -16,18 +17,15 @@ impl TransportLeaf {
     ///
     /// # Errors
     ///
-    /// [`TransportError::OutOfRange`] for `steps`.
+    /// [`TransportError::Range`] for `steps`.
     ///
     /// # Source
     ///
     /// \[xia2007\], Remark 3.6, which says that cells die, not how. The expense of an existing cell
     /// is our definition.
     pub fn deaths(&self, steps: u32) -> Result<Vec<f64>, TransportError> {
-        if !(1..=10_000).contains(&steps) {
-            let (key, range) = ("steps", "1 to 10000");
-            let value = f64::from(steps);
-            return Err(TransportError::OutOfRange { key, value, range });
-        }
+        let valid = (1..=10_000).contains(&steps);
+        RangeError::unless(valid, "steps", f64::from(steps), "1 to 10000")?;
         let plan = self.plan();
         let order = self.root_to_tip();
         let multiples = self.system().multiples();

@@ -19,7 +19,7 @@ impl TransportLeaf {
     ///
     /// # Errors
     ///
-    /// [`TransportError::OutOfRange`] for `steps`.
+    /// [`TransportError::Range`] for `steps`.
     pub fn year(&self, steps: u32) -> Result<Year<'_>, TransportError> {
         let deaths = self.deaths(steps)?;
         Ok(Year { leaf: self, deaths })

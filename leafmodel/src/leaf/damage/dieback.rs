@@ -18,23 +18,30 @@ use crate::blade::contents_map::ContentsMap;
 use crate::blade::distances::Distances;
 use crate::blade::frame::UvFrame;
 use crate::blade::mottle::Mottle;
+use crate::document::declared::Declared;
 use crate::optics::{Constituent, Contents};
 use crate::shape::chance::bits;
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 
 /// How much of a blade has died from its margin, and where.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Dieback {
-    /// Share of the blade that is dead, 0 to 0.95.
+    /// Share of the blade that is dead.
+    #[key("share", required, 0.0..=0.95)]
     pub share: f64,
-    /// 0: alike along the margin; 1: from the tip alone, straight across the blade; 0 to 2.
+    /// Where it began: 0 alike along the margin, 1 at the tip alone.
+    #[key("from_tip", 0.0..=2.0)]
     pub from_tip: f64,
-    /// Speed of the front in veins of the first two orders over that between them, 0.1 to 10.
+    /// Speed of the front in veins of the first two orders over that between them: below 1 green is
+    /// left along the veins, above 1 the brown runs ahead in them.
+    #[key("vein_speed", 0.1..=10.0)]
     pub vein_speed: f64,
-    /// How uneven the front is, 0 to 1.
+    /// How uneven the front is.
+    #[key("unevenness", 0.0..=1.0)]
     pub unevenness: f64,
-    /// Width of the yellow rim ahead of the front, mm, 0 to 20.
+    /// Width of the yellow rim ahead of it.
+    #[key("rim_mm", 0.0..=20.0)]
     pub rim_mm: f64,
 }
 
@@ -47,25 +54,6 @@ impl Default for Dieback {
             unevenness: 0.5,
             rim_mm: 0.8,
         }
-    }
-}
-
-impl Dieback {
-    /// Key, value, least, most and range of each number.
-    pub(super) fn checks(&self) -> [(&'static str, f64, f64, f64, &'static str); 5] {
-        [
-            ("dieback.share", self.share, 0.0, 0.95, "0 to 0.95"),
-            ("dieback.from_tip", self.from_tip, 0.0, 2.0, "0 to 2"),
-            (
-                "dieback.vein_speed",
-                self.vein_speed,
-                0.1,
-                10.0,
-                "0.1 to 10",
-            ),
-            ("dieback.unevenness", self.unevenness, 0.0, 1.0, "0 to 1"),
-            ("dieback.rim_mm", self.rim_mm, 0.0, 20.0, "0 to 20"),
-        ]
     }
 }
 

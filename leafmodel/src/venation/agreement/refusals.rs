@@ -6,20 +6,24 @@ use super::*;
 fn every_bad_number_is_named() {
     type Break = fn(&mut AuxinPlan);
     let break_one: [(&str, Break); 9] = [
-        ("final_length", |p| p.final_length = 1.0),
-        ("kill_distance", |p| p.kill_distance = 0.0),
-        ("source_birth_distance", |p| p.source_birth_distance = 0.0),
-        ("vein_birth_distance", |p| p.vein_birth_distance = f64::NAN),
-        ("darts_per_area", |p| p.darts_per_area = -1e-4),
+        ("final_length_segments", |p| p.final_length = 1.0),
+        ("kill_distance_segments", |p| p.kill_distance = 0.0),
+        ("source_birth_distance_segments", |p| {
+            p.source_birth_distance = 0.0
+        }),
+        ("vein_birth_distance_segments", |p| {
+            p.vein_birth_distance = f64::NAN
+        }),
+        ("darts_per_segment2", |p| p.darts_per_area = -1e-4),
         ("murray_exponent", |p| p.murray_exponent = f64::INFINITY),
         ("veinlet_radius_mm", |p| p.veinlet_radius_mm = 0.0),
-        ("initial_length", |p| {
+        ("growth.isogonic.initial_length_segments", |p| {
             p.growth = Growth::Isogonic {
-                initial_length: 400.0,
+                initial_length: 0.0,
                 length_step: 1.0,
             };
         }),
-        ("length_step", |p| {
+        ("growth.marginal.length_step_segments", |p| {
             p.growth = Growth::Marginal {
                 initial_length: 10.0,
                 length_step: 0.0,
@@ -30,8 +34,8 @@ fn every_bad_number_is_named() {
         let mut plan = poplar();
         change(&mut plan);
         match grow(&outline(0.0, 0.0), &plan, 1) {
-            Err(VenationError::Plan(PlanError::OutOfRange { key, .. })) => {
-                assert_eq!(key, expected);
+            Err(VenationError::Plan(PlanError::Range(error))) => {
+                assert_eq!(error.path, expected);
             }
             other => panic!("{expected}: {other:?}"),
         }
@@ -47,6 +51,17 @@ fn endless_plans_are_refused() {
         },
         ..poplar()
     };
+    let longer = AuxinPlan {
+        growth: Growth::Isogonic {
+            initial_length: 400.0,
+            length_step: 1.0,
+        },
+        ..poplar()
+    };
+    assert!(matches!(
+        grow(&outline(0.0, 0.0), &longer, 1),
+        Err(VenationError::Plan(PlanError::StartsLonger { .. }))
+    ));
     let crowded = AuxinPlan {
         final_length: 1e5,
         darts_per_area: 1e3,

@@ -268,8 +268,8 @@ fn palmate_veins_have_primaries_that_leave_the_petiole_together() {
 fn every_bad_parameter_is_named_with_its_range() {
     type Break = fn(&mut ArcuatePlan);
     let breaks: [(&str, Break); 11] = [
-        ("veins", |p| p.veins = 0),
-        ("veins", |p| p.veins = 101),
+        ("laterals", |p| p.veins = 0),
+        ("laterals", |p| p.veins = 101),
         ("variation", |p| p.variation = -0.1),
         ("width", |p| p.width = 0.0),
         ("net_width", |p| p.net_width = 1.5),
@@ -290,7 +290,7 @@ fn every_bad_parameter_is_named_with_its_range() {
         let mut plan = ArcuatePlan::default();
         change(&mut plan);
         match plan.network_within(&CubicMargin::default(), LENGTH) {
-            Err(ArcuateError::OutOfRange { key, .. }) => assert_eq!(key, expected),
+            Err(ArcuateError::Range(error)) => assert_eq!(error.path, expected),
             other => panic!("{expected}: {other:?}"),
         }
     }

@@ -98,7 +98,7 @@ pub(in crate::scene) fn place(scene: &mut Description, keys: &Keys<'_>) {
                                 "relief",
                                 "use a longer `edge_mm`, or fewer nodes or branches",
                             ),
-                            PlantError::OutOfRange { .. }
+                            PlantError::Range(_)
                             | PlantError::NoRoom { .. }
                             | PlantError::TooLarge => ("nodes", "use fewer nodes or branches"),
                         };

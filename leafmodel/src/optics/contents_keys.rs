@@ -1,4 +1,4 @@
-//! `contents`: what tissue holds per area.
+//! The keys of `contents`: what tissue holds per area.
 
 use crate::document::keys::Keys;
 use crate::document::limits::Limits;
@@ -6,10 +6,10 @@ use crate::document::value_kind::Number;
 use crate::optics::{Constituent, Contents};
 
 /// Code of the warning of pigments that never occur together.
-pub(super) const NEVER_TOGETHER: &str = "scene::betalains_and_anthocyanins";
+pub(crate) const NEVER_TOGETHER: &str = "scene::betalains_and_anthocyanins";
 
 /// The range of a content.
-pub(super) fn limits(constituent: Constituent) -> Limits {
+pub(crate) fn limits(constituent: Constituent) -> Limits {
     let [least, most] = constituent.range();
     Limits::closed(least, most)
 }
@@ -35,7 +35,7 @@ pub fn changed_contents(value: &mut Contents, keys: &mut Keys<'_>) {
 }
 
 /// Warns of betalains beside anthocyanins; `what` begins the sentence.
-pub(super) fn warn_of_mixture(contents: &Contents, keys: &Keys<'_>, what: &str) {
+pub(crate) fn warn_of_mixture(contents: &Contents, keys: &Keys<'_>, what: &str) {
     if contents.mixes_betalains_and_anthocyanins() {
         let message =
             format!("{what} betalains and anthocyanins, which never occur in the same plant");

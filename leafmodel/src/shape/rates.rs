@@ -11,7 +11,7 @@ use crate::shape::growth::RateCurve;
 
 /// A rate over a place from 0 to 1.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rates;
+pub(crate) struct Rates;
 
 impl Rates {
     const WANTED: &str = "a list of 1 to 1000 pairs [place, rate]";

@@ -1,19 +1,17 @@
 //! `layers.NAME`: contents on top of the tissue's, and where they lie.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::contents::limits;
-use super::outline::bad_file;
 use crate::blade::layers::{Change, Layer, Mode};
 use crate::blade::masks::{Mask, Picture, RimWidth};
-use crate::document::assets::{Assets, Raster};
+use crate::document::assets::Raster;
+use crate::document::declared::Declared;
 use crate::document::keys::{Keys, NamedList, Variant};
 use crate::document::limits::Limits;
-use crate::document::path::{Wanted, resolve};
+use crate::document::named_asset::{asset, bad_file};
 use crate::document::source::Place;
 use crate::document::value_kind::{Flag, Integer, Number, Text, Word};
-use crate::document::values::text_at;
+use crate::optics::contents_keys::limits;
 use crate::optics::{Constituent, PerConstituent};
 
 /// Softness of edges where nothing is said, mm.
@@ -22,8 +20,6 @@ const SOFTNESS_MM: f64 = 0.5;
 const SCALE_MM: f64 = 5.0;
 /// Softness of noise where nothing is said.
 const NOISE_SOFTNESS: f64 = 0.3;
-/// Largest picture that is read, bytes.
-const MOST_PICTURE_BYTES: u64 = 1 << 30;
 
 const MM: Number = Number(Limits::closed(0.0, 1000.0));
 const SOFT_MM: Number = Number(Limits::closed(0.001, 1000.0));
@@ -31,20 +27,22 @@ const PATCH_MM: Number = Number(Limits::closed(0.01, 1000.0));
 const SHARE: Number = Number(Limits::closed(0.0, 1.0));
 const SOFTNESS: &str = "Width of the edge.";
 
-/// All layers of a leaf.
-pub(super) fn layers(layers: &mut Vec<Layer>, keys: &mut Keys<'_>) {
-    let list = NamedList {
-        required: false,
-        new: &|name: &str| Layer {
-            name: name.to_owned(),
-            mask: Mask::Everywhere,
-            share: 1.0,
-            change: none(),
-        },
-        name_of: |layer: &Layer| &layer.name,
-    };
-    let about = "Contents on top of the tissue's, the later on top.";
-    keys.named("layers", layers, &list, about, layer);
+impl Layer {
+    /// All layers of a leaf.
+    pub(crate) fn all(layers: &mut Vec<Self>, keys: &mut Keys<'_>) {
+        let list = NamedList {
+            required: false,
+            new: &|name: &str| Self {
+                name: name.to_owned(),
+                mask: Mask::Everywhere,
+                share: 1.0,
+                change: none(),
+            },
+            name_of: |layer: &Self| &layer.name,
+        };
+        let about = "Contents on top of the tissue's, the later on top.";
+        keys.named("layers", layers, &list, about, Self::declare);
+    }
 }
 
 fn none() -> Change {
@@ -54,19 +52,21 @@ fn none() -> Change {
     }
 }
 
-fn layer(layer: &mut Layer, keys: &mut Keys<'_>) {
-    let about = "Factor on the mask's weight.";
-    keys.key("share", &mut layer.share, SHARE, about);
-    keys.kind_or_none(&mut layer.mask, &MASKS);
-    let current = match layer.change {
-        Change::Values { .. } => "contents",
-        Change::Map(_) => "map",
-    };
-    for name in keys.one_of(&["contents", "map"], Some(current)) {
-        if name == "contents" {
-            values(&mut layer.change, keys);
-        } else {
-            map(&mut layer.change, keys);
+impl Declared for Layer {
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        let about = "Factor on the mask's weight.";
+        keys.key("share", &mut self.share, SHARE, about);
+        keys.kind_or_none(&mut self.mask, &MASKS);
+        let current = match self.change {
+            Change::Values { .. } => "contents",
+            Change::Map(_) => "map",
+        };
+        for name in keys.one_of(&["contents", "map"], Some(current)) {
+            if name == "contents" {
+                values(&mut self.change, keys);
+            } else {
+                map(&mut self.change, keys);
+            }
         }
     }
 }
@@ -334,27 +334,6 @@ fn read_picture(picture: &mut Arc<Picture<1>>, keys: &Keys<'_>) {
         }
         Err(problem) => refuse(keys, &at, &picture.file, &problem),
     }
-}
-
-/// The file behind a key, and who can decode it; an error is left if it is not there or nobody can.
-pub(super) fn asset(
-    keys: &Keys<'_>,
-    key: &'static str,
-    endings: &'static [&'static str],
-) -> Option<(&'static dyn Assets, PathBuf, Place)> {
-    let block = keys.reader()?;
-    let (written, at) = text_at(block.cx, block.node(key)?, key)?;
-    let wanted = Wanted {
-        endings,
-        most_bytes: MOST_PICTURE_BYTES,
-    };
-    let file = resolve(block.cx, written, at, wanted)?;
-    let assets = block.cx.assets;
-    if assets.is_none() {
-        let help = "read this leaf with the renderer, which decodes pictures and meshes";
-        bad_file(block.cx, at, written, "cannot be decoded here", help);
-    }
-    Some((assets?, file, at.clone()))
 }
 
 fn refuse(keys: &Keys<'_>, at: &Place, path: &str, problem: &str) {
