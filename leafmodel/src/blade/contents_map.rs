@@ -353,14 +353,16 @@ mod tests {
         #[test]
         fn contents_are_finite_and_in_range_everywhere(
             factors in of_each(0.0..100.0),
-            lamina in of_each(0.0..1000.0),
-            structure in 1.0..100.0,
+            shares in of_each(0.0..1.0),
             ends in prop::collection::vec(([-4.0..4.0, -1.0..11.0], [-4.0..4.0, -1.0..11.0], 0.001..20.0), 1..8),
             mottle in 0.0..=1.0,
             full_vein_radius_mm in 0.001..1.0,
         ) {
             let tissue = Tissue {
-                lamina: Contents(lamina).with(&[(Constituent::Structure, structure)]),
+                lamina: Contents(PerConstituent::from_fn(|constituent| {
+                    let [least, most] = constituent.range();
+                    least + shares[constituent] * (most - least)
+                })),
                 vein_factors: VeinFactors(factors),
                 full_vein_radius_mm,
                 mottle,

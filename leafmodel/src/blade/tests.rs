@@ -225,8 +225,8 @@ fn a_mesh_too_fine_is_refused_before_it_is_built() {
 #[test]
 fn a_blade_curled_into_itself_is_refused() {
     let form = BladeForm {
-        fold: -1.4,
-        curl: 6.2,
+        fold: -80_f64.to_radians(),
+        curl: 355_f64.to_radians(),
         max_edge_mm: 2.0,
         ..flat()
     };

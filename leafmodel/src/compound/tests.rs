@@ -176,7 +176,7 @@ fn leaflets_in_each_others_way_are_refused() {
     ));
     let steep = Feather {
         pairs: 1,
-        angles: [0.05, 0.05],
+        angles: [3_f64.to_radians(); 2],
         rachis: 6.0,
         ..feather()
     };
