@@ -48,10 +48,11 @@ fn of_key(field: &Field, key: &Key, place: &TokenStream) -> Result<TokenStream> 
     }
     let value = key.value.as_ref();
     if matches!(value, Some(ValueKind::Flat)) {
-        return Ok(match &key.with {
-            Some(with) => quote! { #with(#place, keys); },
-            None => quote! { ::leafmodel::document::declared::Declared::declare(#place, keys); },
-        });
+        let declare = key.with.as_ref().map_or_else(
+            || quote! { ::leafmodel::document::declared::Declared::declare },
+            |with| quote! { #with },
+        );
+        return Ok(quote! { #declare(#place, keys); });
     }
     let Some(name) = &key.name else {
         return Err(Error::new_spanned(

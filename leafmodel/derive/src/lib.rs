@@ -5,6 +5,11 @@
 //!   would by hand.
 //! - **Left out**: blocks whose keys depend on each other; they implement `Declared` by hand.
 
+#![allow(
+    clippy::wildcard_enum_match_arm,
+    reason = "the enums of syn hold all of Rust, of which attributes use little"
+)]
+
 mod attribute;
 mod fields;
 mod kinds;

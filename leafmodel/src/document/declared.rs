@@ -86,3 +86,64 @@ pub trait Words: Sized + 'static {
     /// The words and what they are.
     const WORDS: &'static [(&'static str, Self)];
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Clone, Declared)]
+    struct Fan {
+        /// How many there are.
+        #[key("blades", 2..=12)]
+        blades: u32,
+        /// How far they are turned.
+        ///
+        /// Radians.
+        #[key("pitch_deg", degrees(-90.0..=90.0))]
+        pitch: f64,
+        /// What turns it.
+        #[key("motor", block, default = Motor { power: 1.0 })]
+        motor: Option<Motor>,
+    }
+
+    #[derive(Clone, Declared)]
+    struct Motor {
+        /// What it takes.
+        #[key("power_w", required, above(0.0, 1e3))]
+        power: f64,
+    }
+
+    #[test]
+    fn values_outside_the_range_of_their_key_are_reported_with_their_path() {
+        let fan = |blades, degrees: f64, power: Option<f64>| Fan {
+            blades,
+            pitch: degrees.to_radians(),
+            motor: power.map(|power| Motor { power }),
+        };
+        assert_eq!(fan(3, 90.0, Some(1e3)).in_range(), Ok(()));
+        let mut wrong = fan(1, -90.5, Some(f64::NAN));
+        let errors = Keys::check(|keys| wrong.declare(keys));
+        let messages: Vec<String> = errors.iter().map(ToString::to_string).collect();
+        assert_eq!(
+            messages,
+            [
+                "blades is 1, outside 2 to 12",
+                "pitch_deg is -90.5, outside -90 to 90",
+                "motor.power_w is NaN, outside the values above 0 and up to 1000",
+            ]
+        );
+    }
+
+    #[test]
+    fn what_is_derived_describes_a_block_as_if_written_by_hand() {
+        let mut fan = Fan {
+            blades: 3,
+            pitch: 0.5,
+            motor: None,
+        };
+        let schema = Keys::describe(|keys| fan.declare(keys));
+        let keys: Vec<&str> = schema.entries.iter().map(|entry| &*entry.key).collect();
+        assert_eq!(keys, ["blades", "pitch_deg", "motor"]);
+        assert_eq!(schema.entries[1].about, "How far they are turned.");
+    }
+}

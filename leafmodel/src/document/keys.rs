@@ -129,7 +129,7 @@ impl<'p> Keys<'p> {
         Self::check_within(Ranges::default(), declare).errors
     }
 
-    pub(super) fn check_within(ranges: Ranges, declare: impl FnOnce(&mut Keys<'_>)) -> Ranges {
+    fn check_within(ranges: Ranges, declare: impl FnOnce(&mut Keys<'_>)) -> Ranges {
         let mut keys = Keys {
             pass: Pass::Check(ranges),
         };
@@ -138,6 +138,11 @@ impl<'p> Keys<'p> {
             Pass::Check(ranges) => ranges,
             Pass::Read(_) | Pass::Write { .. } | Pass::Describe(_) => Ranges::default(),
         }
+    }
+
+    /// Checks a block inside the one that is checked.
+    fn check_inside(ranges: &mut Ranges, name: &str, declare: impl FnOnce(&mut Keys<'_>)) {
+        ranges.errors = Self::check_within(ranges.inside(name), declare).errors;
     }
 
     /// A key that may be left out: the value is then what it was.
@@ -309,7 +314,7 @@ impl<'p> Keys<'p> {
                     block.block(name, kept, inner);
                 }
             }
-            Pass::Check(ranges) => ranges.block(name, declare),
+            Pass::Check(ranges) => Self::check_inside(ranges, name, declare),
             Pass::Describe(schema) => schema.add(EntrySchema {
                 key: name.to_owned(),
                 about,
@@ -347,7 +352,7 @@ impl<'p> Keys<'p> {
             }
             Pass::Check(ranges) => {
                 if let Some(value) = value {
-                    ranges.block(name, |keys| declare(value, keys));
+                    Self::check_inside(ranges, name, |keys| declare(value, keys));
                 }
             }
             Pass::Describe(schema) => schema.add(EntrySchema {

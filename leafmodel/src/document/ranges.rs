@@ -2,7 +2,6 @@
 
 use thiserror::Error;
 
-use super::keys::Keys;
 use super::limits::Plain;
 use super::schema::Type;
 use super::tree::Value;
@@ -38,13 +37,12 @@ pub(super) struct Ranges {
 }
 
 impl Ranges {
-    /// Checks what a block inside this one declares.
-    pub(super) fn block(&mut self, name: &str, declare: impl FnOnce(&mut Keys<'_>)) {
-        let inner = Self {
+    /// The same for a block inside this one, which gives its errors back.
+    pub(super) fn inside(&mut self, name: &str) -> Self {
+        Self {
             path: self.path_of(name) + ".",
             errors: std::mem::take(&mut self.errors),
-        };
-        self.errors = Keys::check_within(inner, declare).errors;
+        }
     }
 
     /// Checks the value of a key, as a file would hold it.
@@ -156,67 +154,5 @@ impl Type {
             (Self::AnyOf(types, _), value) => types.iter().any(|of| of.is_of(value)),
             _ => false,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::document::declared::Declared;
-
-    #[derive(Clone, Declared)]
-    struct Fan {
-        /// How many there are.
-        #[key("blades", 2..=12)]
-        blades: u32,
-        /// How far they are turned.
-        ///
-        /// Radians.
-        #[key("pitch_deg", degrees(-90.0..=90.0))]
-        pitch: f64,
-        /// What turns it.
-        #[key("motor", block, default = Motor { power: 1.0 })]
-        motor: Option<Motor>,
-    }
-
-    #[derive(Clone, Declared)]
-    struct Motor {
-        /// What it takes.
-        #[key("power_w", required, above(0.0, 1e3))]
-        power: f64,
-    }
-
-    #[test]
-    fn values_outside_the_range_of_their_key_are_reported_with_their_path() {
-        let fan = |blades, degrees: f64, power: Option<f64>| Fan {
-            blades,
-            pitch: degrees.to_radians(),
-            motor: power.map(|power| Motor { power }),
-        };
-        assert_eq!(fan(3, 90.0, Some(1e3)).in_range(), Ok(()));
-        let mut wrong = fan(1, -90.5, Some(f64::NAN));
-        let errors = Keys::check(|keys| wrong.declare(keys));
-        let messages: Vec<String> = errors.iter().map(ToString::to_string).collect();
-        assert_eq!(
-            messages,
-            [
-                "blades is 1, outside 2 to 12",
-                "pitch_deg is -90.5, outside -90 to 90",
-                "motor.power_w is NaN, outside the values above 0 and up to 1000",
-            ]
-        );
-    }
-
-    #[test]
-    fn what_is_derived_describes_a_block_as_if_written_by_hand() {
-        let mut fan = Fan {
-            blades: 3,
-            pitch: 0.5,
-            motor: None,
-        };
-        let schema = Keys::describe(|keys| fan.declare(keys));
-        let keys: Vec<&str> = schema.entries.iter().map(|entry| &*entry.key).collect();
-        assert_eq!(keys, ["blades", "pitch_deg", "motor"]);
-        assert_eq!(schema.entries[1].about, "How far they are turned.");
     }
 }

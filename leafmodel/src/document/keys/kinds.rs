@@ -74,7 +74,7 @@ impl Keys<'_> {
             }
             Pass::Check(ranges) => {
                 if let Some(variant) = current {
-                    ranges.block(variant.name, |keys| (variant.declare)(value, keys));
+                    Self::check_inside(ranges, variant.name, |keys| (variant.declare)(value, keys));
                 }
             }
             Pass::Describe(schema) => {
@@ -118,7 +118,7 @@ impl Keys<'_> {
             }
             Pass::Check(ranges) => {
                 if let Some(variant) = current {
-                    ranges.block(variant.name, |keys| (variant.declare)(value, keys));
+                    Self::check_inside(ranges, variant.name, |keys| (variant.declare)(value, keys));
                 }
             }
             Pass::Describe(schema) => describe_variants(schema, variants),

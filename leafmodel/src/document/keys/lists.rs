@@ -79,7 +79,9 @@ impl Keys<'_> {
             Pass::Check(ranges) => {
                 ranges.length(name, value.len(), 0, list.most, list.wanted);
                 for (number, one) in value.iter_mut().enumerate() {
-                    ranges.block(&format!("{name}[{number}]"), |keys| declare(one, keys));
+                    Self::check_inside(ranges, &format!("{name}[{number}]"), |keys| {
+                        declare(one, keys)
+                    });
                 }
             }
             Pass::Describe(schema) => {
@@ -156,7 +158,7 @@ impl Keys<'_> {
             Pass::Check(ranges) => {
                 for one in value {
                     let path = format!("{name}.{}", (list.name_of)(one));
-                    ranges.block(&path, |keys| declare(one, keys));
+                    Self::check_inside(ranges, &path, |keys| declare(one, keys));
                 }
             }
             Pass::Describe(schema) => schema.add(EntrySchema {
