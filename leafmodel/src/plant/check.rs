@@ -45,11 +45,13 @@ pub(super) fn phyllotaxis(axis: &mut AxisPlan, keys: &mut Keys<'_>) {
         ("spiral", Phyllotaxis::SPIRAL),
         ("whorled", Phyllotaxis::WHORLED),
     ];
+    // A file says so much of what no word stands for.
+    let own = keys.reader().is_none() && known.iter().all(|(_, one)| *one != axis.phyllotaxis);
     let about = "How leaves follow one another: in two rows, in pairs at right angles, one by one \
         by the golden angle, or in whorls of three.";
-    keys.key("phyllotaxis", &mut axis.phyllotaxis, Word(&known), about);
-    // Only what no word stands for need be said.
-    let own = keys.reader().is_none() && known.iter().all(|(_, one)| *one != axis.phyllotaxis);
+    if !own {
+        keys.key("phyllotaxis", &mut axis.phyllotaxis, Word(&known), about);
+    }
     let about = "Leaves of a node, instead of what `phyllotaxis` says.";
     let mut per_node = own.then_some(axis.phyllotaxis.per_node);
     keys.optional("per_node", &mut per_node, Integer::within(1, 12), about);
