@@ -129,6 +129,14 @@ fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
     let about = "What has eaten of it once it had grown.";
     let damage = &mut plan.damage;
     keys.optional_block("damage", damage, Damage::default, about, Declared::declare);
+    blade_and_stalks(plan, keys);
+    if keys.reader().is_some() {
+        check(plan, keys);
+    }
+}
+
+/// The blade in space, what its faces bear, and its stalks.
+fn blade_and_stalks(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
     let length_mm = plan.length_mm;
     let about = "How the blade lies in space.";
     keys.block("blade", about, |keys| {
@@ -166,9 +174,6 @@ fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
         about,
         CompoundForm::keys,
     );
-    if keys.reader().is_some() {
-        check(plan, keys);
-    }
 }
 
 /// Lets what has the default for one length of the leaf have that for another.

@@ -1,5 +1,7 @@
 //! Whether the numbers of a plant fit together.
 
+use glam::DVec3;
+
 use super::{AxisPlan, Branching, Phyllotaxis, PlantError, PlantPlan, Posture};
 use crate::document::declared::Declared;
 use crate::document::keys::Keys;
@@ -21,7 +23,7 @@ impl PlantPlan {
             ("posture.light", Some(self.posture.light)),
             ("climbing.away", climbing),
         ] {
-            let length = direction.map_or(1.0, |direction| direction.length());
+            let length = direction.map_or(1.0, DVec3::length);
             let valid = (0.999..=1.001).contains(&length);
             RangeError::unless(valid, path, length, "a unit vector")?;
         }

@@ -72,8 +72,12 @@ pub struct ArcuatePlan {
     /// merge; a leaf's is about 0.006.
     #[key("width", 1e-4..=0.5)]
     pub width: f64,
-    /// NWidth: how far from veins the finer net reaches (field `net` only).
-    #[key("net_width", 0.0..=1.0)]
+    /// How far from veins the finer net reaches (field `net` only).
+    #[key(
+        "net_width",
+        0.0..=1.0,
+        about = "NWidth: how far from veins the finer net reaches (field `net` only)."
+    )]
     pub net_width: f64,
     /// Squish: how end points are spread over the margin: 1 evenly (pinnate), 0 all at the tip
     /// (arcuate).

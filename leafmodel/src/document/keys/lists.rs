@@ -80,7 +80,7 @@ impl Keys<'_> {
                 ranges.length(name, value.len(), 0, list.most, list.wanted);
                 for (number, one) in value.iter_mut().enumerate() {
                     Self::check_inside(ranges, &format!("{name}[{number}]"), |keys| {
-                        declare(one, keys)
+                        declare(one, keys);
                     });
                 }
             }

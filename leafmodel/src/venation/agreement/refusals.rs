@@ -9,10 +9,10 @@ fn every_bad_number_is_named() {
         ("final_length_segments", |p| p.final_length = 1.0),
         ("kill_distance_segments", |p| p.kill_distance = 0.0),
         ("source_birth_distance_segments", |p| {
-            p.source_birth_distance = 0.0
+            p.source_birth_distance = 0.0;
         }),
         ("vein_birth_distance_segments", |p| {
-            p.vein_birth_distance = f64::NAN
+            p.vein_birth_distance = f64::NAN;
         }),
         ("darts_per_segment2", |p| p.darts_per_area = -1e-4),
         ("murray_exponent", |p| p.murray_exponent = f64::INFINITY),
