@@ -66,7 +66,10 @@ pub struct MosaicPlan {
     #[key("days", required, 0.0..=1e5)]
     pub days: f64,
     /// `w_r`: the repulsion radius over the root of the mean area of a cell, 0.1 to 10.
-    #[key("radius_weight", 0.1..=10.0, about = "W_r: the radius of repulsion over the root of a cell's mean area.")]
+    #[key(
+        "radius_weight", 0.1..=10.0,
+        about = "W_r: the radius of repulsion over the root of a cell's mean area."
+    )]
     pub radius_weight: f64,
     /// ρ.
     ///

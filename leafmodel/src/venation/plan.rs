@@ -139,7 +139,10 @@ pub struct AuxinPlan {
     #[key("final_length_segments", required, 2.0..=1e5)]
     pub final_length: f64,
     /// `dk`, kill distance: a source is used up when a vein is nearer than this, 0.01 to 10 000.
-    #[key("kill_distance_segments", required, 0.01..=1e4, about = "d_k: a source is used up when a vein comes nearer.")]
+    #[key(
+        "kill_distance_segments", required, 0.01..=1e4,
+        about = "d_k: a source is used up when a vein comes nearer."
+    )]
     pub kill_distance: f64,
     /// `bs`, least distance of a new source from other sources, 0.01 to 10 000.
     #[key(with = birth_distances)]
