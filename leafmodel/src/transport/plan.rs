@@ -23,7 +23,7 @@ pub struct TransportPlan {
     /// α: how little it saves to transport much together; larger is rounder.
     ///
     /// `α`, exponent of the weight in the cost of an edge: the smaller, the more carrying water
-    /// together saves., both excluded. Above ½ every leaf stops growing; up to ½ some would stop
+    /// together saves. Above ½ every leaf stops growing; up to ½ some would stop
     /// only at `most_cells`, which is an error. Larger values give rounder leaves.
     #[key("alpha", required, open(0.0, 1.0))]
     pub alpha: f64,
@@ -100,7 +100,10 @@ fn ladder(plan: &mut TransportPlan, keys: &mut Keys<'_>) {
         keys.key("steps", &mut steps, count, about);
     }
     let about = "Instead: one step for each rise that brings a cell, the smallest there are.";
-    keys.key("events", &mut events, Flag, about);
+    // Written alone: both would exclude each other.
+    if events || keys.reader().is_some() || keys.is_description() {
+        keys.key("events", &mut events, Flag, about);
+    }
     plan.ladder = if events {
         Ladder::Events
     } else {
