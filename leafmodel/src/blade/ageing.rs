@@ -94,8 +94,6 @@ pub struct Course {
     #[key("chlorophyll_rest_ug_per_cm2", 0.0..=1e3)]
     pub chlorophyll_rest: f64,
     /// Share of carotenoids that goes with chlorophyll.
-    ///
-    /// Share of carotenoids that decays with chlorophyll (violaxanthin and other xanthophylls)
     #[key("labile_carotenoids", 0.0..=1.0)]
     pub labile_carotenoids: f64,
     /// How many times longer the others last.

@@ -71,9 +71,6 @@ pub struct PetiolePlan {
     #[key("radius_mm", 0.001..=100.0)]
     pub radius_mm: Option<f64>,
     /// Angle by which it has bent towards the abaxial side at its foot.
-    ///
-    /// Angle through which it bends towards the abaxial side from the base to its foot, evenly
-    /// along it; 0 is straight.
     #[key("curl_deg", degrees(-170.0..=170.0))]
     pub curl: f64,
     /// How its axis runs beside that.

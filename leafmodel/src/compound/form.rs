@@ -11,7 +11,7 @@ pub struct Feather {
     /// rachis.
     ///
     /// Length of the rachis from the first pair to its end, relative to its owner: see
-    /// [`Arrangement`];
+    /// [`Arrangement`].
     #[key("rachis", required, 0.01..=100.0)]
     pub rachis: f64,
     /// Pairs along the rachis.
@@ -33,7 +33,7 @@ pub struct Feather {
     pub angles: [f64; 2],
     /// First pair, one half-way, last, over the largest.
     ///
-    /// Size of the first pair, of one half-way and of the last, relative to the largest leaflet;,
+    /// Size of the first pair, of one half-way and of the last, relative to the largest leaflet,
     /// linear between.
     #[key("sizes", 0.01..=1.0)]
     pub sizes: [f64; 3],
@@ -114,10 +114,6 @@ pub struct CompoundForm {
     /// Standard deviation, from one to the next, of places along an axis in gaps between pairs, of
     /// angles over themselves and, half as much, of sizes. Those that would come into each other's
     /// way stray less.
-    ///
-    /// Standard deviation, from leaflet to leaflet and from pinna to pinna, of places along the
-    /// axis in gaps between pairs, of angles relative to themselves and, half as much, of sizes;
-    /// Those that would come into each other's way stray less.
     #[key("irregularity", 0.0..=0.25)]
     pub irregularity: f64,
 }

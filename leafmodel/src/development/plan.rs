@@ -54,17 +54,11 @@ pub struct Wave {
     #[key("transport", 0.0..=1.0)]
     pub transport: f64,
     /// How fast veins elongate, over the leaf, that end at the base of the margin.
-    ///
-    /// How fast their veins elongate, over the leaf, where they arise at the base of the margin and
-    /// at its tip;
     #[key("rate_base", 0.5..=1.5, at = 0)]
     /// The same of veins that end at its tip; between, in between.
     #[key("rate_tip", 0.5..=1.5, at = 1)]
     pub rates: [f64; 2],
     /// How much growth is held back between them: 0 an entire margin, 1 leaflets.
-    ///
-    /// How much growth is held back in the sinuses between them (the margin keeps its distance from
-    /// the veins: leaflets).
     #[key("hold", 0.0..=1.0)]
     pub hold: f64,
     /// How much of that applies below the lowest of them.
@@ -87,9 +81,6 @@ pub struct Wave {
     #[key("bow", -0.3..=0.3)]
     pub bow: f64,
     /// How much the angles of veins widen per e-fold of the leaf's length.
-    ///
-    /// How much the angles of their veins with the parent's direction widen per e-fold of the
-    /// leaf's length
     #[key("splay", -0.3..=0.3)]
     pub splay: f64,
 }

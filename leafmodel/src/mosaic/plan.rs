@@ -80,8 +80,6 @@ pub struct MosaicPlan {
     #[key("step", 0.0..=1.0)]
     pub step: f64,
     /// Relaxations before the first day.
-    ///
-    /// Number of relaxation events before the first day, without adhesion.
     #[key("initial_relaxations", 0..=100_000)]
     pub initial_relaxations: u32,
     /// `step` in these.

@@ -33,7 +33,7 @@ pub struct FilledPlan {
     /// α: how little it saves to transport much together.
     ///
     /// `α`, exponent of the weight in the cost of an edge: the smaller, the more carrying water
-    /// together saves., both excluded.
+    /// together saves.
     #[key("alpha", open(0.0, 1.0))]
     pub alpha: f64,
     /// β: how dearly a change of direction is paid.

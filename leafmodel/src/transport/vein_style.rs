@@ -8,8 +8,6 @@ pub struct VeinStyle {
     #[key("base_radius_mm", required, 1e-4..=100.0)]
     pub base_radius_mm: f64,
     /// Veins that supply fewer cells are left out.
-    ///
-    /// Veins that supply fewer cells are left out; with 1 every cell has a vein. 000 000.
     #[key("least_cells", 1..=1_000_000)]
     pub least_cells: u32,
 }

@@ -48,9 +48,6 @@ pub struct PalmateVeins {
     #[key("spread", required, 0.05..=1.0)]
     pub spread: f64,
     /// How much they bow outwards, in shares of half their length.
-    ///
-    /// How far they bow outwards, as a share of half their length: 0 is straight; above 0 they
-    /// follow the margin.
     #[key("bow", -0.8..=0.8)]
     pub bow: f64,
 }

@@ -47,8 +47,6 @@ pub enum Growth {
     /// `σ` is linear in time.
     Marginal {
         /// Length at the start.
-        ///
-        /// At most the final length.
         #[key("initial_length_segments", required, 0.001..=1e5, default = 1.0)]
         initial_length: f64,
         /// What is added to the length each step.
@@ -60,8 +58,6 @@ pub enum Growth {
     /// The whole lamina is scaled, veins with it.
     Isogonic {
         /// Length at the start.
-        ///
-        /// At most the final length.
         #[key("initial_length_segments", required, 0.001..=1e5, default = 1.0)]
         initial_length: f64,
         /// What is added to the length each step.
@@ -75,8 +71,6 @@ pub enum Growth {
     /// Veins and sources move with it (Appendix A). Ends when the leaf has its final length.
     Anisotropic {
         /// Length at the start.
-        ///
-        /// Below the final length.
         #[key("initial_length_segments", required, 0.001..=1e5, default = 1.0)]
         initial_length: f64,
         /// gx: growth across the leaf per step, over the place along it.
@@ -122,10 +116,6 @@ pub struct MarginClearance {
     pub until: f64,
     /// Closed only: secondary veins a side that are laid out first and joined by arches at that
     /// distance from the margin.
-    ///
-    /// Number of secondary veins per side, that are laid out before the lamina grows and joined by
-    /// arches at that distance from the margin. With 0 all veins come from random sources. Needs a
-    /// closed pattern.
     #[key("arches", 0..=50)]
     pub arches: u32,
 }
@@ -194,9 +184,6 @@ pub struct AuxinPlan {
     pub joined_origins: bool,
     /// Veinlets that each node of a vein of order 1 or 2 bears unseen and is widened for, where
     /// tertiary veins are left out (section 3.5).
-    ///
-    /// Number of unmodelled veinlets at each node of a vein of order 1 or 2, which widen the vein
-    /// For plans without a detailed pattern of tertiary veins (section 3.5).
     #[key("unseen_veinlets", 0.0..=1e3)]
     pub unseen_veinlets: f64,
     /// K L²: curvature of the blade times its length squared: above 0 a bowl, below 0 a saddle.

@@ -27,9 +27,6 @@ const WAVE: f64 = 1.5;
 pub struct Course {
     /// Angle by which the blade's weight has bent it towards the abaxial side at its foot; the bend
     /// grows towards the foot.
-    ///
-    /// Angle through which the blade's weight has bent it towards the abaxial side at its foot The
-    /// bend grows towards the foot as the moment of the weight does.
     #[key("sag_deg", degrees(-170.0..=170.0))]
     pub sag: f64,
     /// Angle by which it bends towards the abaxial side just before the blade; with an opposite sag
@@ -47,9 +44,6 @@ pub struct Course {
     #[key("sway_deg", degrees(-170.0..=170.0))]
     pub sway: f64,
     /// Angle by which it is twisted between blade and foot; bends turn with it.
-    ///
-    /// Angle through which it is twisted about its axis between the blade and its foot; what the
-    /// bends are towards turns with it.
     #[key("twist_deg", degrees(-170.0..=170.0))]
     pub twist: f64,
     /// Standard deviation, from leaf to leaf, of sag, sway, twist and of a wave in both bends.

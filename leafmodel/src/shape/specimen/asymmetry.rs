@@ -22,9 +22,6 @@ pub struct Asymmetry {
     #[key("bow", 0.0..=0.1)]
     pub bow: f64,
     /// How far places of the margin wander, as a share of the length.
-    ///
-    /// How far places of the margin wander, lobes and bays above all, as a share of the midrib's
-    /// length (root mean square)
     #[key("wander", 0.0..=0.02)]
     pub wander: f64,
 }
