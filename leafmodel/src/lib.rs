@@ -82,6 +82,7 @@ pub mod mosaic;
 pub mod optics;
 pub mod plan_file;
 pub mod plant;
+mod random;
 pub mod rest;
 mod rotation;
 pub mod shape;

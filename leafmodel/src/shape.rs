@@ -12,7 +12,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub(crate) mod chance;
 pub mod contour_curve;
 pub(crate) mod crossing;
 pub(crate) mod cubic;

@@ -46,7 +46,6 @@ pub mod areole;
 mod auxin;
 mod bipolar;
 mod carrying_out;
-pub(crate) mod chance;
 mod closed;
 pub mod conformal_map;
 mod fresh_nodes;

@@ -18,7 +18,7 @@ use super::mesh::BladeMesh;
 use super::tissue::TissueError;
 use super::vein_grid::VeinGrid;
 use crate::optics::Contents;
-use crate::venation::chance::{Use, uniform};
+use crate::random::{Use, uniform};
 use crate::venation::network::VeinSegment;
 
 /// Greatest number of hairs of one kind on a blade.

@@ -13,7 +13,7 @@ use super::frame::UvFrame;
 use super::masks::{Mask, MaskField, Picture};
 use super::tissue::TissueError;
 use crate::optics::{Constituent, Contents, PerConstituent};
-use crate::venation::chance::{self, Use};
+use crate::random::{self, Use};
 
 /// A layer of contents.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,7 +89,7 @@ pub(super) struct LayerFields<'a> {
 impl<'a> LayerFields<'a> {
     pub(super) fn new(layers: &'a [Layer], place: &Place<'a>, seed: u64) -> Self {
         let ready = layers.iter().enumerate().map(|(number, layer)| {
-            let seed = chance::bits(seed, Use::Layer, number as u64);
+            let seed = random::bits(seed, Use::Layer, number as u64);
             (layer, MaskField::new(&layer.mask, place, seed))
         });
         Self {

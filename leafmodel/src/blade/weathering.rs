@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::mottle::Mottle;
 use super::tissue::TissueError;
 use crate::optics::{Constituent, Contents};
-use crate::venation::chance::{self, Use};
+use crate::random::{self, Use};
 
 /// How dead tissue differs from leaf to leaf and from place to place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,10 +111,10 @@ pub(super) struct Weathered {
 
 impl Weathered {
     pub(super) fn new(of: Weathering, seed: u64) -> Self {
-        let seed = chance::bits(seed, Use::Weathering, 0);
-        let even = |number| 2.0 * chance::uniform(seed, Use::Weathering, number) - 1.0;
+        let seed = random::bits(seed, Use::Weathering, 0);
+        let even = |number| 2.0 * random::uniform(seed, Use::Weathering, number) - 1.0;
         let noise =
-            |number, scale_mm| Mottle::new(chance::bits(seed, Use::Weathering, number), scale_mm);
+            |number, scale_mm| Mottle::new(random::bits(seed, Use::Weathering, number), scale_mm);
         let bleached = (of.bleached * libm::exp2(even(2))).min(1.0);
         Self {
             of,
@@ -155,7 +155,7 @@ impl Weathered {
             // Columns and rows below zero wrap, which serves as well.
             let number =
                 (((cell.x as i64 as u64) << 32) ^ (cell.y as i64 as u64 & 0xffff_ffff)) << 2;
-            let draw = |k| chance::uniform(self.seed, Use::WeatheringSpot, number | k);
+            let draw = |k| random::uniform(self.seed, Use::WeatheringSpot, number | k);
             let middle = (cell + DVec2::new(draw(0), draw(1))) * self.square;
             // Most spots are small: radii from 0.3 to 3 times the mean, few large.
             let radius = self.of.spot_radius_mm * 0.3 * libm::exp(2.3 * draw(2) * draw(2));

@@ -4,7 +4,7 @@
 //! each other's way stray half as far, again and again, until they do not: [`Stray::calm`].
 
 use super::{Arrangement, CompoundError, CompoundForm};
-use crate::venation::chance::{Use, uniform};
+use crate::random::{Use, uniform};
 
 /// Random numbers for strays come after those for seeds and tilts; those for pinnae after those for
 /// leaflets.

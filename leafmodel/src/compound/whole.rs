@@ -10,8 +10,8 @@ use super::{
 use crate::blade::petiole::{Course, PetiolePlan};
 use crate::blade::stalk::StalkMesh;
 use crate::leaf::{Leaf, LeafError, LeafPlan};
+use crate::random::{Use, bits, uniform};
 use crate::rotation::about;
-use crate::venation::chance::{Use, bits, uniform};
 
 /// Random numbers for the tilts of leaflets come after those for their seeds.
 const FIRST_TILT: u64 = 1 << 32;

@@ -266,11 +266,7 @@ fn exponent(pairs: &[(f64, f64)]) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::chance::{bits as random_bits, share};
-
-    fn uniform(seed: u64, purpose: u64, counter: u64) -> f64 {
-        share(random_bits(seed, purpose, counter))
-    }
+    use crate::testing::uniform;
 
     const SIDE: i32 = 64;
 

@@ -16,7 +16,7 @@ use super::live::Live;
 use super::plan::{MOST_CELLS, MosaicPlan, RadiusRule};
 use super::relaxation::{Bonds, Relaxation, free_walk};
 use super::surface::{Ancestry, Surface, SurfacePoint};
-use crate::venation::chance::{Use, bits, uniform};
+use crate::random::{Use, bits, uniform};
 
 /// Number of attempts to place an initial cell before the surface counts as blocked.
 const THROWS: u32 = 1000;

@@ -15,7 +15,7 @@ mod tests;
 pub use self::rings::{PatternClass, element_count, ring};
 use super::surface::{Surface, SurfacePoint};
 use super::voronoi::Voronoi;
-use crate::venation::chance::{self, Use};
+use crate::random::{self, Use};
 
 /// A connected part of the surface whose cells have one label.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,9 +116,9 @@ pub fn neighbourhood(
     let by_chance: Vec<f64> = (0..u64::from(shuffles))
         .map(|round| {
             let mut shuffled = labels_of.to_vec();
-            let key = chance::bits(seed, Use::Shuffle, round);
+            let key = random::bits(seed, Use::Shuffle, round);
             for last in (1..shuffled.len()).rev() {
-                let draw = chance::uniform(key, Use::Shuffle, last as u64);
+                let draw = random::uniform(key, Use::Shuffle, last as u64);
                 shuffled.swap(last, (draw * (last + 1) as f64) as usize);
             }
             alike_share(voronoi, &shuffled)
@@ -182,7 +182,7 @@ pub fn contiguity(voronoi: &Voronoi, labels_of: &[u32]) -> f64 {
 pub fn probes(surface: &Surface, count: u64, seed: u64) -> Vec<SurfacePoint> {
     (0..count)
         .map(|probe| {
-            let draw = |k| chance::uniform(seed, Use::PatternProbe, 3 * probe + k);
+            let draw = |k| random::uniform(seed, Use::PatternProbe, 3 * probe + k);
             surface.sample([draw(0), draw(1), draw(2)])
         })
         .collect()

@@ -4,8 +4,8 @@ use glam::{DQuat, DVec3};
 
 use super::climbing::Wall;
 use super::{AxisPlan, PlantError};
+use crate::random::{Use, bell};
 use crate::rotation::about;
-use crate::shape::chance::{Use, bell};
 
 /// Radius of the tightest bend by which an axis follows a wall, mm: it bridges narrow joints.
 const STIFFNESS_MM: f64 = 60.0;

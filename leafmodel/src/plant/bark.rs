@@ -11,7 +11,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::shape::chance::{Use, uniform};
+use crate::random::{Use, uniform};
 
 /// Greatest height over the radius of the axis there, so that thin twigs keep their form.
 const MOST_OF_RADIUS: f64 = 0.3;

@@ -13,8 +13,8 @@ use super::{
     Phyllotaxis, Plant, PlantError, PlantPlan,
 };
 use crate::blade::stalk::StalkMesh;
+use crate::random::{Use, uniform};
 use crate::rotation::about;
-use crate::shape::chance::{Use, uniform};
 
 /// How deep the foot of a petiole stands in its axis, as a share of the radius there.
 const SUNK: f64 = 0.25;

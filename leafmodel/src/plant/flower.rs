@@ -11,8 +11,8 @@ use super::StalkError;
 use super::axis::level;
 use super::turned::ribbed;
 use crate::blade::stalk::StalkMesh;
+use crate::random::{Use, bell};
 use crate::rotation::about;
-use crate::shape::chance::{Use, bell};
 
 /// The numbers of a flower. Angles are radians.
 #[derive(Clone, Copy, Debug, PartialEq)]

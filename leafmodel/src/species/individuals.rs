@@ -14,7 +14,7 @@ use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::Contour;
 use crate::leaf::venation_plan::VenationPlan;
 use crate::optics::{Constituent, Contents};
-use crate::shape::chance::{Use, bell, uniform};
+use crate::random::{Use, bell, uniform};
 use crate::shape::contour_curve::ContourCurve;
 use crate::venation::plan::Growth;
 

@@ -2,7 +2,7 @@
 //! \[xia2007\]).
 
 use super::cells::Cell;
-use crate::venation::chance::{Use, uniform};
+use crate::random::{Use, uniform};
 
 /// The revenue of each cell, as a factor on `ε`.
 #[derive(Clone, Copy, Debug, PartialEq)]

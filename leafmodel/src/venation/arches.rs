@@ -15,8 +15,8 @@
 
 use glam::DVec2;
 
-use super::chance::{Use, uniform};
 use super::plan::MarginClearance;
+use crate::random::{Use, uniform};
 
 /// Greatest random displacement of a place, as a share of the distance between neighbouring places.
 const JITTER: f64 = 0.25;

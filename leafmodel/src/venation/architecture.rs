@@ -34,7 +34,7 @@ pub(crate) mod tertiaries;
 mod tests;
 
 pub use self::error::ArchitectureError;
-use super::chance::{Use, uniform};
+use crate::random::{Use, uniform};
 
 /// How primary veins run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

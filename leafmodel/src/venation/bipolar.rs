@@ -20,11 +20,11 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-use super::chance::{Use, uniform};
 use super::fresh_nodes::FreshNodes;
 use super::influence::Surroundings;
 use super::point_tree::PointTree;
 use super::probe::{Probe, SLACK, distance_squared};
+use crate::random::{Use, uniform};
 
 /// Cosine of the cones' half-angle, 35°.
 const CONE: f64 = 0.819_152_044_288_991_8;

@@ -5,10 +5,10 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-use super::chance::{Use, bits};
 use super::fresh_nodes::FreshNodes;
 use super::influence::{Fate, Influence, Surroundings};
 use super::probe::{Probe, SLACK, distance_squared};
+use crate::random::{Use, bits};
 
 /// The node nearest to a source.
 #[derive(Clone, Debug)]

@@ -8,8 +8,8 @@ use super::super::mottle::Mottle;
 use super::super::weathering::Weathered;
 use super::{Along, Course, Decay, Delay, Place};
 use crate::optics::{Constituent, Contents};
+use crate::random::{self, Use};
 use crate::transport::DeathField;
-use crate::venation::chance::{self, Use};
 
 /// The fields of distances that two delays need, each stored once.
 #[derive(Clone, Debug)]
@@ -84,7 +84,7 @@ impl DelayField {
         seed: u64,
         number: usize,
     ) -> Self {
-        let noise_seed = chance::bits(seed, Use::Ageing, number as u64);
+        let noise_seed = random::bits(seed, Use::Ageing, number as u64);
         Self {
             delay,
             number,

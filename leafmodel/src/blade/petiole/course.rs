@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 
 use super::smooth_step;
-use crate::venation::chance::{Use, uniform};
+use crate::random::{Use, uniform};
 
 /// Pieces that the axis is followed in.
 const STEPS: usize = 240;

@@ -19,7 +19,7 @@ use crate::blade::distances::Distances;
 use crate::blade::frame::UvFrame;
 use crate::blade::mottle::Mottle;
 use crate::optics::{Constituent, Contents};
-use crate::shape::chance::bits;
+use crate::random::{Use, bits};
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 
@@ -80,8 +80,6 @@ const PATCHES: [f64; 2] = [0.11, 0.02];
 const STRETCH: f64 = 0.16;
 /// Rounds of four sweeps, at most: the front needs one for each turn of its way.
 const ROUNDS: usize = 24;
-/// Stream of the random numbers of the noise.
-const NOISE: u64 = 0xd1eb;
 /// Width over which dead tissue passes into living, mm.
 const EDGE_MM: f64 = 0.12;
 /// Depth behind the front over which tissue that died last is darker, mm.
@@ -137,7 +135,8 @@ impl Front {
             rim_mm: plan.rim_mm,
         };
         let length = outline.length();
-        let noise = |number: u64, size: f64| Mottle::new(bits(seed, NOISE, number), size * length);
+        let noise =
+            |number: u64, size: f64| Mottle::new(bits(seed, Use::Dieback, number), size * length);
         let (coarse, fine) = (noise(0, PATCHES[0]), noise(1, PATCHES[1]));
         let veins = vein_distances(network);
         for (i, speed) in front.speeds.iter_mut().enumerate() {

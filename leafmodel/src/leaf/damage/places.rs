@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec2;
 
 use super::stains::Stain;
-use crate::shape::chance::{Use, bell, uniform};
+use crate::random::{Use, bell, uniform};
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 

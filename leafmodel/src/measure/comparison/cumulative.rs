@@ -119,7 +119,7 @@ fn limit(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::chance::{bits, share};
+    use crate::testing::uniform;
 
     // Two samples, statistic and p of scipy.stats.ks_2samp(method='exact'); SciPy 1.17.1.
     const STEPS: [(&[f64], &[f64], f64, f64); 4] = [
@@ -247,7 +247,7 @@ mod tests {
         let told = (0..1000_u64)
             .filter(|&number| {
                 let sample = |purpose, count| {
-                    let one = |i| share(bits(number, purpose, i));
+                    let one = |i| uniform(number, purpose, i);
                     let mut values: Vec<f64> = (0..count).map(one).collect();
                     values.sort_unstable_by(f64::total_cmp);
                     values

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::ranks::smallest_p;
 use crate::measure::statistics::quantile;
-use crate::venation::chance::{Use, bits};
+use crate::random::{Use, below, bits};
 
 /// Places at which cumulative curves are compared.
 const PLACES: usize = 255;
@@ -140,8 +140,7 @@ fn drawn(seed: u64, draw: u64, count: usize, all: usize) -> Vec<usize> {
     for i in 0..count {
         let counter = draw.wrapping_mul(all as u64).wrapping_add(i as u64);
         let random = bits(seed, Use::Permutation, counter);
-        let left = (all - i) as u128;
-        places.swap(i, i + ((u128::from(random) * left) >> 64) as usize);
+        places.swap(i, i + below(random, all - i));
     }
     places.truncate(count);
     places
@@ -150,12 +149,12 @@ fn drawn(seed: u64, draw: u64, count: usize, all: usize) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::chance::{bits as random_bits, share};
+    use crate::testing::uniform;
 
     /// Leaves of 40 values that share a shift of their own, which may be large.
     fn leaves(number: u64, count: u64, shift: f64, own: f64) -> Vec<Vec<f64>> {
         let leaf = |leaf: u64| {
-            let at = |i: u64| share(random_bits(number, 91 + leaf, i));
+            let at = |i: u64| uniform(number, 91 + leaf, i);
             let base = shift + own * at(1000);
             let mut values: Vec<f64> = (0..40).map(|i| base + at(i)).collect();
             values.sort_unstable_by(f64::total_cmp);

@@ -3,7 +3,7 @@
 use crate::mosaic::live::Live;
 use crate::mosaic::patch::PatchFinder;
 use crate::mosaic::surface::Surface;
-use crate::venation::chance::{Use, bits, uniform};
+use crate::random::{Use, bits, uniform};
 
 /// Radius of a region around its middle face, in repulsion radii; a region has a few dozen cells.
 const REACH: f64 = 3.0;

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec2;
 
 use super::{SpecimenError, step, within};
-use crate::shape::chance::{Use, bell, uniform};
+use crate::random::{Use, bell, uniform};
 
 /// Random differences between the sides, all of mean 0 over the leaves of a plant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

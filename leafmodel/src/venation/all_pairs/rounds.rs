@@ -3,9 +3,9 @@
 use glam::DVec2;
 
 use super::{Oracle, apart};
+use crate::random::Use;
 use crate::venation::arches;
 use crate::venation::auxin::{appearance, dart, waiting_darts};
-use crate::venation::chance::Use;
 use crate::venation::lamina_clock::LaminaClock;
 use crate::venation::plan::{FreeEndings, Growth, Pattern};
 use crate::venation::simulation::PATIENCE;
