@@ -29,7 +29,6 @@ pub mod ageing_courses;
 mod closed;
 pub mod contents_map;
 mod coverage;
-pub(crate) mod distances;
 mod error;
 mod form;
 pub mod frame;

@@ -69,6 +69,7 @@
 //! parameters, a network as CSV, a spectrum.
 
 pub mod blade;
+mod buckets;
 pub mod compound;
 pub mod development;
 pub mod document;
@@ -81,6 +82,7 @@ pub mod memory;
 pub mod mosaic;
 pub mod optics;
 pub mod plan_file;
+mod plane;
 pub mod plant;
 mod random;
 pub mod rest;

@@ -7,11 +7,11 @@
 
 use glam::DVec2;
 
-use super::distances::Distances;
 use super::frame::UvFrame;
 use super::tissue::TissueError;
 use super::weathering::Weathering;
 use crate::optics::{Constituent, Contents};
+use crate::plane::distances::Distances;
 use crate::venation::network::VeinSegment;
 
 /// Chlorophyll, µg cm⁻², below which leaves make anthocyanin in autumn (\[lee2003\], abstract: nine
@@ -299,9 +299,7 @@ pub struct Place<'a> {
 impl Place<'_> {
     /// Distances to the margin.
     pub(super) fn margin_distances(&self) -> Distances {
-        let next = self.margin.iter().cycle().skip(1);
-        let sides = self.margin.iter().zip(next).map(|(&a, &b)| [a, b]);
-        Distances::new(sides.collect())
+        Distances::around(self.margin)
     }
 
     /// Distances to the axes of veins of some orders.

@@ -12,6 +12,7 @@ use super::error::Field;
 use super::frame::UvFrame;
 use super::relief::smooth_step;
 use crate::optics::Constituent;
+use crate::plane::polygon;
 use crate::shape::outline::Outline;
 
 /// How thick the margin is.
@@ -63,8 +64,7 @@ impl MarginThickness {
         let reach = self.width_mm + 2.0 * texel.max_element();
         let mut near = vec![false; map.texels.len()];
         let points = outline.points();
-        for (i, &a) in points.iter().enumerate() {
-            let b = points[(i + 1) % points.len()];
+        for (a, b) in polygon::sides(points) {
             let pieces = (a.distance(b) / reach).ceil().max(1.0) as usize;
             for piece in 0..pieces {
                 let [from, to] = [piece, piece + 1].map(|i| a.lerp(b, i as f64 / pieces as f64));

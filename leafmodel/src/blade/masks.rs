@@ -8,10 +8,10 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::ageing::{Along, Place};
-use super::distances::Distances;
 use super::frame::UvFrame;
 use super::mottle::Mottle;
 use super::tissue::TissueError;
+use crate::plane::distances::Distances;
 
 /// A picture over the box of a leaf, decoded.
 ///

@@ -15,6 +15,7 @@ use super::size_field::SizeField;
 use super::skeleton::Skeleton;
 use super::stance::{Posture, Settled};
 use super::triangulate::{Triangulation, triangulate};
+use crate::plane::{polygon, segment};
 use crate::shape::outline::Outline;
 use crate::venation::conformal_map::ConformalMap;
 use crate::venation::network::{VeinSegment, VenationNetwork};
@@ -244,14 +245,8 @@ impl BladeMesh {
 fn clear_of(holes: &[Vec<DVec2>], veins: &[VeinSegment], size: &SizeField) -> Vec<VeinSegment> {
     let is_clear = |p: DVec2| {
         let near = 0.8 * size.at(p);
-        holes.iter().all(|hole| {
-            let sides = hole.iter().zip(hole.iter().cycle().skip(1));
-            sides.into_iter().all(|(&a, &b)| {
-                let way = b - a;
-                let along = ((p - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-                (a + way * along).distance(p) > near
-            })
-        })
+        let mut sides = holes.iter().flat_map(|hole| polygon::sides(hole));
+        sides.all(|(a, b)| segment::distance(a, b, p) > near)
     };
     let veins = veins.iter().copied();
     veins

@@ -36,12 +36,12 @@ use self::dust::{Gathering, optical_thicknesses};
 use self::mounds::Mounds;
 pub use self::plan::SurfacePlan;
 use super::coverage::Coverage;
-use super::distances::Distances;
 use super::frame::UvFrame;
 use super::mesh::BladeMesh;
 use super::senescence::Withering;
 use super::tissue::{Tissue, TissueError};
 use crate::memory;
+use crate::plane::distances::Distances;
 use crate::venation::network::VeinSegment;
 
 /// Moments of the slopes of one face over a texel: `[mean ∂z/∂x, mean ∂z/∂y, mean (∂z/∂x)², mean

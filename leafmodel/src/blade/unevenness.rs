@@ -22,11 +22,11 @@ use rayon::prelude::*;
 use self::grid::Grid;
 use super::contents_map::ContentsMap;
 use super::coverage::{Coverage, extend};
-use super::distances::Distances;
 use super::frame::UvFrame;
 use super::mottle::Mottle;
 use super::tissue::TissueError;
 use crate::optics::Constituent;
+use crate::plane::distances::Distances;
 use crate::shape::outline::Outline;
 use crate::venation::network::VeinSegment;
 

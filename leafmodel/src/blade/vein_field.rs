@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::tissue::{Tissue, TissueError};
 use super::vein_cover::{Covers, Moments, VeinCover};
 use super::vein_profile::{Profile, Surplus, strength};
+use crate::buckets::Buckets;
 use crate::venation::network::VeinSegment;
 
 /// The veins of a leaf in a uniform grid; each cell lists every segment within reach.
@@ -21,9 +22,8 @@ pub struct VeinField {
     cell: f64,
     columns: usize,
     rows: usize,
-    /// Cell `i` holds `entries[starts[i]..starts[i + 1]]`.
-    starts: Vec<u32>,
-    entries: Vec<u32>,
+    /// Numbers of the segments that reach into each cell.
+    entries: Buckets,
 }
 
 /// A vein segment prepared for many distance queries.
@@ -156,42 +156,32 @@ impl VeinField {
             cell,
             columns: (size.x / cell) as usize + 1,
             rows: (size.y / cell) as usize + 1,
-            starts: Vec::new(),
-            entries: Vec::new(),
+            entries: Buckets::default(),
         };
-        let mut starts = vec![0_u32; field.columns * field.rows + 1];
-        field.each_cell_in_reach(|_, cell| starts[cell + 1] += 1);
-        for cell in 1..starts.len() {
-            starts[cell] += starts[cell - 1];
-        }
-        let mut free = starts.clone();
-        let mut entries = vec![0; starts.last().map_or(0, |&count| count as usize)];
-        field.each_cell_in_reach(|segment, cell| {
-            entries[free[cell] as usize] = segment;
-            free[cell] += 1;
-        });
-        (field.starts, field.entries) = (starts, entries);
+        let entries = Buckets::new(field.columns * field.rows, field.reached());
+        field.entries = entries;
         field
     }
 
-    /// Calls `visit` with each segment's index and each cell that comes within the segment's reach.
-    fn each_cell_in_reach(&self, mut visit: impl FnMut(u32, usize)) {
+    /// Each cell that comes within a segment's reach, with the segment's number.
+    fn reached(&self) -> impl Iterator<Item = (usize, u32)> + Clone + '_ {
         // From a cell's centre to its corner, and a little for rounding.
         let corner = self.cell * std::f64::consts::FRAC_1_SQRT_2 * (1.0 + 1e-9);
-        for (index, segment) in self.segments.iter().enumerate() {
-            let (low, high) = bounds(segment);
-            let (first, last) = (self.cell_of(low), self.cell_of(high));
-            let limit = segment.reach + corner;
-            for row in first.1..=last.1 {
-                for column in first.0..=last.0 {
-                    let centre =
-                        self.origin + self.cell * DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
-                    if segment.nearest(centre).0 <= limit * limit {
-                        visit(index as u32, row * self.columns + column);
-                    }
-                }
-            }
-        }
+        (0..)
+            .zip(&self.segments)
+            .flat_map(move |(number, segment)| {
+                let (low, high) = bounds(segment);
+                let (first, last) = (self.cell_of(low), self.cell_of(high));
+                let limit = segment.reach + corner;
+                let cells = (first.1..=last.1)
+                    .flat_map(move |row| (first.0..=last.0).map(move |column| (row, column)));
+                cells.filter_map(move |(row, column)| {
+                    let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+                    let centre = self.origin + self.cell * place;
+                    (segment.nearest(centre).0 <= limit * limit)
+                        .then_some((row * self.columns + column, number))
+                })
+            })
     }
 
     /// Column and row of the cell that holds a point; the nearest cell for points outside the grid.
@@ -211,9 +201,8 @@ impl VeinField {
         // No vein reaches points outside the grid; the segments of the nearest cell give 0 there.
         let (column, row) = self.cell_of(point);
         let cell = row * self.columns + column;
-        let (start, end) = (self.starts[cell] as usize, self.starts[cell + 1] as usize);
         let mut covers = Covers::default();
-        for &index in &self.entries[start..end] {
+        for &index in self.entries.list(cell) {
             self.segments[index as usize].add_to(&mut covers, point, self);
         }
         covers.all()

@@ -10,6 +10,7 @@ use super::{
 use crate::blade::petiole::{Course, PetiolePlan};
 use crate::blade::stalk::StalkMesh;
 use crate::leaf::{Leaf, LeafError, LeafPlan};
+use crate::plane::polyline;
 use crate::random::{Use, bits, uniform};
 use crate::rotation::about;
 
@@ -231,10 +232,7 @@ impl Bend {
 
     /// A tube along a polyline of the plane.
     fn tube(&self, points: &[DVec2], radii: &[f64]) -> StalkMesh {
-        let whole: f64 = points
-            .windows(2)
-            .map(|pair| pair[0].distance(pair[1]))
-            .sum();
+        let whole = polyline::length(points);
         let foot = (FOOT_RADII * radii[0]).min(0.5 * whole);
         let swollen = |along: f64| {
             let t = (along / foot).min(1.0);

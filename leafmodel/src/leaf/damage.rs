@@ -24,6 +24,7 @@ pub(crate) use self::dieback::Front;
 use self::places::Places;
 pub(crate) use self::stains::Stain;
 use self::tears::Tear;
+use crate::plane::polygon;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;
 
@@ -230,36 +231,16 @@ impl VenationNetwork {
 
 /// Whether a piece of vein reaches into a hole.
 fn touches(hole: &[DVec2], from: DVec2, to: DVec2) -> bool {
-    if is_within(hole, from) || is_within(hole, to) {
-        return true;
-    }
-    let turn = |a: DVec2, b: DVec2, c: DVec2| (b - a).perp_dot(c - a);
-    sides(hole).any(|(a, b)| {
-        turn(a, b, from) * turn(a, b, to) < 0.0 && turn(from, to, a) * turn(from, to, b) < 0.0
-    })
-}
-
-/// Whether a place lies within a polygon.
-pub(crate) fn is_within(polygon: &[DVec2], p: DVec2) -> bool {
-    let crossings = sides(polygon).filter(|(a, b)| {
-        (a.y > p.y) != (b.y > p.y) && a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x
-    });
-    crossings.count() % 2 == 1
-}
-
-fn sides(polygon: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
-    let next = polygon.iter().cycle().skip(1);
-    polygon.iter().zip(next).map(|(a, b)| (*a, *b))
+    polygon::contains(hole, from)
+        || polygon::contains(hole, to)
+        || polygon::is_crossed_by(hole, from, to)
 }
 
 impl Wounds {
     /// Area of the holes, mm².
     pub fn holes_area(&self) -> f64 {
-        let holes = self.holes.iter().map(|hole| {
-            let twice = sides(hole).map(|(a, b)| (a - hole[0]).perp_dot(b - hole[0]));
-            0.5 * twice.sum::<f64>()
-        });
-        holes.sum()
+        let holes = self.holes.iter();
+        holes.map(|hole| polygon::signed_area(hole)).sum()
     }
 
     /// How far the blade stands above the plane that it had, mm, at a flat point: at the lips of

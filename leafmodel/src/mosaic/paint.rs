@@ -28,8 +28,9 @@ use super::error::MosaicError;
 use super::patch::PatchFinder;
 use super::simulation::Mosaic;
 use super::surface::{Surface, SurfacePoint};
-use super::voronoi::{FACE_EDGE, Voronoi, distance_to_segment};
+use super::voronoi::{FACE_EDGE, Voronoi};
 use crate::optics::{Contents, PerConstituent};
+use crate::plane::segment::Line;
 
 /// Number of faces processed together.
 const CHUNK: usize = 256;
@@ -255,7 +256,7 @@ impl TypeField {
         }
         weights.fill(f64::INFINITY);
         for border in borders {
-            let distance = distance_to_segment(border.from, border.to, flat);
+            let distance = Line::new([border.from, border.to]).distance(flat);
             for kind in border.kinds {
                 let least = &mut weights[usize::from(kind)];
                 *least = least.min(distance);
@@ -388,7 +389,7 @@ impl Borders<'_> {
             for (other, unfold) in patch.faces() {
                 for border in &self.own[*other as usize] {
                     let (from, to) = (unfold.apply(border.from), unfold.apply(border.to));
-                    let distance = distance_to_segment(from, to, centre);
+                    let distance = Line::new([from, to]).distance(centre);
                     if distance <= reach + size {
                         for place in places(border.kinds) {
                             nearest[place] = nearest[place].min(distance);

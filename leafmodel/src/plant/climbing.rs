@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::plane::bounds;
 use crate::rotation::about;
 
 /// How a plant climbs. Angles are radians.
@@ -75,11 +76,7 @@ impl Wall {
             .flatten()
             .copied()
             .filter(|c| c.is_finite());
-        let (mut least, mut most) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        for corner in corners.map(on) {
-            least = least.min(corner);
-            most = most.max(corner);
-        }
+        let (least, most) = bounds(corners.map(on));
         let extent = most - least;
         if !extent.is_finite() || extent.min_element() <= 0.0 {
             return wall;

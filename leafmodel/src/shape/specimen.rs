@@ -21,6 +21,7 @@ pub use self::ends::{ApexShape, BaseShape};
 use super::outline::{Outline, OutlineError};
 use super::teeth::LobeTips;
 use super::tips::Tip;
+use crate::plane::polygon;
 
 /// Longest edge of a margin that is to be bent, as a share of the midrib's length.
 const LONGEST_EDGE: f64 = 0.004;
@@ -191,12 +192,13 @@ fn within(
 
 /// A closed polygon with corners added, so that no edge is longer than `longest`.
 fn finely(polygon: &[DVec2], longest: f64) -> Vec<DVec2> {
-    let ends = polygon.iter().zip(polygon.iter().cycle().skip(1));
-    ends.flat_map(|(&from, &to)| {
-        let pieces = (from.distance(to) / longest).ceil().clamp(1.0, 1e4);
-        (0..pieces as u32).map(move |i| from.lerp(to, f64::from(i) / pieces))
-    })
-    .collect()
+    let sides = polygon::sides(polygon);
+    sides
+        .flat_map(|(from, to)| {
+            let pieces = (from.distance(to) / longest).ceil().clamp(1.0, 1e4);
+            (0..pieces as u32).map(move |i| from.lerp(to, f64::from(i) / pieces))
+        })
+        .collect()
 }
 
 /// A smooth step from 0 at 0 to 1 at 1.

@@ -20,8 +20,8 @@ use thiserror::Error;
 use self::layout::Layout;
 pub use self::wave::{ToothForm, ToothWave};
 use super::outline::{Outline, OutlineError};
-use super::segments::{Place, nearest_on_closed};
 use super::tips::{Tip, lobe_corners, with_tips};
+use crate::plane::polygon::{self, Place};
 
 /// Greatest number of waves of a margin.
 const MOST_WAVES: usize = 20;
@@ -286,7 +286,7 @@ impl Side {
 fn sides(outline: &Outline) -> [Vec<DVec2>; 2] {
     let points = outline.points();
     let n = points.len();
-    let [base, apex] = [outline.base(), outline.apex()].map(|p| nearest_on_closed(points, p));
+    let [base, apex] = [outline.base(), outline.apex()].map(|p| polygon::nearest(points, p));
     // Counter-clockwise from one end to the other.
     let walk = |from: &Place, to: &Place| {
         let corners = if from.edge == to.edge && from.along <= to.along {

@@ -6,6 +6,7 @@ use std::collections::BinaryHeap;
 use glam::DVec2;
 
 use super::Frame;
+use crate::plane::polyline;
 use crate::venation::network::{NetworkError, VeinEdge, VeinNode, VenationNetwork};
 use crate::venation::order::{Look, orders};
 use crate::venation::topology::Topology;
@@ -42,7 +43,7 @@ pub(super) fn parts(veins: &Veins) -> (Vec<u32>, Vec<f64>) {
         while let Some(node) = open.pop() {
             for &vein in &at[node as usize] {
                 let vein = &veins.list[vein as usize];
-                let length: f64 = vein.points.windows(2).map(|p| p[0].distance(p[1])).sum();
+                let length = polyline::length(&vein.points);
                 doubled += length;
                 for end in vein.ends {
                     if part[end as usize] == u32::MAX {

@@ -3,11 +3,11 @@
 
 use glam::DVec2;
 
-use super::super::distances::Distances;
 use super::super::mottle::Mottle;
 use super::super::weathering::Weathered;
 use super::{Along, Course, Decay, Delay, Place};
 use crate::optics::{Constituent, Contents};
+use crate::plane::distances::Distances;
 use crate::random::{self, Use};
 use crate::transport::DeathField;
 

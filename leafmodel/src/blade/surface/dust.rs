@@ -15,9 +15,10 @@
 
 use glam::DVec2;
 
-use super::super::distances::Distances;
 use super::super::mottle::Mottle;
 use super::super::tissue::TissueError;
+use crate::plane::distances::Distances;
+use crate::plane::polygon;
 use crate::venation::network::VeinSegment;
 
 /// Density of quartz, g cm⁻³.
@@ -133,8 +134,7 @@ impl Gathering {
         };
         let lines = veins.iter().filter(|vein| vein.order <= GATHERING);
         let lines = lines.map(|vein| [vein.from, vein.to]).collect();
-        let next = margin.iter().cycle().skip(1);
-        let sides = margin.iter().zip(next).map(|(&a, &b)| [a, b]).collect();
+        let sides = polygon::sides(margin).map(<[DVec2; 2]>::from).collect();
         Self {
             veins: of(lines, plan.at_veins),
             margin: of(sides, plan.at_margin),

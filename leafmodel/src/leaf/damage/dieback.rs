@@ -15,10 +15,10 @@
 use glam::DVec2;
 
 use crate::blade::contents_map::ContentsMap;
-use crate::blade::distances::Distances;
 use crate::blade::frame::UvFrame;
 use crate::blade::mottle::Mottle;
 use crate::optics::{Constituent, Contents};
+use crate::plane::distances::Distances;
 use crate::random::{Use, bits};
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::{Oracle, Source};
+use crate::plane::polygon;
 use crate::venation::open::lot;
 use crate::venation::plan::{Neighbourhood, Pattern};
 use crate::venation::urquhart::SURROUNDINGS;
@@ -93,15 +94,8 @@ impl Oracle<'_> {
     pub(super) fn stays(&self, from: DVec2, to: DVec2) -> bool {
         let (from, to) = (self.lamina.full_grown(from), self.lamina.full_grown(to));
         let from = from + (to - from) * 1e-6;
-        let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
         let margin = self.lamina.blade.points();
-        let crossed = (0..margin.len()).any(|i| {
-            let (a, b) = (margin[i], margin[(i + 1) % margin.len()]);
-            let (p, q) = (side(a, b, from), side(a, b, to));
-            let (r, s) = (side(from, to, a), side(from, to, b));
-            p * q < 0.0 && r * s < 0.0
-        });
-        self.lamina.blade.contains(to) && !crossed
+        self.lamina.blade.contains(to) && !polygon::is_crossed_by(margin, from, to)
     }
 
     pub(super) fn subdivide(&mut self, unit: f64) {

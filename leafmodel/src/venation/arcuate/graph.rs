@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::ArcuateVeins;
 use super::layout::Vein;
+use crate::plane::segment::crossing;
 use crate::shape::outline::Outline;
-use crate::shape::segments::crossing;
 use crate::venation::network::{NetworkError, VeinEdge, VeinNode, VenationNetwork};
 
 /// Number of pieces of the midrib.

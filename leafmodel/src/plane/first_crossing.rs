@@ -2,8 +2,7 @@
 
 use glam::DVec2;
 
-use super::segments::turn;
-use super::slabs::Slabs;
+use super::{Slabs, turn};
 
 /// Two edges of the closed polygon that cross, or touch elsewhere than at the corner that
 /// neighbours share. `None` for a simple polygon. Only edges in a common slab whose x-ranges

@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::slabs::Slabs;
+use super::{Slabs, bounds, polygon};
 
 /// Cells along the longer side of the bounding rectangle.
 const CELLS: f64 = 48.0;
@@ -33,11 +33,7 @@ pub(crate) struct InteriorGrid {
 impl InteriorGrid {
     /// The cells of a simple polygon; `slabs` indexes its edges.
     pub(crate) fn new(points: &[DVec2], slabs: &Slabs) -> Self {
-        let (low, high) = points
-            .iter()
-            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| {
-                (low.min(p), high.max(p))
-            });
+        let (low, high) = bounds(points.iter().copied());
         let cell = (high - low).max_element() / CELLS;
         let count = |extent: f64| (extent / cell).floor() as usize + 1;
         let (columns, rows) = (count(high.x - low.x), count(high.y - low.y));
@@ -47,8 +43,7 @@ impl InteriorGrid {
             columns,
             steps: vec![INSIDE; columns * rows],
         };
-        for (i, &a) in points.iter().enumerate() {
-            let b = points[if i + 1 == points.len() { 0 } else { i + 1 }];
+        for (a, b) in polygon::sides(points) {
             grid.mark_edge((a - low) / cell, (b - low) / cell);
         }
         grid.tell_sides(points, slabs);

@@ -6,16 +6,15 @@
 
 use glam::DVec2;
 
-use super::segments::crossing;
+use super::{polygon, segment};
+use crate::buckets::Buckets;
 
 /// For each horizontal slab of a closed polygon the edges that reach into it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Slabs {
     low: f64,
     per_height: f64,
-    /// Where each slab's list starts in `edges`, and at the end the length of `edges`.
-    starts: Vec<u32>,
-    edges: Vec<u32>,
+    edges: Buckets,
 }
 
 impl Slabs {
@@ -36,41 +35,24 @@ impl Slabs {
         let mut slabs = Self {
             low,
             per_height,
-            starts: vec![0; count + 1],
-            edges: Vec::new(),
+            edges: Buckets::new(count, std::iter::empty()),
         };
-        let span = |slabs: &Self, i: usize| {
+        let reached = (0..n).flat_map(|i| {
             let (a, b) = (slabs.at(points[i].y), slabs.at(points[(i + 1) % n].y));
-            a.min(b)..=a.max(b)
-        };
-        // Counting sort: how many edges a slab has, where its list begins, then the lists.
-        for i in 0..n {
-            for slab in span(&slabs, i) {
-                slabs.starts[slab + 1] += 1;
-            }
-        }
-        for slab in 0..count {
-            slabs.starts[slab + 1] += slabs.starts[slab];
-        }
-        let mut next = slabs.starts.clone();
-        slabs.edges = vec![0; slabs.starts[count] as usize];
-        for i in 0..n {
-            for slab in span(&slabs, i) {
-                slabs.edges[next[slab] as usize] = i as u32;
-                next[slab] += 1;
-            }
-        }
+            (a.min(b)..=a.max(b)).map(move |slab| (slab, i as u32))
+        });
+        slabs.edges = Buckets::new(count, reached);
         slabs
     }
 
     /// Number of slabs, ≥ 1.
     pub(crate) fn count(&self) -> usize {
-        self.starts.len() - 1
+        self.edges.count()
     }
 
     /// The edges that reach into a slab, ascending.
     pub(crate) fn edges(&self, slab: usize) -> &[u32] {
-        &self.edges[self.starts[slab] as usize..self.starts[slab + 1] as usize]
+        self.edges.list(slab)
     }
 
     /// The slab of a height; heights outside the polygon give the first or last one. The map is
@@ -83,25 +65,19 @@ impl Slabs {
 
     /// Even–odd rule along the ray from `p` towards +x.
     pub(crate) fn contains(&self, points: &[DVec2], p: DVec2) -> bool {
-        let mut inside = false;
-        for &i in self.edges(self.at(p.y)) {
-            let (a, b) = ends(points, i);
-            if (a.y > p.y) != (b.y > p.y) && a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x {
-                inside = !inside;
-            }
-        }
-        inside
+        let sides = self.edges(self.at(p.y)).iter().map(|&i| ends(points, i));
+        sides.filter(|&side| polygon::is_right_of(side, p)).count() % 2 == 1
     }
 
     /// Whether the segment from `a` to `b` crosses an edge, both in their interiors.
     pub(crate) fn is_crossed_by(&self, points: &[DVec2], a: DVec2, b: DVec2) -> bool {
         let (one, other) = (self.at(a.y), self.at(b.y));
-        let range = self.starts[one.min(other)]..self.starts[one.max(other) + 1];
-        self.edges[range.start as usize..range.end as usize]
+        self.edges
+            .lists_of(one.min(other), one.max(other))
             .iter()
             .any(|&i| {
                 let (c, d) = ends(points, i);
-                crossing(a, b, c, d).is_some()
+                segment::cross(a, b, c, d)
             })
     }
 
@@ -124,7 +100,8 @@ impl Slabs {
                 }
                 open = true;
                 for &i in self.edges(slab) {
-                    best = best.min(segment_distance_squared(ends(points, i), p));
+                    let (a, b) = ends(points, i);
+                    best = best.min(segment::distance_squared(a, b, p));
                 }
             }
             if !open {
@@ -153,16 +130,4 @@ fn ends(points: &[DVec2], i: u32) -> (DVec2, DVec2) {
     let i = i as usize;
     let next = if i + 1 == points.len() { 0 } else { i + 1 };
     (points[i], points[next])
-}
-
-/// Squared distance from `p` to the segment between `a` and `b`.
-fn segment_distance_squared((a, b): (DVec2, DVec2), p: DVec2) -> f64 {
-    let edge = b - a;
-    let length_squared = edge.length_squared();
-    let along = if length_squared > 0.0 {
-        ((p - a).dot(edge) / length_squared).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    (a + edge * along - p).length_squared()
 }

@@ -3,6 +3,9 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
+use super::segment::Line;
+use super::{bounds, polygon, rectangle_distance_squared};
+
 /// Distances to segments.
 ///
 /// A binary tree of boxes halves the segments at the median of their middles, along the longer side
@@ -40,39 +43,8 @@ struct Near {
 impl Near {
     /// Distance of a point to the nearest of the segments.
     fn distance(&self, p: DVec2) -> f64 {
-        let squares = self.lines.iter().map(|line| line.square(p));
+        let squares = self.lines.iter().map(|line| line.distance_squared(p));
         squares.fold(f64::INFINITY, f64::min).sqrt()
-    }
-}
-
-/// A segment, and what its distance to a point needs of it.
-#[derive(Clone, Copy, Debug)]
-struct Line {
-    from: DVec2,
-    along: DVec2,
-    /// Squared length.
-    length: f64,
-}
-
-impl Line {
-    fn new([from, to]: [DVec2; 2]) -> Self {
-        let along = to - from;
-        Self {
-            from,
-            along,
-            length: along.length_squared(),
-        }
-    }
-
-    /// Squared distance of a point.
-    fn square(&self, p: DVec2) -> f64 {
-        let offset = p - self.from;
-        let share = if self.length > 0.0 {
-            (offset.dot(self.along) / self.length).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        (offset - share * self.along).length_squared()
     }
 }
 
@@ -88,11 +60,8 @@ const DEEPEST: usize = 32;
 
 impl Node {
     /// Squared distance of a point to the box.
-    fn square(&self, p: DVec2) -> f64 {
-        (self.low - p)
-            .max(p - self.high)
-            .max(DVec2::ZERO)
-            .length_squared()
+    fn distance_squared(&self, p: DVec2) -> f64 {
+        rectangle_distance_squared(self.low, self.high, p)
     }
 }
 
@@ -104,6 +73,11 @@ impl Distances {
             part(&mut nodes, &mut segments, 0);
         }
         Self { segments, nodes }
+    }
+
+    /// Distances to the sides of a closed polygon.
+    pub(crate) fn around(corners: &[DVec2]) -> Self {
+        Self::new(polygon::sides(corners).map(<[DVec2; 2]>::from).collect())
     }
 
     /// Distance of a point (mm) to the nearest segment; infinite if there are none.
@@ -146,7 +120,9 @@ impl Distances {
     fn gather(&self, corners: [DVec2; 2], near: &mut Near) {
         let centre = 0.5 * (corners[0] + corners[1]);
         let first = self.segments.get(near.nearest as usize);
-        let best = first.map_or(f64::INFINITY, |&segment| Line::new(segment).square(centre));
+        let best = first.map_or(f64::INFINITY, |&segment| {
+            Line::new(segment).distance_squared(centre)
+        });
         // A point is within half the diagonal of the centre, so the nearest segment of either is at
         // most that much nearer or farther than that of the other.
         let most = self.search(centre, best, &mut near.nearest) + corners[0].distance(corners[1]);
@@ -156,7 +132,7 @@ impl Distances {
         near.waiting.extend((!self.nodes.is_empty()).then_some(0));
         while let Some(place) = near.waiting.pop() {
             let node = &self.nodes[place as usize];
-            if node.square(centre) > square {
+            if node.distance_squared(centre) > square {
                 continue;
             }
             if node.count == 0 {
@@ -166,7 +142,7 @@ impl Distances {
             let of_leaf = &self.segments[node.place as usize..][..node.count as usize];
             let lines = of_leaf.iter().map(|&segment| Line::new(segment));
             near.lines
-                .extend(lines.filter(|line| line.square(centre) <= square));
+                .extend(lines.filter(|line| line.distance_squared(centre) <= square));
         }
     }
 
@@ -182,7 +158,7 @@ impl Distances {
                 let node = &self.nodes[place as usize];
                 if node.count > 0 {
                     for number in node.place..node.place + node.count {
-                        let square = Line::new(self.segments[number as usize]).square(p);
+                        let square = Line::new(self.segments[number as usize]).distance_squared(p);
                         if square < best {
                             (best, *nearest) = (square, number);
                         }
@@ -191,8 +167,8 @@ impl Distances {
                 }
                 let (a, b) = (place + 1, node.place);
                 let (to_a, to_b) = (
-                    self.nodes[a as usize].square(p),
-                    self.nodes[b as usize].square(p),
+                    self.nodes[a as usize].distance_squared(p),
+                    self.nodes[b as usize].distance_squared(p),
                 );
                 let (near, far) = if to_a <= to_b {
                     ((to_a, a), (to_b, b))
@@ -212,11 +188,7 @@ impl Distances {
 
 /// Adds the tree of these segments, whose first one has the number `first`.
 fn part(nodes: &mut Vec<Node>, segments: &mut [[DVec2; 2]], first: usize) {
-    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for &[from, to] in &*segments {
-        low = low.min(from.min(to));
-        high = high.max(from.max(to));
-    }
+    let (low, high) = bounds(segments.iter().flatten().copied());
     let place = nodes.len();
     nodes.push(Node {
         low,
@@ -246,7 +218,9 @@ mod tests {
     use crate::testing::fixed;
 
     fn exhaustive(segments: &[[DVec2; 2]], p: DVec2) -> f64 {
-        let squares = segments.iter().map(|&segment| Line::new(segment).square(p));
+        let squares = segments
+            .iter()
+            .map(|&segment| Line::new(segment).distance_squared(p));
         squares.fold(f64::INFINITY, f64::min).sqrt()
     }
 
