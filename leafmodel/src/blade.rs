@@ -62,7 +62,7 @@ pub mod weathering;
 
 pub use frame::UvFrame;
 pub use margin_thickness::MarginThickness;
-pub use mesh::{BladeError, BladeMesh, MeshDefect};
+pub use mesh::{BladeError, BladeMesh};
 pub(crate) use sheet::even_sheet;
 
 use crate::venation::network::VeinSegment;

@@ -80,6 +80,7 @@ pub mod leaf;
 pub mod measure;
 pub mod memory;
 pub mod mosaic;
+mod numeric;
 pub mod optics;
 pub mod plan_file;
 mod plane;

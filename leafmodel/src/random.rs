@@ -35,8 +35,6 @@ pub(crate) enum Use {
     MosaicImage = 14,
     /// Gradients of noise patterns.
     NoiseGradient = 15,
-    /// The shuffling of types of cells for a null model.
-    Shuffle = 16,
     /// The places at which the pattern of a mosaic is sampled.
     PatternProbe = 17,
     /// The seed of the patches in which a leaf begins to age or dies.

@@ -10,7 +10,7 @@ use glam::DVec2;
 use super::contents_map::ContentsMap;
 use super::error::Field;
 use super::frame::UvFrame;
-use super::relief::smooth_step;
+use crate::numeric::smooth_step;
 use crate::optics::Constituent;
 use crate::plane::polygon;
 use crate::shape::outline::Outline;

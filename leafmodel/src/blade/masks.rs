@@ -11,6 +11,7 @@ use super::ageing::{Along, Place};
 use super::frame::UvFrame;
 use super::mottle::Mottle;
 use super::tissue::TissueError;
+use crate::numeric::smooth_step;
 use crate::plane::distances::Distances;
 
 /// A picture over the box of a leaf, decoded.
@@ -313,6 +314,5 @@ impl<'a> MaskField<'a> {
 
 /// 0 up to −½, 1 from ½ on, smooth between.
 fn step(x: f64) -> f64 {
-    let t = (x + 0.5).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
+    smooth_step(x + 0.5)
 }

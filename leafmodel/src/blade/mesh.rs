@@ -1,9 +1,9 @@
 //! The blade as triangles.
 
-mod defects;
 mod smoothing;
+#[cfg(test)]
+mod testing;
 
-pub use self::defects::MeshDefect;
 pub use super::error::BladeError;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -17,7 +17,6 @@ use super::stance::{Posture, Settled};
 use super::triangulate::{Triangulation, triangulate};
 use crate::plane::{polygon, segment};
 use crate::shape::outline::Outline;
-use crate::venation::conformal_map::ConformalMap;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 
 /// Greatest number of triangles of one blade.
@@ -115,40 +114,6 @@ impl BladeMesh {
         )
     }
 
-    /// As [`BladeMesh::build`], from pieces of vein in a map of the blade. Pieces are connected
-    /// where their ends have the same bits.
-    ///
-    /// # Errors
-    ///
-    /// As [`BladeMesh::build`].
-    pub fn from_veins(
-        outline: &Outline,
-        veins: &[VeinSegment],
-        map: ConformalMap,
-        form: &BladeForm,
-    ) -> Result<Self, BladeError> {
-        let displaced = Displacement::NONE;
-        Self::from_veins_displaced(outline, veins, map, form, displaced)
-    }
-
-    /// As [`BladeMesh::from_veins`], `displaced`.
-    ///
-    /// # Errors
-    ///
-    /// As [`BladeMesh::build`].
-    pub fn from_veins_displaced(
-        outline: &Outline,
-        veins: &[VeinSegment],
-        map: ConformalMap,
-        form: &BladeForm,
-        displaced: Displacement<'_>,
-    ) -> Result<Self, BladeError> {
-        let frame = UvFrame::around(outline.points());
-        let posture = Posture::new(form, outline, (map, veins), None);
-        let cut = (outline, &[][..], &frame);
-        Self::within(cut, veins, form, &posture, false, displaced)
-    }
-
     fn within(
         (outline, holes, frame): (&Outline, &[Vec<DVec2>], &UvFrame),
         veins: &[VeinSegment],
@@ -232,12 +197,6 @@ impl BladeMesh {
         triangle
             .iter()
             .all(|&v| normal.dot(self.normals[v as usize]) > 0.0)
-    }
-
-    /// Area of a triangle on the flat lamina, mm², > 0 if counter-clockwise.
-    pub(super) fn flat_area(&self, triangle: &[u32; 3]) -> f64 {
-        let [a, b, c] = triangle.map(|v| self.lamina[v as usize]);
-        0.5 * (b - a).perp_dot(c - a)
     }
 }
 

@@ -18,9 +18,10 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::BladeForm;
 use super::error::BladeError;
-use super::relief::{Relief, smooth_step};
+use super::relief::Relief;
 use super::stalk::StalkMesh;
 use super::stance::{Posture, Settled};
+use crate::numeric::smooth_step;
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 pub use course::Course;

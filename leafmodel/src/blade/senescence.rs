@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::ageing::{AgeingLeaf, Course, Place};
 use super::tissue::TissueError;
+use crate::numeric::smooth_step;
 use crate::optics::Contents;
 use crate::transport::DeathField;
 
@@ -184,10 +185,7 @@ impl Withering {
                 threshold,
                 blend,
                 ..
-            } => {
-                let t = ((field.at(point) - threshold) / blend).clamp(0.0, 1.0);
-                t * t * (3.0 - 2.0 * t)
-            }
+            } => smooth_step((field.at(point) - threshold) / blend),
             Way::Day(leaf) => leaf.dead_share(point),
         }
     }

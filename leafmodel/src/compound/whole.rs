@@ -10,6 +10,7 @@ use super::{
 use crate::blade::petiole::{Course, PetiolePlan};
 use crate::blade::stalk::StalkMesh;
 use crate::leaf::{Leaf, LeafError, LeafPlan};
+use crate::numeric::smooth_step;
 use crate::plane::polyline;
 use crate::random::{Use, bits, uniform};
 use crate::rotation::about;
@@ -234,10 +235,7 @@ impl Bend {
     fn tube(&self, points: &[DVec2], radii: &[f64]) -> StalkMesh {
         let whole = polyline::length(points);
         let foot = (FOOT_RADII * radii[0]).min(0.5 * whole);
-        let swollen = |along: f64| {
-            let t = (along / foot).min(1.0);
-            1.0 + FOOT * (1.0 - t * t * (3.0 - 2.0 * t))
-        };
+        let swollen = |along: f64| 1.0 + FOOT * (1.0 - smooth_step(along / foot));
         let (mut placed, mut thick) = (vec![self.place(points[0])], vec![radii[0] * swollen(0.0)]);
         let mut along = 0.0;
         for (pair, ends) in points.windows(2).zip(radii.windows(2)) {

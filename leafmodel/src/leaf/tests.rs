@@ -1,5 +1,7 @@
 //! Whole leaves from plans.
 
+mod combinations;
+
 use proptest::prelude::*;
 
 use super::*;

@@ -11,6 +11,7 @@
 
 use glam::DVec3;
 
+use crate::numeric::between;
 use crate::random::{self, Use};
 
 /// Noise and the share of the surface that it marks.
@@ -67,13 +68,9 @@ fn gradient_noise(p: DVec3, key: u64) -> f64 {
         let step = DVec3::new(dx, dy, dz);
         gradient(cell + step, key).dot(inside - step)
     };
-    let along_x = |dy, dz| lerp(corner(0.0, dy, dz), corner(1.0, dy, dz), fade.x);
-    let along_y = |dz| lerp(along_x(0.0, dz), along_x(1.0, dz), fade.y);
-    lerp(along_y(0.0), along_y(1.0), fade.z)
-}
-
-fn lerp(a: f64, b: f64, t: f64) -> f64 {
-    a + (b - a) * t
+    let along_x = |dy, dz| between(corner(0.0, dy, dz), corner(1.0, dy, dz), fade.x);
+    let along_y = |dz| between(along_x(0.0, dz), along_x(1.0, dz), fade.y);
+    between(along_y(0.0), along_y(1.0), fade.z)
 }
 
 /// One of the twelve directions from the middle of a cube to the middles of its edges.

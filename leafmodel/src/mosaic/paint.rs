@@ -29,6 +29,7 @@ use super::patch::PatchFinder;
 use super::simulation::Mosaic;
 use super::surface::{Surface, SurfacePoint};
 use super::voronoi::{FACE_EDGE, Voronoi};
+use crate::numeric::smooth_step;
 use crate::optics::{Contents, PerConstituent};
 use crate::plane::segment::Line;
 
@@ -322,12 +323,6 @@ impl TypeField {
             )
             .collect()
     }
-}
-
-/// `3 t² − 2 t³` between 0 and 1.
-fn smooth_step(t: f64) -> f64 {
-    let t = t.clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
 
 /// The borders between cells of different types within a face.

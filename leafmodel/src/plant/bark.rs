@@ -11,6 +11,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::numeric::{between, smooth_step};
 use crate::random::{Use, uniform};
 
 /// Greatest height over the radius of the axis there, so that thin twigs keep their form.
@@ -93,7 +94,7 @@ impl AxisRelief {
             return 0.0;
         }
         let to_end = way.min(self.length - way).max(0.0);
-        let ramp = smooth((to_end / (2.0 * self.widest)).min(1.0));
+        let ramp = smooth_step((to_end / (2.0 * self.widest)).min(1.0));
         let fits = (MOST_OF_RADIUS * radius / most).min(1.0);
         ramp * fits * (self.ridge(way, turn) + self.lenticel(way, turn, radius))
     }
@@ -121,10 +122,10 @@ impl AxisRelief {
         let (row, column) = (along.floor(), across.floor());
         let at =
             |row: f64, column: f64| self.chance(0, row as i64, (column as i64).rem_euclid(around));
-        let [up, aside] = [along - row, across - column].map(smooth);
-        let near = mixed(at(row, column), at(row, column + 1.0), aside);
-        let far = mixed(at(row + 1.0, column), at(row + 1.0, column + 1.0), aside);
-        relief.ridges_mm * (1.0 - (2.0 * mixed(near, far, up) - 1.0).abs())
+        let [up, aside] = [along - row, across - column].map(smooth_step);
+        let near = between(at(row, column), at(row, column + 1.0), aside);
+        let far = between(at(row + 1.0, column), at(row + 1.0, column + 1.0), aside);
+        relief.ridges_mm * (1.0 - (2.0 * between(near, far, up) - 1.0).abs())
     }
 
     fn lenticel(&self, way: f64, turn: f64, radius: f64) -> f64 {
@@ -166,15 +167,6 @@ impl AxisRelief {
         }
         relief.lenticel_height_mm * most * (2.0 - most)
     }
-}
-
-fn mixed(from: f64, to: f64, share: f64) -> f64 {
-    from + (to - from) * share
-}
-
-/// From 0 to 1 with level ends.
-fn smooth(share: f64) -> f64 {
-    share * share * (3.0 - 2.0 * share)
 }
 
 #[cfg(test)]

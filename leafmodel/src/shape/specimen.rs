@@ -200,9 +200,3 @@ fn finely(polygon: &[DVec2], longest: f64) -> Vec<DVec2> {
         })
         .collect()
 }
-
-/// A smooth step from 0 at 0 to 1 at 1.
-fn step(x: f64) -> f64 {
-    let x = x.clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
-}

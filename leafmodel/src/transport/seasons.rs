@@ -1,7 +1,6 @@
 //! Autumn: revenue falls, and cells whose revenue no longer covers their cost die (Remark 3.6 of
 //! \[xia2007\]).
 
-use super::cells::NONE;
 use super::leaf::TransportLeaf;
 use super::plan::TransportError;
 
@@ -73,17 +72,5 @@ impl TransportLeaf {
             }
         }
         Ok(deaths)
-    }
-
-    /// The leaf without the cells that are dead at this share of its revenue; `deaths` is from
-    /// [`TransportLeaf::deaths`].
-    pub fn without_dead(&self, deaths: &[f64], share: f64) -> Self {
-        let mut numbers = vec![NONE; self.cells().len()];
-        let alive = (0..self.cells().len()).filter(|&v| v == 0 || deaths[v] < share);
-        let kept: Vec<usize> = alive.collect();
-        for (number, &v) in (0..).zip(&kept) {
-            numbers[v] = number;
-        }
-        self.part(&kept, |v| self.parent(v).map_or(NONE, |p| numbers[p]))
     }
 }

@@ -6,6 +6,7 @@ use glam::DVec2;
 use super::super::mottle::Mottle;
 use super::super::weathering::Weathered;
 use super::{Along, Course, Decay, Delay, Place};
+use crate::numeric::smooth_step;
 use crate::optics::{Constituent, Contents};
 use crate::plane::distances::Distances;
 use crate::random::{self, Use};
@@ -190,8 +191,7 @@ impl AgeingLeaf {
         if days <= 0.0 {
             return 0.0;
         }
-        let t = ((days - self.death.at(near, days)) / self.blend).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
+        smooth_step((days - self.death.at(near, days)) / self.blend)
     }
 
     pub(in super::super) fn contents(&self, living: Contents, p: DVec2) -> Contents {

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
-use super::smooth_step;
+use crate::numeric::smooth_step;
 use crate::random::{Use, uniform};
 
 /// Pieces that the axis is followed in.

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::super::mesh::vertex_normals;
-use super::super::relief::smooth_step;
 use super::super::stalk::StalkMesh;
+use crate::numeric::smooth_step;
 
 /// Cosines of the angles from the adaxial side at which a groove begins and is deepest.
 const GROOVE: [f64; 2] = [0.55, 0.95];

@@ -17,6 +17,7 @@ use glam::DVec2;
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
 use crate::blade::mottle::Mottle;
+use crate::numeric::smooth_step;
 use crate::optics::{Constituent, Contents};
 use crate::plane::distances::Distances;
 use crate::random::{Use, bits};
@@ -269,9 +270,9 @@ impl Front {
         let thick = (living[Constituent::DryMatter] / USUAL_DRY_MATTER).clamp(0.7, 2.5);
         let brown = (0.9 + 0.8 * libm::exp(-depth.max(0.0) / DARK_MM)) * thick;
         dead[Constituent::Brown] = dead[Constituent::Brown].max(brown);
-        let is_dead = smooth(depth / EDGE_MM + 0.5);
+        let is_dead = smooth_step(depth / EDGE_MM + 0.5);
         let is_yellow = if self.rim_mm > 0.0 {
-            smooth(1.0 + depth / self.rim_mm)
+            smooth_step(1.0 + depth / self.rim_mm)
         } else {
             0.0
         };
@@ -304,10 +305,4 @@ fn vein_distances(network: &VenationNetwork) -> Option<Distances> {
     let major: Vec<VeinSegment> = network.segments().filter(|vein| vein.order <= 2).collect();
     let lines: Vec<[DVec2; 2]> = major.iter().map(|vein| [vein.from, vein.to]).collect();
     (!lines.is_empty()).then(|| Distances::new(lines))
-}
-
-/// 0 up to 0, 1 from 1 on, smooth between.
-fn smooth(x: f64) -> f64 {
-    let t = x.clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }

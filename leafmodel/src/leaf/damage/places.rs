@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec2;
 
 use super::stains::Stain;
+use crate::numeric::bisect;
 use crate::plane::segment;
 use crate::random::{Use, bell, uniform};
 use crate::shape::outline::Outline;
@@ -299,16 +300,8 @@ fn bite(outline: &Outline, at: DVec2, radius: f64, turn: f64) -> Option<(Outline
     let (fore, back) = (reach(true), reach(false));
     let enters = |inside: usize, outside: usize| {
         let (a, b) = (points[inside % n], points[outside % n]);
-        let (mut near, mut far) = (0.0, 1.0);
-        for _ in 0..50 {
-            let middle = f64::midpoint(near, far);
-            if a.lerp(b, middle).distance(at) < radius {
-                near = middle;
-            } else {
-                far = middle;
-            }
-        }
-        a.lerp(b, far)
+        let is_near = |share| a.lerp(b, share).distance(at) < radius;
+        a.lerp(b, bisect(0.0, 1.0, 50, is_near).1)
     };
     if !is_in(nearest) || fore + back + 3 >= n {
         return None;

@@ -7,7 +7,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-use super::{SpecimenError, step, within};
+use super::{SpecimenError, within};
+use crate::numeric::smooth_step;
 use crate::random::{Use, bell, uniform};
 
 /// Random differences between the sides, all of mean 0 over the leaves of a plant.
@@ -75,7 +76,7 @@ impl Asymmetry {
             place.x *= 1.0 + wider * p.x.signum();
             place.x += bow * libm::sin(PI * y);
             let wandered: DVec2 = waves.iter().map(|wave| wave.at(*p)).sum();
-            *p = place + wandered * (far * step(near / FADE));
+            *p = place + wandered * (far * smooth_step(near / FADE));
         }
     }
 }

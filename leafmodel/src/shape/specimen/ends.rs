@@ -4,7 +4,8 @@
 
 use glam::DVec2;
 
-use super::{SpecimenError, step, within};
+use super::{SpecimenError, within};
+use crate::numeric::{bisect, smooth_step};
 use crate::shape::tips::{Point, Tip};
 
 /// The base of a blade.
@@ -88,7 +89,7 @@ impl BaseShape {
                     return Err(SpecimenError::DeeperAlready { depth, there });
                 }
                 // Each place falls the farther the larger the amplitude; all stay in order.
-                let fall = |p: DVec2| step(2.0 * p.x.abs() / width) * low(p.y, BASE_REACH);
+                let fall = |p: DVec2| smooth_step(2.0 * p.x.abs() / width) * low(p.y, BASE_REACH);
                 let amplitude = amplitude_for(depth, |amplitude| {
                     let lowest = points.iter().map(|&p| p.y - amplitude * fall(p));
                     -lowest.fold(0.0, f64::min)
@@ -163,7 +164,7 @@ impl ApexShape {
                     // Lobes beside the apex stay where they are.
                     let aside = (p.x / (3.0 * length)).abs().min(1.0);
                     let near = (1.0 - aside * aside) * (1.0 - aside * aside);
-                    p.x *= 1.0 - narrowing * (1.0 - step(below)) * near;
+                    p.x *= 1.0 - narrowing * (1.0 - smooth_step(below)) * near;
                 }
                 Ok(())
             }
@@ -185,7 +186,7 @@ fn notched(
 ) -> Result<(), SpecimenError> {
     let end = "apex";
     let too_pointed = SpecimenError::TooPointed { what, depth, end };
-    let rise = |p: DVec2| step(2.0 * p.x.abs() / width) * low(1.0 - p.y, 0.4);
+    let rise = |p: DVec2| smooth_step(2.0 * p.x.abs() / width) * low(1.0 - p.y, 0.4);
     let there = points.iter().map(|p| p.y - 1.0).fold(0.0, f64::max);
     if there >= depth {
         return Err(too_pointed);
@@ -204,30 +205,19 @@ fn notched(
 /// Lowers the right half of the blade and raises the left, by `offset` together.
 pub(super) fn lower_right(points: &mut [DVec2], offset: f64) {
     for p in points {
-        let aside = step(p.x.abs() / 0.15).copysign(p.x);
+        let aside = smooth_step(p.x.abs() / 0.15).copysign(p.x);
         p.y -= 0.5 * offset * aside * low(p.y, 0.6);
     }
 }
 
 /// 1 at and below the base, falling to 0 at `reach`.
 fn low(y: f64, reach: f64) -> f64 {
-    1.0 - step(y / reach)
+    1.0 - smooth_step(y / reach)
 }
 
 /// The amplitude at which a depth that rises with it, and is 0 without, is the one wanted; none if
 /// it had to be so great that the contour would no longer be itself.
 fn amplitude_for(wanted: f64, depth: impl Fn(f64) -> f64) -> Option<f64> {
-    let (mut low, mut high) = (0.0, 2.0 * wanted + 0.15);
-    if depth(high) < wanted {
-        return None;
-    }
-    for _ in 0..60 {
-        let middle = f64::midpoint(low, high);
-        if depth(middle) < wanted {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    Some(high)
+    let most = 2.0 * wanted + 0.15;
+    (depth(most) >= wanted).then(|| bisect(0.0, most, 60, |amplitude| depth(amplitude) < wanted).1)
 }

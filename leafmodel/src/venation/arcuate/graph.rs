@@ -4,6 +4,8 @@ use glam::DVec2;
 
 use super::ArcuateVeins;
 use super::layout::Vein;
+use crate::numeric::bisect;
+use crate::plane::bounds;
 use crate::plane::segment::crossing;
 use crate::shape::outline::Outline;
 use crate::venation::network::{NetworkError, VeinEdge, VeinNode, VenationNetwork};
@@ -165,16 +167,8 @@ impl Graph<'_> {
             let ends = self.leaves_blade(a, b);
             if ends {
                 // Bisection for the last point on the blade.
-                let (mut inside, mut outside) = (0.0, 1.0);
-                for _ in 0..60 {
-                    let middle = 0.5 * (inside + outside);
-                    if self.leaves_blade(a, a.lerp(b, middle)) {
-                        outside = middle;
-                    } else {
-                        inside = middle;
-                    }
-                }
-                b = a.lerp(b, inside);
+                let stays = |share| !self.leaves_blade(a, a.lerp(b, share));
+                b = a.lerp(b, bisect(0.0, 1.0, 60, stays).0);
             }
             way.meets = self.first_crossing(a, b);
             if let Some((edge, share)) = way.meets {
@@ -207,7 +201,7 @@ impl Graph<'_> {
         }
         let joint = way.meets.map(|(edge, share)| self.node_on(edge, share));
         let start = self.edges.len();
-        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        let (mut low, mut high) = bounds([]);
         // The radius never grows, even where a lateral bends back to where its axis is wider.
         let mut radius = f64::INFINITY;
         let mut taper = radii.into_iter().map(|here| {

@@ -14,7 +14,7 @@ const STRUCTURED_SHARE: f64 = 0.75;
 /// Structured patterns have elements that can be counted, the same number in every individual;
 /// unstructured ones vary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PatternClass {
+pub(crate) enum PatternClass {
     /// Most circles, at all heights and in all individuals, cross this many elements.
     Structured {
         /// How many.
@@ -30,7 +30,7 @@ impl PatternClass {
     ///
     /// Structured if three quarters of the circles have the same count, and that is above 0. Ties
     /// go to the smaller count.
-    pub fn of_counts(counts: &[u32]) -> Self {
+    pub(crate) fn of_counts(counts: &[u32]) -> Self {
         let mut sorted = counts.to_vec();
         sorted.sort_unstable();
         let mut best = (0, 0);
@@ -53,7 +53,7 @@ impl PatternClass {
 ///
 /// If a ray from the axis meets the surface several times, the outermost point is used; angles at
 /// which it does not meet the surface are left out.
-pub fn ring(surface: &Surface, height_mm: f64, count: u32) -> Vec<SurfacePoint> {
+pub(crate) fn ring(surface: &Surface, height_mm: f64, count: u32) -> Vec<SurfacePoint> {
     // Where the plane at that height cuts faces, with the weights of both ends.
     let mut cuts: Vec<(u32, [[f64; 3]; 2], [DVec2; 2])> = Vec::new();
     for (ids, face) in surface.faces().iter().zip(0..) {
@@ -98,7 +98,7 @@ pub fn ring(surface: &Surface, height_mm: f64, count: u32) -> Vec<SurfacePoint> 
 
 /// Number of runs of `label` along a closed ring of labels, after runs shorter than `shortest`
 /// points, of any label, have been merged into their surroundings.
-pub fn element_count(labels: &[u32], label: u32, shortest: usize) -> u32 {
+pub(crate) fn element_count(labels: &[u32], label: u32, shortest: usize) -> u32 {
     let mut marked: Vec<bool> = labels.iter().map(|&l| l == label).collect();
     // Gaps are closed before specks are dropped, each from short to long, so that frayed edges
     // remain part of their stripe.

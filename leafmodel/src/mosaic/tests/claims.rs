@@ -9,10 +9,10 @@ mod cap;
 mod croton;
 mod melon;
 
-use super::shapes::Shape;
 use super::statistics::{area_shares, labels_at};
-use super::voronoi::Voronoi;
-use super::{Mosaic, MosaicPlan, Surface, SurfacePoint};
+use crate::mosaic::shapes::Shape;
+use crate::mosaic::voronoi::Voronoi;
+use crate::mosaic::{Mosaic, MosaicPlan, Surface, SurfacePoint};
 
 /// Label of the background for the measures.
 const BACKGROUND: u32 = 0;

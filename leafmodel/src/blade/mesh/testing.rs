@@ -1,12 +1,13 @@
-//! What is wrong with a mesh.
+//! Meshes for tests, and what is wrong with a mesh.
 
 use thiserror::Error;
 
-use super::BladeMesh;
+use super::*;
+use crate::venation::conformal_map::ConformalMap;
 
 /// What is wrong with a mesh. Meshes from [`BladeMesh::build`] have no defects.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-pub enum MeshDefect {
+pub(crate) enum MeshDefect {
     /// The lists of a mesh have different lengths, or there is no triangle.
     #[error("the lists of vertices differ in length, or the mesh is empty")]
     Lists,
@@ -66,6 +67,46 @@ pub enum MeshDefect {
 const SAME_AREA: f64 = 1e-6;
 
 impl BladeMesh {
+    /// As [`BladeMesh::build`], from pieces of vein in a map of the blade. Pieces are connected
+    /// where their ends have the same bits.
+    ///
+    /// # Errors
+    ///
+    /// As [`BladeMesh::build`].
+    pub(crate) fn from_veins(
+        outline: &Outline,
+        veins: &[VeinSegment],
+        map: ConformalMap,
+        form: &BladeForm,
+    ) -> Result<Self, BladeError> {
+        let displaced = Displacement::NONE;
+        Self::from_veins_displaced(outline, veins, map, form, displaced)
+    }
+
+    /// As [`BladeMesh::from_veins`], `displaced`.
+    ///
+    /// # Errors
+    ///
+    /// As [`BladeMesh::build`].
+    pub(crate) fn from_veins_displaced(
+        outline: &Outline,
+        veins: &[VeinSegment],
+        map: ConformalMap,
+        form: &BladeForm,
+        displaced: Displacement<'_>,
+    ) -> Result<Self, BladeError> {
+        let frame = UvFrame::around(outline.points());
+        let posture = Posture::new(form, outline, (map, veins), None);
+        let cut = (outline, &[][..], &frame);
+        Self::within(cut, veins, form, &posture, false, displaced)
+    }
+
+    /// Area of a triangle on the flat lamina, mm², > 0 if counter-clockwise.
+    pub(crate) fn flat_area(&self, triangle: &[u32; 3]) -> f64 {
+        let [a, b, c] = triangle.map(|v| self.lamina[v as usize]);
+        0.5 * (b - a).perp_dot(c - a)
+    }
+
     /// Checks what every mesh must satisfy: all numbers finite, normals of unit length, every
     /// vertex used; each edge with one face, or with two of consistent orientation; the border one
     /// closed curve; no triangle turned over on the lamina or in space; and the flat triangles
@@ -74,7 +115,7 @@ impl BladeMesh {
     /// # Errors
     ///
     /// The first [`MeshDefect`] found.
-    pub fn validate(&self, outline_area: f64) -> Result<(), MeshDefect> {
+    pub(crate) fn validate(&self, outline_area: f64) -> Result<(), MeshDefect> {
         self.validate_holed(outline_area, 0)
     }
 
@@ -84,7 +125,7 @@ impl BladeMesh {
     /// # Errors
     ///
     /// The first [`MeshDefect`] found.
-    pub fn validate_holed(&self, outline_area: f64, holes: usize) -> Result<(), MeshDefect> {
+    pub(crate) fn validate_holed(&self, outline_area: f64, holes: usize) -> Result<(), MeshDefect> {
         self.check_vertices()?;
         self.check_edges(1 + holes)?;
         for (triangle, corners) in self.triangles.iter().enumerate() {

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 
+use super::super::statistics::{
+    PatternClass, contained, contiguity, element_count, kappa, mean_width_mm, neighbourhood,
+    patches,
+};
 use super::{BACKGROUND, FOREGROUND, Row, Seen, grown, surface};
 use crate::blade::mottle::Mottle;
 use crate::mosaic::paint::{SheetField, TypeField};
 use crate::mosaic::shapes::sheet;
-use crate::mosaic::statistics::{
-    PatternClass, contained, contiguity, element_count, kappa, mean_width_mm, neighbourhood,
-    patches, probes,
-};
 use crate::mosaic::testing::noise_labels;
 use crate::mosaic::{Mosaic, Surface, SurfacePoint};
 use crate::species;
@@ -79,7 +79,7 @@ fn a_croton_yellows_by_the_borders_of_its_blotches_and_noise_does_not() {
     assert!(shares[0] < 0.15 && shares[3] > 0.6, "{shares:?}");
     // Four probes to a square millimetre would be finer than blotches; 8000 on 4900 mm² lie some
     // 0.8 mm apart.
-    let points = probes(&leaf, 8000, 1);
+    let points = leaf.probes(8000, 1);
     let places: Vec<DVec3> = points.iter().map(|point| leaf.position(point)).collect();
     let marked: Vec<Vec<u32>> = stages.iter().map(|one| one.at(&leaf, &points)).collect();
     for two in marked.windows(2) {
@@ -132,7 +132,7 @@ fn clones_of_the_ageing_croton_are_contiguous() {
 #[test]
 fn three_crotons_differ_with_equal_statistics_and_are_unstructured() {
     let leaf = lamina(2.0);
-    let points = probes(&leaf, 8000, 1);
+    let points = leaf.probes(8000, 1);
     let plan = INDIVIDUALS.plan();
     let mosaics: Vec<Mosaic> = (1..4)
         .map(|seed| Mosaic::grow(&leaf, &plan, seed).expect("a good plan"))

@@ -6,17 +6,18 @@ mod refusals;
 use glam::DVec2;
 use proptest::prelude::*;
 
-use super::lamina::Lamina;
-use super::lamina_clock::LaminaClock;
-use super::network::{Ending, VenationNetwork};
-use super::plan::{
-    AuxinPlan, FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern, PlanError,
-};
-use super::{Grown, VenationError, all_pairs, carry_out, grow};
+use super::all_pairs;
 use crate::shape::growth::RateCurve;
 use crate::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
 use crate::shape::outline::Outline;
 use crate::testing::fixed;
+use crate::venation::lamina::Lamina;
+use crate::venation::lamina_clock::LaminaClock;
+use crate::venation::network::{Ending, VenationNetwork};
+use crate::venation::plan::{
+    AuxinPlan, FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern, PlanError,
+};
+use crate::venation::{Grown, VenationError, carry_out, grow};
 
 fn shape(slope: f64, lobe_decay: f64) -> GrowthForm {
     let half = HalfForm {

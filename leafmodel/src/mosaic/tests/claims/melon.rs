@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
+use super::super::statistics::{PatternClass, element_count, mean_width_mm, ring};
 use super::{FOREGROUND, Row, Seen, grown, surface};
 use crate::mosaic::shapes::{rounded_cube, sphere};
-use crate::mosaic::statistics::{PatternClass, element_count, mean_width_mm, ring};
 use crate::mosaic::{ControlImage, CylinderControl, MosaicPlan, Steered, Surface};
 
 /// Figs. 10 and 11; Fig. 12 has `w_r` of 1, 2 and 3.

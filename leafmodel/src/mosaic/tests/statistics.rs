@@ -12,35 +12,39 @@ mod rings;
 #[cfg(test)]
 mod tests;
 
-pub use self::rings::{PatternClass, element_count, ring};
-use super::surface::{Surface, SurfacePoint};
-use super::voronoi::Voronoi;
-use crate::random::{self, Use};
+pub(crate) use self::rings::{PatternClass, element_count, ring};
+use crate::mosaic::surface::{Surface, SurfacePoint};
+use crate::mosaic::voronoi::Voronoi;
+use crate::random::bits_of;
+use crate::testing::uniform;
+
+/// Separates the random numbers of the null model from others.
+const SHUFFLE: u64 = 16;
 
 /// A connected part of the surface whose cells have one label.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LabelPatch {
+pub(crate) struct LabelPatch {
     /// The label.
-    pub label: u32,
+    pub(crate) label: u32,
     /// Its area, mm².
-    pub area_mm2: f64,
+    pub(crate) area_mm2: f64,
     /// Number of its cells.
-    pub cells: usize,
+    pub(crate) cells: usize,
 }
 
 /// Similarity of neighbours, compared with chance.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Neighbourhood {
+pub(crate) struct Neighbourhood {
     /// Share of pairs of neighbouring cells that have the same label.
-    pub alike: f64,
+    pub(crate) alike: f64,
     /// Mean of that share when labels are shuffled among cells.
-    pub by_chance: f64,
+    pub(crate) by_chance: f64,
     /// Its standard deviation over the shuffles.
-    pub deviation: f64,
+    pub(crate) deviation: f64,
 }
 
 /// Share of the tessellated area that each label below `labels` takes; sums to 1.
-pub fn area_shares(voronoi: &Voronoi, labels_of: &[u32], labels: usize) -> Vec<f64> {
+pub(crate) fn area_shares(voronoi: &Voronoi, labels_of: &[u32], labels: usize) -> Vec<f64> {
     let mut shares = vec![0.0; labels];
     for (&label, area) in labels_of.iter().zip(voronoi.areas()) {
         shares[label as usize] += area;
@@ -50,7 +54,7 @@ pub fn area_shares(voronoi: &Voronoi, labels_of: &[u32], labels: usize) -> Vec<f
 }
 
 /// The patches of all labels: cells joined over common borders; in the order of their first cells.
-pub fn patches(voronoi: &Voronoi, labels_of: &[u32]) -> Vec<LabelPatch> {
+pub(crate) fn patches(voronoi: &Voronoi, labels_of: &[u32]) -> Vec<LabelPatch> {
     let mut seen = vec![false; labels_of.len()];
     let mut patches = Vec::new();
     for first in 0..labels_of.len() {
@@ -81,7 +85,7 @@ pub fn patches(voronoi: &Voronoi, labels_of: &[u32]) -> Vec<LabelPatch> {
 }
 
 /// Length of the border between cells of `label` and all others, mm.
-pub fn border_length(voronoi: &Voronoi, labels_of: &[u32], label: u32) -> f64 {
+pub(crate) fn border_length(voronoi: &Voronoi, labels_of: &[u32], label: u32) -> f64 {
     let of_label = (0..labels_of.len()).filter(|&cell| labels_of[cell] == label);
     of_label
         .flat_map(|cell| voronoi.neighbours(cell as u32))
@@ -94,7 +98,7 @@ pub fn border_length(voronoi: &Voronoi, labels_of: &[u32], label: u32) -> f64 {
 /// without a border.
 ///
 /// For a stripe much longer than wide that is its width, for a disc of radius r it is r.
-pub fn mean_width_mm(voronoi: &Voronoi, labels_of: &[u32], label: u32) -> f64 {
+pub(crate) fn mean_width_mm(voronoi: &Voronoi, labels_of: &[u32], label: u32) -> f64 {
     let area: f64 = labels_of
         .iter()
         .zip(voronoi.areas())
@@ -106,7 +110,7 @@ pub fn mean_width_mm(voronoi: &Voronoi, labels_of: &[u32], label: u32) -> f64 {
 
 /// Share of pairs of neighbours with the same label, compared with `shuffles` random permutations
 /// of the labels.
-pub fn neighbourhood(
+pub(crate) fn neighbourhood(
     voronoi: &Voronoi,
     labels_of: &[u32],
     shuffles: u32,
@@ -116,9 +120,9 @@ pub fn neighbourhood(
     let by_chance: Vec<f64> = (0..u64::from(shuffles))
         .map(|round| {
             let mut shuffled = labels_of.to_vec();
-            let key = random::bits(seed, Use::Shuffle, round);
+            let key = bits_of(seed, SHUFFLE, round);
             for last in (1..shuffled.len()).rev() {
-                let draw = random::uniform(key, Use::Shuffle, last as u64);
+                let draw = uniform(key, SHUFFLE, last as u64);
                 shuffled.swap(last, (draw * (last + 1) as f64) as usize);
             }
             alike_share(voronoi, &shuffled)
@@ -153,7 +157,7 @@ fn alike_share(voronoi: &Voronoi, labels_of: &[u32]) -> f64 {
 /// unique.
 ///
 /// With clones as labels it measures how contiguous clones are. 1 if there is no such cell.
-pub fn contiguity(voronoi: &Voronoi, labels_of: &[u32]) -> f64 {
+pub(crate) fn contiguity(voronoi: &Voronoi, labels_of: &[u32]) -> f64 {
     let most = labels_of.iter().max().map_or(0, |&label| label as usize);
     let mut members = vec![0_u32; most + 1];
     for &label in labels_of {
@@ -178,18 +182,8 @@ pub fn contiguity(voronoi: &Voronoi, labels_of: &[u32]) -> f64 {
     }
 }
 
-/// Points uniform over a surface at which patterns are compared; the same for the same seed.
-pub fn probes(surface: &Surface, count: u64, seed: u64) -> Vec<SurfacePoint> {
-    (0..count)
-        .map(|probe| {
-            let draw = |k| random::uniform(seed, Use::PatternProbe, 3 * probe + k);
-            surface.sample([draw(0), draw(1), draw(2)])
-        })
-        .collect()
-}
-
 /// The labels of the cells nearest to points; 0 where there is no cell.
-pub fn labels_at(
+pub(crate) fn labels_at(
     surface: &Surface,
     voronoi: &Voronoi,
     labels_of: &[u32],
@@ -212,7 +206,7 @@ pub fn labels_at(
 /// # Panics
 ///
 /// If the patterns have different numbers of points.
-pub fn kappa(first: &[u32], second: &[u32]) -> f64 {
+pub(crate) fn kappa(first: &[u32], second: &[u32]) -> f64 {
     assert_eq!(
         first.len(),
         second.len(),
@@ -243,7 +237,7 @@ pub fn kappa(first: &[u32], second: &[u32]) -> f64 {
 
 /// Share of the points with `label` in the older pattern that still have it in the newer. 1 if
 /// there is none.
-pub fn contained(older: &[u32], newer: &[u32], label: u32) -> f64 {
+pub(crate) fn contained(older: &[u32], newer: &[u32], label: u32) -> f64 {
     let (mut kept, mut all) = (0_u64, 0_u64);
     for (&old, &new) in older.iter().zip(newer) {
         if old == label {

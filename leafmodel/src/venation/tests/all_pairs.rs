@@ -8,14 +8,14 @@
 
 use glam::DVec2;
 
-use super::Grown;
-use super::auxin::Darts;
-use super::bipolar::axis_of;
-use super::lamina::Lamina;
-use super::lamina_clock::LaminaClock;
-use super::network::Ending;
-use super::plan::{AuxinPlan, Growth, Pattern};
-use super::simulation::{NO_DIRECTION, PATIENCE, TURNING, turned};
+use crate::venation::Grown;
+use crate::venation::auxin::Darts;
+use crate::venation::bipolar::axis_of;
+use crate::venation::lamina::Lamina;
+use crate::venation::lamina_clock::LaminaClock;
+use crate::venation::network::Ending;
+use crate::venation::plan::{AuxinPlan, Growth, Pattern};
+use crate::venation::simulation::{NO_DIRECTION, PATIENCE, TURNING, turned};
 
 mod rounds;
 mod surroundings;
@@ -61,7 +61,7 @@ struct Oracle<'a> {
     young: Vec<Grown>,
 }
 
-/// The result of [`super::simulate`], by the slow method.
+/// The result of [`crate::venation::simulate`], by the slow method.
 pub(crate) fn simulate(
     plan: &AuxinPlan,
     lamina: Lamina,

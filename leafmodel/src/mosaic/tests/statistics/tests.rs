@@ -85,7 +85,8 @@ fn noise_is_unstructured() {
 #[test]
 fn patches_that_a_noise_of_greater_scale_shows_do_not_hold_the_old_ones() {
     let ball = surface(sphere(20.0, 1.5).expect("good sizes"));
-    let places: Vec<_> = probes(&ball, 4000, 1)
+    let places: Vec<_> = ball
+        .probes(4000, 1)
         .iter()
         .map(|point| ball.position(point))
         .collect();
