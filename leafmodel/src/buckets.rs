@@ -84,8 +84,12 @@ impl<T> Default for Buckets<T> {
 }
 
 impl Buckets {
-    /// The numbers of the edges at each of `count` nodes, at either end, ascending.
-    pub(crate) fn around(count: usize, edges: impl Iterator<Item = [u32; 2]> + Clone) -> Self {
+    /// The numbers of the edges, or faces, at each of `count` nodes, ascending; `edges` gives the nodes of
+    /// each.
+    pub(crate) fn around<const N: usize>(
+        count: usize,
+        edges: impl Iterator<Item = [u32; N]> + Clone,
+    ) -> Self {
         let ends = (0..)
             .zip(edges)
             .flat_map(|(edge, ends)| ends.map(|end| (end as usize, edge)));

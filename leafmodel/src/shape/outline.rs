@@ -6,7 +6,7 @@
 //!   touches another; the enclosed area is positive; both ends of the midrib lie on the blade.
 //!
 //! Away from the margin, queries are answered by the coarse cells of `shape::interior_grid`; near
-//! it, by the horizontal slabs of `shape::slabs`. The cost depends on the few edges at the same
+//! it, by the horizontal slabs of `plane::slabs`. The cost depends on the few edges at the same
 //! height, not on the whole margin.
 
 use glam::DVec2;

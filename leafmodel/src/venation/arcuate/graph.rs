@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::ArcuateVeins;
 use super::layout::Vein;
+use crate::buckets::Buckets;
 use crate::numeric::bisect;
 use crate::plane::bounds;
 use crate::plane::segment::crossing;
@@ -239,15 +240,13 @@ impl Graph<'_> {
 
     /// For each node whether it leads to this one; a node leads to itself.
     fn above(&self, node: u32) -> Vec<bool> {
-        let mut leading: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
-        for edge in &self.edges {
-            leading[edge.to as usize].push(edge.from);
-        }
+        let leading = self.edges.iter().map(|edge| (edge.to as usize, edge.from));
+        let leading = Buckets::new(self.nodes.len(), leading);
         let mut above = vec![false; self.nodes.len()];
         let mut open = vec![node];
         while let Some(node) = open.pop() {
             if !std::mem::replace(&mut above[node as usize], true) {
-                open.extend(&leading[node as usize]);
+                open.extend(leading.list(node as usize));
             }
         }
         above
