@@ -46,7 +46,7 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 use thiserror::Error;
 
-pub use batches::BATCH;
+pub use batches::{BATCH, LEAST_LUMINANCE};
 pub use block::{BLOCK_SIDE, Block, PixelSums};
 pub use features::{FEATURE_SAMPLES, Sum};
 pub use fixed::MOST as MOST_RADIANCE;
