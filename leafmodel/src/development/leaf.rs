@@ -65,16 +65,6 @@ impl DevelopmentPlan {
 }
 
 impl DevelopedLeaf {
-    /// What it was grown from.
-    pub fn plan(&self) -> &DevelopmentPlan {
-        &self.plan
-    }
-
-    /// The seed of its irregularity.
-    pub fn seed(&self) -> u64 {
-        self.seed
-    }
-
     /// Steps done.
     pub fn step(&self) -> u32 {
         self.grown.step

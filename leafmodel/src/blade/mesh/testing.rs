@@ -2,8 +2,13 @@
 
 use thiserror::Error;
 
-use super::*;
+use super::{BladeError, BladeMesh, Displacement};
+use crate::blade::BladeForm;
+use crate::blade::frame::UvFrame;
+use crate::blade::stance::Posture;
+use crate::shape::outline::Outline;
 use crate::venation::conformal_map::ConformalMap;
+use crate::venation::network::VeinSegment;
 
 /// What is wrong with a mesh. Meshes from [`BladeMesh::build`] have no defects.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]

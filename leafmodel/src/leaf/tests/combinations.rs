@@ -1,7 +1,7 @@
 //! Any outline with any venation.
 
+use super::super::*;
 use crate::blade::tissue::Tissue;
-use crate::leaf::*;
 use crate::shape::cubic_margin::CubicMargin;
 use crate::shape::svg_path::SvgContour;
 use crate::species::find;
