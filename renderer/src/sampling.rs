@@ -17,6 +17,7 @@
 //! ```
 
 pub mod beta;
+pub mod dimensions;
 pub mod distribution;
 pub mod stream;
 pub mod warp;

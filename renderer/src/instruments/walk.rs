@@ -16,14 +16,12 @@ use crate::integrator::facet::{Facet, Surroundings};
 use crate::integrator::leaf_walk::{LeafWalk, Leaving};
 use crate::material::Material;
 use crate::material::leaf::Inside;
+use crate::sampling::dimensions::instrument as sets;
 use crate::sampling::stream::Stream;
 use crate::spectrum::{Lanes, Wavelengths};
 
 /// Weight, in the lane where it is greatest, below which Russian roulette is applied.
 const ROULETTE_BELOW: f32 = 0.02;
-
-/// First set of random numbers that the way of the light does not use.
-const ASIDE: u32 = 1 << 24;
 
 /// One scattering event.
 pub(super) struct Event {
@@ -189,13 +187,12 @@ impl<'m, C: Course> Walk<'m, C> {
         }
     }
 
-    /// Follows light of a weight that starts at a surface, with random numbers from a set on that is
-    /// not the first.
+    /// Follows light of a weight that starts at a surface. The first set of the stream is the
+    /// caller's.
     pub(super) fn follow_on(
         &self,
         (ray, passage): (Ray, Passage),
         weight: Lanes<LANES>,
-        first_set: u32,
         stream: &mut Stream,
         witness: &mut impl Witness<'m>,
     ) {
@@ -206,7 +203,7 @@ impl<'m, C: Course> Walk<'m, C> {
             is_specular: false,
             passage,
         });
-        let mut event = first_set;
+        let mut event = 0;
         while let Some(mut leg) = next {
             let Some(met) = self.meet(&mut leg, stream, witness) else {
                 break;
@@ -283,7 +280,7 @@ impl<'m, C: Course> Walk<'m, C> {
             weight,
             passage: arriving.passage,
         });
-        stream.seek(1 + event);
+        stream.seek(sets::EVENT.of(event));
         let numbers = stream.next4();
         let [.., roulette] = numbers;
         let around = Staged(self.stage, self.course);
@@ -308,7 +305,7 @@ impl<'m, C: Course> Walk<'m, C> {
             let view = encounter.bsdf.seen_from(encounter.wo);
             if let Some(view) = &view {
                 let mut aside = stream.clone();
-                aside.seek(ASIDE + event);
+                aside.seek(sets::DETECTOR.of(event));
                 witness.scattering(&Scattering {
                     encounter,
                     view,

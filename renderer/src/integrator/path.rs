@@ -25,18 +25,10 @@ use crate::integrator::effort::Effort;
 use crate::integrator::encounter::Encounter;
 use crate::light::Receiver;
 use crate::light::selection::LightSelection;
+use crate::sampling::dimensions::picture as sets;
 use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
-
-/// Number of sets of four random numbers before those of the vertices: one for the places on film
-/// and lens, one for the wavelengths (without a lens the first set holds both), and one for suns.
-pub const CAMERA_SETS: u32 = 3;
-/// The set for suns at the first vertex, if paths may branch there.
-const FIRST_SUNS: u32 = 2;
-/// Number of sets of four random numbers that a vertex owns, used or not: one for the bounce, one
-/// for the chosen light.
-const VERTEX_SETS: u32 = 2;
 
 /// Adds to `result` what a path through a random place in a pixel finds; `stream` gives the random
 /// numbers. Returns its wavelengths.
@@ -48,8 +40,10 @@ pub fn of_pixel<const N: usize>(
     result: &mut PathResult<N>,
 ) -> Wavelengths<N> {
     // Place and lens are stratified together, since blur is in both; without a lens one set does.
+    stream.seek(sets::PLACE.of(0));
     let [film_x, film_y, third, lens_y] = stream.next4();
     let wavelength = if world.camera.has_lens() {
+        stream.seek(sets::WAVELENGTHS.of(0));
         stream.next4()[0]
     } else {
         third
@@ -97,7 +91,7 @@ pub fn trace<const N: usize>(
         world,
         effort,
         wavelengths,
-        excitation_sets: None,
+        excites: false,
     };
     let passage = Passage::of_camera(world);
     paths.follow(&mut from_camera, passage, 0, stream, result);
@@ -118,9 +112,8 @@ pub(super) struct Paths<'a, const N: usize> {
     pub(super) world: &'a World,
     pub(super) effort: Effort,
     pub(super) wavelengths: &'a Wavelengths<N>,
-    /// Of a path that excites fluorescence, whose wavelengths are not of the film, the first of its
-    /// sets of random numbers.
-    pub(super) excitation_sets: Option<u32>,
+    /// Whether the path excites fluorescence; then its wavelengths are not of the film.
+    pub(super) excites: bool,
 }
 
 impl<const N: usize> Paths<'_, N> {
@@ -294,7 +287,7 @@ impl<const N: usize> Paths<'_, N> {
         stream: &mut Stream,
         (leg, result): (&mut Leg<N>, &mut PathResult<N>),
     ) -> bool {
-        let set = self.set_of(depth);
+        let set = sets::VERTEX.of(depth);
         stream.seek(set);
         let numbers = stream.next4();
         // Without what a leaf emits: whether a path branches depends on lamps alone.
@@ -306,7 +299,7 @@ impl<const N: usize> Paths<'_, N> {
                 // bounce, those of a lit vertex would be a choice among all, and the mean wrong in
                 // penumbras.
                 let mut first = stream.clone();
-                first.seek(self.excitation_sets.unwrap_or(0) + FIRST_SUNS);
+                first.seek(sets::FIRST_SUNS.of(0));
                 [x, y, ..] = first.next4();
             }
             let (light, rays) = sampled_light(self.world, vertex, self.wavelengths, [x, y], stream);
@@ -342,18 +335,12 @@ impl<const N: usize> Paths<'_, N> {
     /// How much of a throughput counts: as the film sees it, or of light that excites, the brightest
     /// lane.
     fn brightness(&self, throughput: &Lanes<N>) -> f32 {
-        match self.excitation_sets {
-            None => self
-                .world
-                .wavelengths
-                .brightness(self.wavelengths, throughput),
-            Some(_) => throughput.max_lane(),
+        if self.excites {
+            throughput.max_lane()
+        } else {
+            let sampler = &self.world.wavelengths;
+            sampler.brightness(self.wavelengths, throughput)
         }
-    }
-
-    /// The first set of random numbers of a vertex.
-    fn set_of(&self, depth: u32) -> u32 {
-        self.excitation_sets.unwrap_or(0) + CAMERA_SETS + depth * VERTEX_SETS
     }
 
     /// Number of lights that are chosen and sampled at a vertex.

@@ -8,11 +8,9 @@ use super::{Ahead, Course, Event, Leg, ROULETTE_BELOW, Walk, Witness};
 use crate::geometry::Ray;
 use crate::integrator::facet::{Facet, Surroundings};
 use crate::medium::{BodyPlace, Coefficients, Inside};
+use crate::sampling::dimensions::instrument as sets;
 use crate::sampling::stream::Stream;
 use crate::spectrum::Lanes;
-
-/// Number of the set of random numbers of the first flight; each has two.
-const FLIGHT_SETS: u32 = 1 << 24;
 
 /// Where light is.
 #[derive(Clone, Copy)]
@@ -85,7 +83,7 @@ impl<'m, C: Course> Walk<'m, C> {
         let (mut moved, mut from) = (0.0, 0.0);
         while leg.passage.flights < stage.world.integrator.max_events {
             let around = self.around(&leg.passage);
-            stream.seek(FLIGHT_SETS + 2 * leg.passage.flights);
+            stream.seek(sets::FLIGHT.of(leg.passage.flights));
             leg.passage.flights += 1;
             let [choice, distance, x, y] = stream.next4();
             let reach = around.map_or(f32::INFINITY, |(_, medium)| {

@@ -8,12 +8,10 @@ use super::drops::Drops;
 use super::{FirstHit, Leg, PathResult, Paths};
 use crate::geometry::{Hit, Ray};
 use crate::medium::{Inside, Phase};
+use crate::sampling::dimensions::picture as sets;
 use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
-
-/// Number of the set of random numbers of a path's first flight; vertices have those below.
-const FLIGHT_SETS: u32 = 1 << 24;
 
 /// Where a path is.
 #[derive(Clone, Copy, Default)]
@@ -90,7 +88,7 @@ impl<const N: usize> Paths<'_, N> {
             };
             let mut end = f32::INFINITY;
             if let Some((medium, ..)) = &medium {
-                stream.seek(FLIGHT_SETS + passage.flights);
+                stream.seek(sets::FLIGHT.of(passage.flights));
                 passage.flights += 1;
                 let [choice, distance, ..] = stream.next4();
                 end = from + medium.reach(&leg.throughput, [choice, distance]);

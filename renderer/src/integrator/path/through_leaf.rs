@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::lamps::sampled_light;
 use super::media::Passage;
 use super::scatterer::Scatterer;
-use super::{Bounce, Cone, Leg, PathResult, Paths, Receiver, VERTEX_SETS, Vertex};
+use super::{Bounce, Cone, Leg, PathResult, Paths, Receiver, Vertex};
 use crate::bsdf::View;
 use crate::geometry::Hit;
 use crate::geometry::frame::Frame;
@@ -13,16 +13,9 @@ use crate::geometry::surface::SurfacePoint;
 use crate::integrator::facet::Facet;
 use crate::integrator::leaf_walk::LeafWalk;
 use crate::material::leaf::Inside;
+use crate::sampling::dimensions::{FACES, picture as sets};
 use crate::sampling::stream::Stream;
 use crate::spectrum::Lanes;
-
-/// Sets of random numbers for lights at the faces that light meets from inside, behind those of all
-/// vertices.
-const FACE_SETS: u32 = 0x4000_0000;
-/// The same on paths that excite fluorescence.
-const EXCITED_FACE_SETS: u32 = 0x8000_0000;
-/// Faces of one walk that have such sets; lights at later ones are sampled by the same numbers.
-const FACES: u32 = 64;
 
 /// Where a path meets the leaf.
 pub(super) struct Entry<'a, const N: usize> {
@@ -48,7 +41,7 @@ impl<const N: usize> Paths<'_, N> {
     ) -> Option<Leg<N>> {
         let (throughput, width) = entry.leg;
         let world = self.world;
-        stream.seek(self.set_of(entry.depth));
+        stream.seek(sets::VERTEX.of(entry.depth));
         let numbers = stream.next4();
         let light_samples = self.light_samples(entry.depth);
         let mut walk = LeafWalk::new(
@@ -134,12 +127,8 @@ impl<const N: usize> Paths<'_, N> {
                 }
             }
             result.rays += 1;
-            let place = entry.depth.saturating_mul(FACES) + face.min(FACES - 1);
-            let first = match self.excitation_sets {
-                None => FACE_SETS,
-                Some(_) => EXCITED_FACE_SETS,
-            };
-            stream.seek(first.wrapping_add(place.wrapping_mul(VERTEX_SETS)));
+            let place = entry.depth * FACES + face.min(FACES - 1);
+            stream.seek(sets::FACE.of(place));
             [_, x, y, _] = stream.next4();
         }
         None
