@@ -58,6 +58,7 @@ mod constituents;
 mod depth;
 mod detector;
 mod fluorescence;
+mod flux;
 mod gonio;
 mod lamp;
 mod ledger;
@@ -67,7 +68,6 @@ mod spectral;
 mod sphere;
 mod spot;
 mod stage;
-mod walk;
 
 use thiserror::Error;
 

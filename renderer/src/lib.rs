@@ -93,3 +93,4 @@ pub mod spectrum;
 pub mod sweep;
 #[cfg(test)]
 mod testing;
+pub mod walk;

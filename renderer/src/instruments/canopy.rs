@@ -9,13 +9,13 @@ use glam::{DVec3, Vec2, Vec3};
 use super::batches::{Effort, Experiment, estimates};
 use super::detector::{self, Detectors, angles};
 use super::fluorescence::{self, Illumination, Manner};
+use super::flux::{Escaped, Event, Flux, Scattering, Witness};
 use super::lamp::{directions, towards};
 use super::ledger::{Ledger, REFLECTED, TRANSMITTED, UNCOLLIDED, add};
 use super::period::Period;
 use super::row::Direction;
 use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
-use super::walk::{Escaped, Event, Scattering, Walk, Witness};
 use super::{InstrumentError, LANES, Reading};
 use crate::geometry::Ray;
 use crate::geometry::frame::Frame;
@@ -61,7 +61,7 @@ impl Experiment for Lit<'_> {
     fn shoot(&self, stream: &mut Stream, sums: &mut [f64]) {
         let ray = self.ray(stream);
         sums[0] += 1.0;
-        let walk = Walk {
+        let flux = Flux {
             stage: self.stage,
             course: &self.period,
             wavelengths: &self.wavelengths,
@@ -72,7 +72,7 @@ impl Experiment for Lit<'_> {
             sums,
             is_untouched: true,
         };
-        walk.follow(ray, stream, &mut tally);
+        flux.of_lamp(ray, stream, &mut tally);
     }
 }
 

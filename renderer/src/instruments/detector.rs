@@ -13,9 +13,9 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, Vec2};
 
+use super::flux::{Course, Escaped, Scattering, Staged};
 use super::row::ViewAngles;
 use super::stage::Stage;
-use super::walk::{Course, Escaped, Scattering, Staged};
 use super::{InstrumentError, LANES};
 use crate::bsdf::Scattered;
 use crate::geometry::frame::Frame;

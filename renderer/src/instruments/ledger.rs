@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use super::LANES;
 use super::constituents;
+use super::flux::Event;
 use super::stage::Stage;
-use super::walk::Event;
 use crate::scene::description::{Canopy, Description};
 use crate::spectrum::Wavelengths;
 

@@ -5,13 +5,14 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
+use super::flux::{Course, Straight};
 use super::stage::Stage;
-use super::walk::{Ahead, Course, Straight};
 use super::{InstrumentError, LANES};
 use crate::geometry::{GeometryError, Ray, origin_near};
 use crate::scene::description::Description;
 use crate::scene::world::World;
 use crate::spectrum::Lanes;
+use crate::walk::Ahead;
 
 /// Most times that a ray passes the sides of the box from one surface to the next; then it is cut. In
 /// a box as high as wide these are rays within a thousandth of a degree of the horizon.

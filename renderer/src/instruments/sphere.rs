@@ -11,10 +11,10 @@ use super::batches::{Effort, Estimate, Experiment, estimates};
 use super::constituents::{self, PARTS};
 use super::detector::check_layers;
 use super::fluorescence::{self, Illumination, Manner};
+use super::flux::{Escaped, Event, Flux, Straight, Witness};
 use super::lamp::{Bench, FACES, Lamp};
 use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
-use super::walk::{Escaped, Event, Straight, Walk, Witness};
 use super::{InstrumentError, LANES, Reading};
 use crate::geometry::Ray;
 use crate::sampling::stream::Stream;
@@ -85,13 +85,13 @@ impl Experiment for Lit<'_> {
             is_lit: false,
             flux: [[0.0; LANES]; 2],
         };
-        let walk = Walk {
+        let flux = Flux {
             stage: self.stage,
             course: &Straight,
             wavelengths: &self.wavelengths,
             ways: WAYS,
         };
-        walk.follow(ray, stream, &mut gathered);
+        flux.of_lamp(ray, stream, &mut gathered);
         if !gathered.is_lit {
             return;
         }

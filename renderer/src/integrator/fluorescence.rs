@@ -8,32 +8,27 @@
 
 use leafmodel::optics::fluorescence::EXCITED_NM;
 
+use super::path::PathResult;
 use super::path::lamps::sampled_light;
-use super::path::media::Passage;
-use super::path::scatterer::Scatterer;
-use super::path::{Leg, PathResult, Paths, Vertex};
+use super::path::passage::Passage;
+use super::path::paths::{Leg, Paths};
+use super::path::vertex::Vertex;
 use crate::bsdf::View;
 use crate::bsdf::fluorescence::FluorescenceView;
 use crate::geometry::surface::SurfacePoint;
-use crate::integrator::encounter::Encounter;
 use crate::light::Receiver;
-use crate::material::Material;
 use crate::material::leaf::LeafMaterial;
 use crate::sampling::dimensions::excitation as sets;
 use crate::sampling::stream::Stream;
 use crate::spectrum::{Lanes, Wavelengths};
+use crate::walk::encounter::Encounter;
+use crate::walk::{Scatterer, Walk};
 
 /// Probability of a path of excitation at a leaf that the camera does not see directly. At the first
 /// leaf there always is one.
 const BEYOND_THE_FIRST: f32 = 0.25;
 
 impl<const N: usize> Paths<'_, N> {
-    /// The leaf that a material is, if that fluoresces on this path.
-    pub(super) fn fluorescing<'m>(&self, material: &'m Material) -> Option<&'m LeafMaterial> {
-        let may = self.world.fluoresces && !self.excites;
-        may.then(|| material.fluorescing()).flatten()
-    }
-
     /// What a leaf emits towards where a path comes from, at the path's wavelengths. The path was
     /// scattered `depth` times before.
     pub(super) fn emitted(
@@ -146,7 +141,7 @@ impl<const N: usize> Paths<'_, N> {
             throughput: Lanes::ONE,
             width: encounter.width,
             gathered: Lanes::ZERO,
-            inside: &passage.inside,
+            inside: &passage.around.inside,
             // A leaf is a sheet, no boundary of a body.
             boundary: None,
             cap: None,

@@ -3,19 +3,23 @@
 use glam::Vec3;
 
 use super::lamps::sampled_light;
-use super::media::Passage;
-use super::scatterer::Scatterer;
-use super::{Bounce, Cone, Leg, PathResult, Paths, Receiver, Vertex};
+use super::passage::Passage;
+use super::paths::{Bounce, Leg, Paths};
+use super::result::PathResult;
+use super::vertex::Vertex;
 use crate::bsdf::View;
 use crate::geometry::Hit;
 use crate::geometry::frame::Frame;
 use crate::geometry::surface::SurfacePoint;
-use crate::integrator::facet::Facet;
-use crate::integrator::leaf_walk::LeafWalk;
+use crate::light::Receiver;
 use crate::material::leaf::Inside;
 use crate::sampling::dimensions::{FACES, picture as sets};
 use crate::sampling::stream::Stream;
 use crate::spectrum::Lanes;
+use crate::walk::cone::Cone;
+use crate::walk::facet::Facet;
+use crate::walk::leaf_walk::LeafWalk;
+use crate::walk::{Scatterer, roulette};
 
 /// Where a path meets the leaf.
 pub(super) struct Entry<'a, const N: usize> {
@@ -78,7 +82,7 @@ impl<const N: usize> Paths<'_, N> {
                     throughput: throughput * walk.weight(),
                     width,
                     gathered: result.radiance,
-                    inside: &entry.passage.inside,
+                    inside: &entry.passage.around.inside,
                     boundary: None,
                     cap: None,
                 };
@@ -93,13 +97,8 @@ impl<const N: usize> Paths<'_, N> {
                     if brightness <= 0.0 {
                         return None;
                     }
-                    if brightness < self.effort.roulette_below {
-                        let survival = brightness / self.effort.roulette_below;
-                        if walk.number() >= survival {
-                            return None;
-                        }
-                        throughput *= 1.0 / survival;
-                    }
+                    let below = self.effort.roulette_below;
+                    throughput *= roulette(brightness, below, || walk.number())?;
                     let towards = facet.leaving(leaving.towards);
                     // Light of one facet may have been mirrored into the same direction.
                     let density = |own: f32| {
@@ -112,7 +111,7 @@ impl<const N: usize> Paths<'_, N> {
                         ray: facet.spawn(towards),
                         cone: Cone::scattered(width),
                         throughput,
-                        bounce: Bounce {
+                        origin: Bounce {
                             pdf: leaving.pdf.map_or(f32::INFINITY, density),
                             from: receiver,
                             light_samples,

@@ -2,13 +2,13 @@
 
 use glam::{Vec2, Vec3};
 
+use super::cone::{self, Cone};
+use super::facet::{self, Facet, Surroundings};
 use crate::bsdf::Bsdf;
 use crate::geometry::frame::Frame;
 use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
 use crate::geometry::{Geometry, Hit};
-use crate::integrator::cone::{self, Cone};
-use crate::integrator::facet::{self, Facet, Surroundings};
 use crate::material::Material;
 use crate::spectrum::Wavelengths;
 

@@ -2,46 +2,54 @@
 
 use glam::{Vec2, Vec3};
 
+use super::facet::{Facet, Surroundings};
 use crate::bsdf::{Scattered, View};
 use crate::geometry::Geometry;
 use crate::geometry::frame::Frame;
 use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
-use crate::integrator::facet::Facet;
 use crate::medium::Phase;
 use crate::spectrum::Lanes;
 
 /// What scatters a path.
-pub(in crate::integrator) enum Scatterer<'a, const N: usize> {
+#[derive(Debug)]
+pub(crate) enum Scatterer<'a, const N: usize, S = Geometry> {
     /// A surface.
     Surface {
-        facet: Facet<'a, Geometry>,
+        /// The place.
+        facet: Facet<'a, S>,
+        /// Its frame.
         frame: &'a Frame,
+        /// The BSDF as it is seen from where light comes.
         view: &'a View<'a, N>,
     },
     /// A medium, of the ray that came this way.
     Medium {
+        /// Where it is.
         position: Vec3,
+        /// Direction of the ray.
         way: Vec3,
+        /// Where light goes that is scattered.
         phase: Phase,
     },
 }
 
 /// A direction that was drawn.
-pub(super) struct Drawn<const N: usize> {
+#[derive(Debug)]
+pub(crate) struct Drawn<const N: usize> {
     /// Unit, world.
-    pub(super) wi_world: Vec3,
+    pub(crate) wi_world: Vec3,
     /// What light from there is multiplied by.
-    pub(super) weight: Lanes<N>,
+    pub(crate) weight: Lanes<N>,
     /// Density over solid angle, sr⁻¹; infinite if it is one of finitely many directions.
-    pub(super) pdf: f32,
+    pub(crate) pdf: f32,
 }
 
-impl<const N: usize> Scatterer<'_, N> {
+impl<const N: usize, S: Surroundings> Scatterer<'_, N, S> {
     /// What light from a direction is multiplied by, sr⁻¹, the cosine of a surface included, and the
     /// density with which the direction is drawn.
     #[inline]
-    pub(super) fn scatter(&self, wi_world: Vec3) -> Scattered<N> {
+    pub(crate) fn scatter(&self, wi_world: Vec3) -> Scattered<N> {
         match self {
             Self::Surface { facet, frame, view } => {
                 let (wi, Scattered { f, pdf }) = facet.scatter((frame, view), wi_world);
@@ -62,7 +70,7 @@ impl<const N: usize> Scatterer<'_, N> {
 
     /// Draws a direction; `lobe` chooses the lobe, `u` the direction in it.
     #[inline]
-    pub(super) fn sample(&self, lobe: f32, u: Vec2) -> Option<Drawn<N>> {
+    pub(crate) fn sample(&self, lobe: f32, u: Vec2) -> Option<Drawn<N>> {
         match self {
             Self::Surface { facet, frame, view } => {
                 let (wi_world, sample) = facet.sample((frame, view), lobe, u)?;
@@ -89,7 +97,7 @@ impl<const N: usize> Scatterer<'_, N> {
 
     /// The ray that leaves in a direction.
     #[inline]
-    pub(super) fn spawn(&self, direction: Vec3) -> Ray {
+    pub(crate) fn spawn(&self, direction: Vec3) -> Ray {
         match self {
             Self::Surface { facet, .. } => facet.spawn(direction),
             Self::Medium { position, .. } => Ray::new(*position, direction),
@@ -98,7 +106,7 @@ impl<const N: usize> Scatterer<'_, N> {
 
     /// The ray to a point that lies in a direction, as [`SurfacePoint::spawn_to`] gives it.
     #[inline]
-    pub(super) fn spawn_to(&self, direction: Vec3, target: Vec3) -> Ray {
+    pub(crate) fn spawn_to(&self, direction: Vec3, target: Vec3) -> Ray {
         match self {
             Self::Surface { facet, .. } => facet.spawn_to(direction, target),
             Self::Medium { position, .. } => SurfacePoint::shadow(*position, target),
