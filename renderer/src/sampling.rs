@@ -19,5 +19,6 @@
 pub mod beta;
 pub mod dimensions;
 pub mod distribution;
+pub(crate) mod mixer;
 pub mod stream;
 pub mod warp;

@@ -6,8 +6,9 @@
 use glam::{Vec2, Vec3};
 
 use crate::bsdf::dielectric::Dielectric;
+use crate::bsdf::fresnel;
 use crate::bsdf::ggx::Ggx;
-use crate::bsdf::{BsdfSample, Scattered, fresnel};
+use crate::bsdf::sample::{BsdfSample, Scattered};
 use crate::spectrum::Lanes;
 
 /// Facets that light meets before it is let go whatever their shadows say.

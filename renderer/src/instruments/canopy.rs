@@ -8,15 +8,15 @@ use glam::{DVec3, Vec2, Vec3};
 
 use super::batches::{Effort, Experiment, estimates};
 use super::detector::{self, Detectors, angles};
+use super::error::InstrumentError;
 use super::fluorescence::{self, Illumination, Manner};
-use super::flux::{Escaped, Event, Flux, Scattering, Witness};
+use super::flux::{Escaped, Event, Flux, LANES, Scattering, Witness};
 use super::lamp::{directions, towards};
 use super::ledger::{Ledger, REFLECTED, TRANSMITTED, UNCOLLIDED, add};
 use super::period::Period;
-use super::row::Direction;
+use super::row::{Direction, Reading};
 use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
-use super::{InstrumentError, LANES, Reading};
 use crate::geometry::Ray;
 use crate::geometry::frame::Frame;
 use crate::sampling::stream::Stream;

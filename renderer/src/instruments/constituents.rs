@@ -7,8 +7,7 @@
 
 use leafmodel::optics::{Constituent, Texel};
 
-use super::LANES;
-use super::flux::Event;
+use super::flux::{Event, LANES};
 use super::stage::Stage;
 use crate::material::Material;
 use crate::spectrum::{Lanes, Wavelengths};

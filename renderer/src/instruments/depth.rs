@@ -9,11 +9,11 @@ use leafmodel::optics::layers::{Face, Incidence, LayeredLeaf};
 use rayon::prelude::*;
 
 use super::batches::Estimate;
+use super::error::InstrumentError;
 use super::lamp::{FACES, directions};
-use super::row::Direction;
+use super::row::{Direction, Reading};
 use super::spectral::{Series, plain, rows};
 use super::stage::CutPaths;
-use super::{InstrumentError, Reading};
 use crate::material::Tissue;
 use crate::scene::description::{DepthProfile, Description, Instrument, Named};
 use crate::scene::world::World;

@@ -13,10 +13,10 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, Vec2};
 
-use super::flux::{Course, Escaped, Scattering, Staged};
+use super::error::InstrumentError;
+use super::flux::{Course, Escaped, LANES, Scattering, Staged};
 use super::row::ViewAngles;
 use super::stage::Stage;
-use super::{InstrumentError, LANES};
 use crate::bsdf::Scattered;
 use crate::geometry::frame::Frame;
 use crate::sampling::warp;

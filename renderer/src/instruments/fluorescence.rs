@@ -7,9 +7,8 @@
 
 use glam::{Vec2, Vec3};
 
-use super::LANES;
 use super::batches::{Effort, Experiment, estimates};
-use super::flux::{Course, Escaped, Event, Flux, Passage, Staged, Struck, Witness};
+use super::flux::{Course, Escaped, Event, Flux, LANES, Passage, Staged, Struck, Witness};
 use super::row::{Direction, Row};
 use super::stage::Stage;
 use crate::bsdf::fluorescence::{sent_out, taken_in};

@@ -2,7 +2,6 @@
 
 use glam::{Vec2, Vec3};
 
-use super::LANES;
 use super::stage::Stage;
 use crate::bsdf::View;
 use crate::geometry::{Geometry, Hit, Ray};
@@ -17,6 +16,9 @@ use crate::walk::encounter::Encounter;
 use crate::walk::facet::{Facet, Surroundings};
 use crate::walk::leaf_walk::{LeafWalk, Leaving};
 use crate::walk::{self, Ahead, Arrival, Boundary, Collision, Walk, roulette};
+
+/// Number of wavelengths that a path carries.
+pub(super) const LANES: usize = 8;
 
 /// Weight, in the lane where it is greatest, below which Russian roulette is applied.
 const ROULETTE_BELOW: f32 = 0.02;

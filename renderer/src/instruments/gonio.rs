@@ -8,12 +8,12 @@ use std::f64::consts::FRAC_1_PI;
 
 use super::batches::{Effort, Estimate, Experiment, estimates};
 use super::detector::{self, Detectors, angles};
-use super::flux::{Escaped, Event, Flux, Scattering, Straight, Witness};
+use super::error::InstrumentError;
+use super::flux::{Escaped, Event, Flux, LANES, Scattering, Straight, Witness};
 use super::lamp::{Bench, FACES, Lamp};
-use super::row::Direction;
+use super::row::{Direction, Reading};
 use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
-use super::{InstrumentError, LANES, Reading};
 use crate::sampling::stream::Stream;
 use crate::scene::description::{Description, Gonio, Instrument, Named};
 use crate::scene::world::World;

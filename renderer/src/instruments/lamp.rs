@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use super::InstrumentError;
+use super::error::InstrumentError;
 use super::row::Direction;
 use super::spot::{Port, axes_of, ports};
 use super::stage::Stage;

@@ -2,9 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::LANES;
 use super::constituents;
-use super::flux::Event;
+use super::flux::{Event, LANES};
 use super::stage::Stage;
 use crate::scene::description::{Canopy, Description};
 use crate::spectrum::Wavelengths;

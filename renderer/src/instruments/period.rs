@@ -5,9 +5,9 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use super::flux::{Course, Straight};
+use super::error::InstrumentError;
+use super::flux::{Course, LANES, Straight};
 use super::stage::Stage;
-use super::{InstrumentError, LANES};
 use crate::geometry::{GeometryError, Ray, origin_near};
 use crate::scene::description::Description;
 use crate::scene::world::World;

@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec2, DVec3, Vec2, Vec3};
 
-use super::InstrumentError;
+use super::error::InstrumentError;
 use super::stage::Stage;
 use crate::geometry::{Geometry, Ray};
 use crate::scene::description::{Object, Spot, SpotMiddle};
@@ -129,7 +129,7 @@ impl Probe {
                     probe.missing += 1.0;
                     continue;
                 };
-                let surface = geometry.surface(&ray, &hit);
+                let surface = geometry.surface(&hit);
                 let height = (surface.position - middle).dot(normal);
                 probe.highest = probe.highest.max(height);
                 probe.lowest = probe.lowest.min(height);
@@ -159,7 +159,7 @@ fn at_point(stage: &Stage<'_>, object: &Object, at: DVec2) -> Option<(Vec3, Vec3
     let height = (middle - to_world(0.0)).dot(along) + 2.0 * reach;
     let ray = Ray::new(to_world(0.0) + along * height, down);
     let hit = geometry.intersect(&ray)?;
-    let surface = geometry.surface(&ray, &hit);
+    let surface = geometry.surface(&hit);
     Some((surface.position, surface.geometric_normal))
 }
 

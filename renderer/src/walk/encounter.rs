@@ -54,7 +54,7 @@ impl<'m, const N: usize> Encounter<'m, N> {
         hit: &Hit,
         wavelengths: &Wavelengths<N>,
     ) -> Self {
-        let surface = geometry.surface(ray, hit);
+        let surface = geometry.surface(hit);
         let frame = surface.frame();
         let width = cone.width_at(hit.t);
         // What maps hold is asked for first and used last: it is on its way from memory meanwhile.

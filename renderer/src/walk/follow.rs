@@ -221,7 +221,7 @@ pub(crate) trait Walk<'w, const N: usize, F> {
             let body = objects[hit.instance as usize].body;
             let mut passed = body.filter(|body| body.is_matched);
             if passed.is_some() || (around.is_some() && Self::COUNTS_FLIGHTS) {
-                let surface = geometry.surface(&leg.ray, &hit);
+                let surface = geometry.surface(&hit);
                 let arrival = Arrival {
                     ray: &leg.ray,
                     around: around.map(|(place, ..)| place),

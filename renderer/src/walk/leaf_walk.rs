@@ -193,7 +193,7 @@ impl<'a, const N: usize> LeafWalk<'a, N> {
         let Some(hit) = found else {
             return (self.entry, self.frame);
         };
-        let surface = self.geometry.surface(&probe, &hit);
+        let surface = self.geometry.surface(&hit);
         (surface, surface.frame())
     }
 }

@@ -147,7 +147,7 @@ fn transmittance<const N: usize>(
         let Some(body) = body.filter(|body| body.is_matched && !left.is_zero()) else {
             return (Lanes::ZERO, rays);
         };
-        let surface = world.geometry.surface(&ray, &hit);
+        let surface = world.geometry.surface(&hit);
         let place = world.objects.body_place(hit.instance);
         let normal = surface.geometric_normal;
         inside.leave_boundary(place, body, normal, ray.direction());
