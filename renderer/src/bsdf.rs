@@ -96,10 +96,11 @@ impl<const N: usize> View<'_, N> {
     pub fn scatter(&self, wi: Vec3) -> Scattered<N> {
         match self {
             Self::Diffuse(surface) => surface.scatter(wi),
-            Self::Dielectric { wo, dielectric } => Scattered {
-                f: Lanes::splat(dielectric.eval(*wo, wi)),
-                pdf: dielectric.pdf(*wo, wi),
-            },
+            Self::Dielectric { wo, dielectric } => {
+                let (f, pdf) = dielectric.scatter(*wo, wi);
+                let f = Lanes::splat(f);
+                Scattered { f, pdf }
+            }
             Self::Leaf(leaf) => leaf.scatter(wi),
             Self::Relief(relief) => relief.scatter(wi),
             Self::Metallic(surface) => surface.scatter(wi),
@@ -113,14 +114,7 @@ impl<const N: usize> View<'_, N> {
     pub fn sample(&self, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
         match self {
             Self::Diffuse(surface) => surface.sample(u),
-            Self::Dielectric { wo, dielectric } => {
-                dielectric.sample(*wo, lobe, u).map(|sample| BsdfSample {
-                    wi: sample.wi,
-                    weight: Lanes::splat(sample.weight),
-                    pdf: sample.pdf,
-                    specular: sample.specular,
-                })
-            }
+            Self::Dielectric { wo, dielectric } => dielectric.sample(*wo, lobe, u),
             Self::Leaf(leaf) => leaf.sample(lobe, u),
             Self::Relief(relief) => relief.sample(lobe, u),
             Self::Metallic(surface) => surface.sample(lobe, u),

@@ -71,7 +71,7 @@ mod spot;
 mod stage;
 
 pub use self::batches::{Budget, Effort, FEWEST_RAYS, Target, Watch};
-pub use self::error::InstrumentError;
+pub use self::error::{InstrumentError, Problem};
 use self::flux::LANES;
 pub use self::period::MOST_TURNS;
 pub use self::row::{Direction, Reading, Row, ViewAngles};

@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_1_PI;
 
 use super::batches::{Effort, Estimate, Experiment, estimates};
 use super::detector::{self, Detectors, angles};
-use super::error::InstrumentError;
+use super::error::{InstrumentError, Problem};
 use super::flux::{Escaped, Event, Flux, LANES, Scattering, Straight, Witness};
 use super::lamp::{Bench, FACES, Lamp};
 use super::row::{Direction, Reading};
@@ -152,10 +152,10 @@ pub(super) fn read_out(
         .collect();
     let found = estimates(&lit, effort);
     if found.iter().any(|figures| figures[0].value.is_nan()) {
-        return Err(InstrumentError::NothingLit {
-            at: at.clone(),
+        return Err(Problem::NothingLit {
             object: scene.objects[gonio.sample.object].name.clone(),
-        });
+        }
+        .at(at));
     }
     let views = angles(&gonio.detector);
     let mut all = Vec::new();

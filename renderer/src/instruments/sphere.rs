@@ -10,7 +10,7 @@ use glam::Vec3;
 use super::batches::{Effort, Estimate, Experiment, estimates};
 use super::constituents::{self, PARTS};
 use super::detector::check_layers;
-use super::error::InstrumentError;
+use super::error::{InstrumentError, Problem};
 use super::fluorescence::{self, Illumination, Manner};
 use super::flux::{Escaped, Event, Flux, LANES, Straight, Witness};
 use super::lamp::{Bench, FACES, Lamp};
@@ -166,10 +166,10 @@ pub(super) fn read_out(
         .collect();
     let found = estimates(&lit, effort);
     if found.iter().any(|figures| figures[0].value.is_nan()) {
-        return Err(InstrumentError::NothingLit {
-            at: at.clone(),
+        return Err(Problem::NothingLit {
             object: scene.objects[sample.object].name.clone(),
-        });
+        }
+        .at(at));
     }
     let mut all = Vec::new();
     for (figures, lamp) in found.chunks(sets).zip(&lamps) {
