@@ -283,8 +283,10 @@ fn leaves_are_grown_behind_one_seam() {
         "solid",
         "tracing",
     ];
-    const SEAM: [&str; 11] = [
+    const SEAM: [&str; 13] = [
         "scene/plants",
+        "scene/expand/boughs",
+        "scene/expand/individuals",
         "scene/plant_cache",
         "scene/description",
         "scene/blocks/leaf",

@@ -104,6 +104,16 @@ fn lights_brighter_than_a_film_records_are_refused_by_name_and_others_are_record
     );
 }
 
+#[test]
+fn a_picture_too_dark_for_its_variance_says_so() {
+    let film = "[film.spectral]\nsize = [2, 2]\nspp = 32\nbands_nm = [485, 825]";
+    for (radiance, dark) in [("5e-6", true), ("2e-5", false)] {
+        let notes = picture_of(&sky(film, radiance), 1).notes();
+        let says = notes.iter().any(|note| note.contains("below 1e-5"));
+        assert_eq!((says, notes.len()), (dark, usize::from(dark)), "{notes:?}");
+    }
+}
+
 fn parsed(text: &str) -> renderer::scene::description::Description {
     let loaded = parse(text, "test.toml", Path::new("."), &[]);
     loaded
@@ -150,4 +160,10 @@ fn paths_that_a_limit_cuts_are_counted_with_a_bound_of_the_light_that_is_missing
                 cone_angle_deg = 20\nintensity_w_sr_nm = 1\n";
     let unbounded = picture_of(&(furnace("max_depth = 1") + spot), 3);
     assert!(unbounded.film.missing().is_infinite());
+    // A small bright lamp: what is cut could have met it, so the bound is no help.
+    let sun = "\n[lights.sun.distant]\ntowards = [0, 0, -1]\nangular_diameter_deg = 0.5\n\
+               irradiance_w_m2_nm = 1\n";
+    let notes = picture_of(&(furnace("max_depth = 1") + sun), 3).notes();
+    let says = notes.len() == 1 && notes[0].contains("how much light is missing is not known");
+    assert!(says, "{notes:?}");
 }

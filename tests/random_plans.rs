@@ -23,7 +23,7 @@ use glam::DVec3;
 use leafmodel::compound::WholeLeaf;
 use renderer::instruments::{Budget, FEWEST_RAYS, read_out, sets_of};
 use renderer::integrator::render::{Halt, Job, render_until};
-use renderer::scene::description::{Description, Mesh};
+use renderer::scene::description::{Description, Mesh, Shape};
 use renderer::scene::load::{parse, parse_for_instruments};
 use renderer::scene::world::{BuildOptions, World};
 use tempfile::TempDir;
@@ -103,14 +103,10 @@ fn check_memory(scene: &Description) -> Result<(), String> {
         let own = solid.value.plan.memory_bytes();
         bytes += own.map_err(|error| error.to_string())?;
     }
-    let squares = scene.meshes.iter().map(|mesh| {
-        if let Mesh::Terrain(terrain) = &mesh.value {
-            terrain.squares().iter().product()
-        } else if let Mesh::Masonry(wall) = &mesh.value {
-            wall.squares()
-        } else {
-            0.0
-        }
+    let squares = scene.meshes.iter().map(|mesh| match &mesh.value {
+        Shape::Mesh(Mesh::Terrain(terrain)) => terrain.squares().iter().product(),
+        Shape::Mesh(Mesh::Masonry(wall)) => wall.squares(),
+        Shape::Mesh(_) | Shape::Body(_) => 0.0,
     });
     if bytes > MOST_BYTES || squares.sum::<f64>() > MOST_SQUARES {
         return Err("more than the memory that is allowed".to_owned());

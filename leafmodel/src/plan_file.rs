@@ -77,6 +77,7 @@ use crate::document::values::integer_at;
 use crate::document::write::to_toml;
 use crate::document::written::{Extent, Written};
 use crate::leaf::LeafPlan;
+use crate::plant::PlantPlan;
 use crate::species;
 
 /// Where PROSPECT-D's table has figures, nm.
@@ -351,6 +352,13 @@ pub fn solid_to_toml<T>(
     let own = Keys::write(Extent::Changed, |keys| declare(solid, keys));
     let usual = Keys::write(Extent::Changed, |keys| declare(usual, keys));
     file_of("solids", name, own.without_defaults(&usual))
+}
+
+/// A file with one plant and all numbers of its plan, to tell plans apart.
+pub fn plant_to_toml(name: &str, plan: &PlantPlan) -> String {
+    let mut own = plan.clone();
+    let block = Keys::write(Extent::All, |keys| plant(&mut own, keys));
+    file_of("plants", name, block)
 }
 
 fn file_of(section: &str, name: &str, block: Written) -> String {

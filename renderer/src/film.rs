@@ -42,7 +42,7 @@ mod sums;
 mod tests;
 mod variance;
 
-pub use self::batches::{BATCH, Series};
+pub use self::batches::{BATCH, LEAST_LUMINANCE, Series};
 pub use self::block::{BLOCK_SIDE, Block, PixelSums};
 pub use self::features::{FEATURE_SAMPLES, Sum};
 pub use self::fixed::MOST as MOST_RADIANCE;

@@ -1,7 +1,8 @@
 //! From a scene file to the immutable scene that rays are traced in.
 //!
 //! - **In**: a TOML file with `format = 1` ([`load::load`]), and overrides from the command line.
-//! - **Out**: a [`description::Description`], which both the tracer and the exporters read.
+//! - **Out**: a [`description::Description`], which both the tracer and the exporters read. The blocks are read
+//!   as the file has them, then rigs and plants become shapes and places.
 //! - **Always true**: a scene is accepted as a whole or refused with a list of all its errors, each
 //!   at its place; no file outside the scene's folder is read.
 //!
@@ -41,13 +42,14 @@
 
 mod angle;
 pub mod assets;
+mod authored;
 mod blocks;
 pub mod description;
+mod expand;
 pub mod fingerprint;
 pub mod load;
 pub mod model;
 pub mod plant_cache;
 pub mod plants;
-mod rigs;
 mod tissue;
 pub mod world;

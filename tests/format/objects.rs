@@ -1,9 +1,8 @@
 //! What objects of valid scenes mean: their places, and the parts of plants.
 
 use glam::DVec3;
-use renderer::scene::description::{Mesh, ObjectShape};
+use renderer::scene::description::{ObjectShape, Shape};
 
-use super::accepted::assert_near;
 use super::{accept, text_of};
 
 #[test]
@@ -41,25 +40,10 @@ fn a_spreadsheet_may_put_quotes_around_its_fields() {
 fn a_plant_is_an_object_with_its_leaves_and_axes_as_instances() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
     let shoot = &scene.objects[10].value;
-    let plan = &scene.plants[0].value.plan;
-    assert_eq!((plan.seed, plan.individuals, plan.axis.nodes), (3, 2, 5));
-    assert_eq!(
-        (plan.axis.phyllotaxis.per_node, plan.posture.cluster),
-        (2, 3)
-    );
-    assert_near(
-        plan.axis.phyllotaxis.divergence,
-        100.0 * std::f64::consts::PI / 180.0,
-    );
-    let branching = plan.branching.expect("it has branches");
-    assert_eq!((branching.order, branching.share), (2, 0.8));
-    let buds = plan.buds.expect("it has buds");
-    assert_near(buds.length_mm, 3.0);
-    assert_near(plan.posture.light.y, 0.5_f64.sqrt());
     // The axes of paper, then two individuals of both leaves.
     assert!(matches!(
         shoot.shapes[0],
-        ObjectShape::Mesh { mesh, material: 0 } if matches!(scene.meshes[mesh].value, Mesh::Axes(_))
+        ObjectShape::Mesh { mesh, material: 0 } if matches!(scene.meshes[mesh].value, Shape::Body(_))
     ));
     assert_eq!(shoot.shapes.len(), 5);
     let names: Vec<&str> = scene.leaves.iter().map(|leaf| leaf.name.as_str()).collect();

@@ -9,7 +9,7 @@ use crate::cli::signals::Signals;
 use crate::cli::{Failure, load_scene, needs, note, say, warn};
 use crate::geometry;
 use crate::scene::assets;
-use crate::scene::description::{Description, Held, Mesh, Named, Reflectance};
+use crate::scene::description::{Description, Held, Mesh, Named, Reflectance, Shape};
 use crate::scene::load;
 use crate::scene::world::{World, on_mesh};
 
@@ -78,18 +78,18 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
 fn read_files(description: &Description) -> Result<(), Failure> {
     for (number, mesh) in description.meshes.iter().enumerate() {
         let name = &mesh.name;
-        if let Mesh::Gltf {
+        if let Shape::Mesh(Mesh::Gltf {
             file,
             beside,
             scale,
-        } = &mesh.value
+        }) = &mesh.value
         {
             let told = |error| Failure::bad(format!("meshes.{name}: {error}"));
             let wanted = description.wanted_of(number);
             let model = assets::model(file, beside, *scale, wanted).map_err(told)?;
             note(on_mesh(name, &model.mesh, &model.left_out));
         }
-        let Mesh::File { file, scale } = &mesh.value else {
+        let Shape::Mesh(Mesh::File { file, scale }) = &mesh.value else {
             continue;
         };
         let bytes = assets::read(file).map_err(Failure::bad)?;
@@ -128,15 +128,12 @@ fn tell_world(
     let world = World::build_with(description, &patience.options()).map_err(Failure::bad)?;
     drop(patience);
     note(world.notes);
-    for Named { name, value } in &description.plants {
-        if let Some([crossing, leaves]) = value.crossing
-            && crossing > 0
-        {
-            eprintln!(
-                "note: plants.{name}: {crossing} of {leaves} leaves cut another one or an axis; a greater `evasions` \
-                 lets them try more turns"
-            );
-        }
+    for Named { name, value } in &description.crossing {
+        let [crossing, leaves] = value;
+        eprintln!(
+            "note: plants.{name}: {crossing} of {leaves} leaves cut another one or an axis; a greater `evasions` \
+             lets them try more turns"
+        );
     }
     let (low, high) = world.geometry.bounds();
     let size = high - low;

@@ -9,7 +9,7 @@ use crate::image::claimed;
 use crate::integrator::layers::Layout;
 use crate::scene::assets;
 use crate::scene::description::{
-    Description, Drop, Held, Lump, Mesh, Object, ObjectShape, Reflectance, StrewnOn,
+    Description, Drop, Held, Lump, Mesh, Object, ObjectShape, Reflectance, Shape, StrewnOn,
 };
 use crate::scene::world::memory::{OF_A_TRIANGLE, OF_AN_INSTANCE};
 use crate::spectrum::WavelengthSampler;
@@ -54,37 +54,30 @@ pub(super) fn check_geometry(
 /// Memory of what a scene builds and grows, bytes, with what it is for.
 fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure> {
     let mut pictures = of_pictures(scene);
-    let meshes = scene
-        .meshes
-        .iter()
-        .enumerate()
-        .map(|(number, mesh)| match mesh.value {
+    let meshes = scene.meshes.iter().enumerate();
+    let meshes = meshes.map(|(number, named)| match &named.value {
+        Shape::Body(body) => body.triangles.len() as f64 * OF_A_TRIANGLE,
+        Shape::Mesh(
             Mesh::Sphere { segments, .. }
             | Mesh::Drop(Drop { segments, .. })
-            | Mesh::Lump(Lump { segments, .. }) => {
-                f64::from(segments) * f64::from(segments) * OF_A_TRIANGLE
-            }
-            Mesh::Terrain(ref terrain) => {
-                let [across, along] = terrain.squares();
-                2.0 * across * along * OF_A_TRIANGLE
-            }
-            Mesh::Masonry(ref wall) => 2.0 * wall.squares() * OF_A_TRIANGLE,
-            Mesh::Disc { segments, .. } => f64::from(segments) * OF_A_TRIANGLE,
-            Mesh::Axes(ref axes) => axes.triangles.len() as f64 * OF_A_TRIANGLE,
-            Mesh::Gltf {
-                ref file,
-                ref beside,
-                ..
-            } => {
-                // Reading reports what is wrong with it.
-                let claims = assets::claims_of_model(file, beside, scene.wanted_of(number));
-                claims.map_or(0.0, |claims| {
-                    pictures += claims.pictures;
-                    claims.triangles as f64 * OF_A_TRIANGLE
-                })
-            }
-            Mesh::Rectangle { .. } | Mesh::Box { .. } | Mesh::File { .. } => 0.0,
-        });
+            | Mesh::Lump(Lump { segments, .. }),
+        ) => f64::from(*segments) * f64::from(*segments) * OF_A_TRIANGLE,
+        Shape::Mesh(Mesh::Terrain(terrain)) => {
+            let [across, along] = terrain.squares();
+            2.0 * across * along * OF_A_TRIANGLE
+        }
+        Shape::Mesh(Mesh::Masonry(wall)) => 2.0 * wall.squares() * OF_A_TRIANGLE,
+        Shape::Mesh(Mesh::Disc { segments, .. }) => f64::from(*segments) * OF_A_TRIANGLE,
+        Shape::Mesh(Mesh::Gltf { file, beside, .. }) => {
+            // Reading reports what is wrong with it.
+            let claims = assets::claims_of_model(file, beside, scene.wanted_of(number));
+            claims.map_or(0.0, |claims| {
+                pictures += claims.pictures;
+                claims.triangles as f64 * OF_A_TRIANGLE
+            })
+        }
+        Shape::Mesh(Mesh::Rectangle { .. } | Mesh::Box { .. } | Mesh::File { .. }) => 0.0,
+    });
     let meshes: f64 = meshes.fold(0.0, |sum, bytes| sum + bytes);
     let places = scene.objects.iter().map(|object| {
         let own = object.value.instances.as_ref().map_or(1, Vec::len);
@@ -152,7 +145,10 @@ fn leaves_afloat(scene: &Description, object: &Object, volume: &Volume) -> f64 {
     let Some(ObjectShape::Mesh { mesh, .. }) = object.shapes.first() else {
         return 0.0;
     };
-    match scene.meshes[*mesh].value {
+    let Shape::Mesh(mesh) = &scene.meshes[*mesh].value else {
+        return 0.0;
+    };
+    match mesh {
         Mesh::Disc { radius, .. } => volume.lai * ground / (std::f64::consts::PI * radius * radius),
         Mesh::Rectangle { width, height } => volume.lai * ground / (width * height),
         Mesh::Sphere { .. }
@@ -162,8 +158,7 @@ fn leaves_afloat(scene: &Description, object: &Object, volume: &Volume) -> f64 {
         | Mesh::Terrain(_)
         | Mesh::Masonry(_)
         | Mesh::File { .. }
-        | Mesh::Gltf { .. }
-        | Mesh::Axes(_) => 0.0,
+        | Mesh::Gltf { .. } => 0.0,
     }
 }
 
@@ -177,7 +172,10 @@ fn area(scene: &Description, strewn: &StrewnOn) -> f64 {
     let (Some(ObjectShape::Mesh { mesh, .. }), None) = (on.shapes.first(), &on.instances) else {
         return 0.0;
     };
-    let size = match &scene.meshes[*mesh].value {
+    let Shape::Mesh(mesh) = &scene.meshes[*mesh].value else {
+        return 0.0;
+    };
+    let size = match mesh {
         Mesh::Rectangle { width, height } => width * height,
         Mesh::Terrain(terrain) => terrain.size[0] * terrain.size[1],
         Mesh::Sphere { .. }
@@ -187,10 +185,7 @@ fn area(scene: &Description, strewn: &StrewnOn) -> f64 {
         | Mesh::Lump(_)
         | Mesh::Masonry(_)
         | Mesh::File { .. }
-        | Mesh::Gltf { .. }
-        | Mesh::Axes(_) => {
-            return 0.0;
-        }
+        | Mesh::Gltf { .. } => return 0.0,
     };
     let [x, y] = [on.to_world.x_axis, on.to_world.y_axis].map(glam::DVec4::truncate);
     size * x.cross(y).length()

@@ -26,6 +26,9 @@ const ONE: f64 = 4_294_967_296.0;
 const MOST: f64 = (1_i64 << 50) as f64;
 /// Fraction bits of the sum of squares of means.
 const SQUARE_BITS: i32 = 44;
+/// Luminance below which the variance of a pixel is not known: the square of a mean is then less than
+/// 2000 units, and what differs between batches of low noise is lost in their rounding.
+pub const LEAST_LUMINANCE: f64 = 1e-5;
 
 /// A sample's luminance in units of 2⁻³², rounded to the nearest and at most ±2¹⁸.
 #[inline]

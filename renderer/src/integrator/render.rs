@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 pub use self::begun::{Begun, Contact, Progress};
 use self::pass::PassOfPaths;
-use crate::film::{Film, FilmError, MOST_RADIANCE};
+use crate::film::{Film, FilmError, LEAST_LUMINANCE, MOST_RADIANCE};
 use crate::integrator::effort::Effort;
 use crate::integrator::features;
 pub use crate::integrator::job::Job;
@@ -251,6 +251,14 @@ impl Rendered {
                 "the variance of {} values is not known, because they are too bright; it is written \
                  as infinite",
                 film.overflowed()
+            ));
+        }
+        let pixels = film.map(|pixel| pixel.luminance().abs());
+        let mean = pixels.iter().sum::<f64>() / pixels.len() as f64;
+        if 0.0 < mean && mean < LEAST_LUMINANCE {
+            notes.push(format!(
+                "the mean of the picture ({mean:.2e}) is below {LEAST_LUMINANCE:.0e}: its variance and its \
+                 noise are not known; scale all lights up"
             ));
         }
         if film.rejected() > 0 {

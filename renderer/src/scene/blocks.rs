@@ -1,9 +1,9 @@
 //! The blocks of a scene file, each declared once: see [`leafmodel::document`].
 //!
 //! - **In**: the tree of a file, with overrides applied.
-//! - **Out**: a [`Description`] with names resolved and units in SI, or every error of the file;
+//! - **Out**: an [`Authored`] scene with names resolved and units in SI, or every error of the file;
 //!   the same declarations as a schema.
-//! - **Always true**: a description is returned only if there is no error; its numbers are finite
+//! - **Always true**: a scene is returned only if there is no error; its numbers are finite
 //!   and in range, indices are valid, files lie in the scene's folder.
 
 mod camera;
@@ -51,12 +51,11 @@ use leafmodel::document::value_kind::{FilePath, Flag, NamedFile, Text};
 use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 
 pub(crate) use self::solid::solid;
+use super::authored::{Authored, Light, Object, Plant};
 use super::description::{
-    Description, Instrument, InstrumentKind, Leaf, Light, Material, Medium, Mesh, Object, Picture,
-    Plant, Reflectance, Sample, Solid, Spectrum,
+    self, Instrument, InstrumentKind, Leaf, Material, Medium, Mesh, Picture, Reflectance, Sample,
+    Solid, Spectrum,
 };
-use super::plants::{boughs, individuals};
-use super::rigs;
 
 /// All keys at the top of a scene file.
 const SECTIONS: [&str; 16] = [
@@ -87,16 +86,15 @@ pub(crate) enum Purpose {
     Instruments,
 }
 
-/// Reads a whole file. Errors are left in the context; if there is none, the description is
-/// returned.
+/// Reads a whole file. Errors are left in the context; if there is none, the scene is returned.
 pub(crate) fn read(
     cx: &Context,
     tree: &Table,
     default_name: &str,
     text: String,
     purpose: Purpose,
-) -> Option<Description> {
-    let mut description = Description::empty(default_name, text);
+) -> Option<Authored> {
+    let mut authored = Authored::empty(default_name, text);
     let root = root(cx, tree);
     Keys::read(root, None, |keys| {
         if let Some(root) = keys.reader() {
@@ -106,9 +104,18 @@ pub(crate) fn read(
             });
             cx.sections.borrow_mut().extend(names);
         }
-        scene(&mut description, keys, purpose);
+        scene(&mut authored, keys, purpose);
     });
-    (cx.error_count() == 0).then_some(description)
+    (cx.error_count() == 0).then_some(authored)
+}
+
+/// Reports why a scene that was read cannot be expanded.
+pub(crate) fn refuse(cx: &Context, tree: &Table, path: &[String], problem: String, help: &str) {
+    Keys::read(root(cx, tree), None, |keys| {
+        let path: Vec<&str> = path.iter().map(String::as_str).collect();
+        keys.refuse(&path, problem, help);
+        keys.leave(&SECTIONS);
+    });
 }
 
 /// Reads only the leaves of a file, which may lack everything else. Errors are left in the context.
@@ -132,7 +139,7 @@ pub(crate) fn read_only_picture(cx: &Context, tree: &Table) -> Option<Picture> {
 
 /// The schema of a scene file.
 pub(crate) fn schema() -> BlockSchema {
-    let mut empty = Description::empty("", String::new());
+    let mut empty = Authored::empty("", String::new());
     Keys::describe(|keys| scene(&mut empty, keys, Purpose::Picture))
 }
 
@@ -145,7 +152,7 @@ fn root<'a>(cx: &'a Context, tree: &'a Table) -> Block<'a> {
 }
 
 /// The keys of a scene.
-fn scene(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
+fn scene(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
     plan_file::format(keys);
     let mut name = None;
     let about = "What the scene is called, and its pictures; left out, as the folder or file is.";
@@ -194,17 +201,11 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
     sections(scene, keys, purpose);
     if keys.reader().is_some() {
         references::check(scene, keys, purpose);
-        if keys.is_sound() {
-            instrument::incident::take_spectra(scene);
-            rigs::set_up(scene);
-            individuals::grow_apart(scene, keys);
-            boughs::place(scene, keys);
-        }
     }
 }
 
 /// The named blocks.
-fn sections(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
+fn sections(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
     let about = "What fills bodies.";
     section(
         keys,
@@ -256,7 +257,6 @@ fn sections(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
         perianth: [None; 2],
         potting: [None; 2],
         walls: Vec::new(),
-        crossing: None,
     };
     section(keys, "plants", &mut scene.plants, &new, about, plant::plant);
     if purpose == Purpose::Instruments
@@ -265,8 +265,10 @@ fn sections(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
         root.cx.range_nm.set(None);
     }
     let about = "Lights; there is one at least.";
-    let new = || Light::Constant {
-        radiance: Spectrum::Constant(0.0),
+    let new = || {
+        Light::Single(description::Light::Constant {
+            radiance: Spectrum::Constant(0.0),
+        })
     };
     section(keys, "lights", &mut scene.lights, &new, about, light::light);
     let about = "What stands in the scene; there is one at least.";

@@ -1,7 +1,8 @@
-//! A scene with names resolved to indices and units to SI: plain data, before anything is built.
+//! A scene as shapes and places, with names resolved to indices and units to SI: plain data, before
+//! anything is built.
 //!
 //! Both the tracer ([`super::world`]) and the exporters read this, so that both programs get the
-//! same input.
+//! same input. [`expand`](super::expand) makes it of what the file says.
 
 mod camera;
 mod instrument;
@@ -17,7 +18,6 @@ use std::sync::Arc;
 use leafmodel::blade::stalk::StalkMesh;
 pub use leafmodel::document::names::Named;
 use leafmodel::leaf::LeafPlan;
-use leafmodel::plant::PlantPlan;
 use leafmodel::solid::SolidPlan;
 
 use crate::scene::model::Wanted;
@@ -27,7 +27,7 @@ pub use self::instrument::{
     Amount, Canopy, DepthProfile, Detector, Estimator, ExcitationLight, FluorescenceReading, Gonio,
     Incidence, Incident, Index, Instrument, InstrumentKind, Response, Sample, Spot, SpotMiddle,
 };
-pub use self::light::{AreaPattern, Light, Rig, RigPreset};
+pub use self::light::{AreaPattern, Light};
 pub use self::material::{
     Coat, Fluorescence, Held, LeafFaces, LeafOptics, LeafTissue, Material, SolidOptics,
 };
@@ -63,21 +63,20 @@ pub struct Description {
     pub media: Vec<Named<Medium>>,
     /// Materials, in the file's order.
     pub materials: Vec<Named<Material>>,
-    /// Meshes, in the file's order.
-    pub meshes: Vec<Named<Mesh>>,
-    /// Leaves that are grown, in the file's order.
+    /// Meshes, in the file's order, then those of rigs and plants.
+    pub meshes: Vec<Named<Shape>>,
+    /// Leaves that are grown, in the file's order, then further individuals.
     pub leaves: Vec<Named<Leaf>>,
     /// Bodies of solid tissue that are grown, in the file's order.
     pub solids: Vec<Named<Solid>>,
-    /// Plants, in the file's order. Where objects are plants, their leaves, axes and bark stand
-    /// behind those of the file.
-    pub plants: Vec<Named<Plant>>,
-    /// Lights, in the file's order.
+    /// Lights, in the file's order, those of a rig in its place.
     pub lights: Vec<Named<Light>>,
-    /// The objects.
+    /// The objects, those of rigs last.
     pub objects: Vec<Named<Object>>,
     /// Instruments, in the file's order.
     pub instruments: Vec<Named<Instrument>>,
+    /// Plants of which some leaves cut another one or an axis: how many, and how many leaves they have.
+    pub crossing: Vec<Named<[usize; 2]>>,
 }
 
 impl Description {
@@ -88,7 +87,8 @@ impl Description {
         let emission = self
             .lights
             .iter()
-            .any(|light| light.value.emission_of(&self.objects) == Some(mesh));
+            .filter_map(|light| light.value.emitting_object())
+            .any(|object| self.objects[object].value.first_mesh() == Some(mesh));
         let nothing = Wanted {
             emission,
             ..Wanted::default()
@@ -98,27 +98,6 @@ impl Description {
             finishes: wanted.finishes || matches!(material, Material::Model { .. }),
             emission,
         })
-    }
-
-    /// A scene with nothing in it.
-    pub(crate) fn empty(name: &str, source: String) -> Self {
-        Self {
-            name: name.to_owned(),
-            source,
-            film: Film::usual(),
-            picture: Picture::default(),
-            camera: Camera::usual(),
-            integrator: Integrator::default(),
-            media: Vec::new(),
-            materials: Vec::new(),
-            meshes: Vec::new(),
-            leaves: Vec::new(),
-            solids: Vec::new(),
-            plants: Vec::new(),
-            lights: Vec::new(),
-            objects: Vec::new(),
-            instruments: Vec::new(),
-        }
     }
 }
 
@@ -235,8 +214,15 @@ pub enum Mesh {
         /// Metres per unit of the file.
         scale: f64,
     },
+}
+
+/// What a scene's triangles are made from.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// A mesh of the file.
+    Mesh(Mesh),
     /// The axes of a plant, or other bodies of it, mm.
-    Axes(Arc<StalkMesh>),
+    Body(Arc<StalkMesh>),
 }
 
 /// A grown leaf: mesh, content maps and coats.
@@ -263,30 +249,4 @@ pub struct Solid {
     pub optics: SolidOptics,
     /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
     pub extrapolate: bool,
-}
-
-/// A bough or shoot.
-#[derive(Clone, Debug)]
-pub struct Plant {
-    /// Its numbers.
-    pub plan: PlantPlan,
-    /// The leaves that it bears, from the foot of each axis to its tip: indices into
-    /// [`Description::leaves`].
-    pub leaves: Vec<usize>,
-    /// The days of ageing of its youngest and its oldest leaves; `None` leaves them as they are.
-    pub days: Option<[f64; 2]>,
-    /// What its axes are made of: index into [`Description::materials`]; `None` is young bark, or
-    /// green tissue.
-    pub bark: Option<usize>,
-    /// The leaves that are the sepals and the petals of its flower: indices into
-    /// [`Description::leaves`].
-    pub perianth: [Option<usize>; 2],
-    /// The materials of its pot and of the soil in it: indices into [`Description::materials`];
-    /// `None` is fired clay, and soil of the pot's moisture.
-    pub potting: [Option<usize>; 2],
-    /// The objects on which it climbs: indices into [`Description::objects`].
-    pub walls: Vec<usize>,
-    /// Once it is grown: how many of its leaves cut another one or an axis, and how many it has;
-    /// `None` where that was not looked at.
-    pub crossing: Option<[usize; 2]>,
 }

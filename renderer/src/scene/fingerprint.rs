@@ -1,59 +1,114 @@
 //! A number that tells scenes apart whose samples must not be mixed.
 
-use std::path::Path;
+use std::path::PathBuf;
+
+use leafmodel::document::tree::{Table, Value};
+use leafmodel::document::written::Extent;
+use leafmodel::plan_file;
 
 use super::assets::{self, AssetError};
-use super::description::{Film, Mesh, Picture};
-use super::load::Loaded;
+use super::authored::Authored;
+use super::blocks;
+use super::description::Solid;
 
-/// The 64-bit FNV-1a hash of everything that samples depend on: the scene with all defaults and
-/// presets, and the bytes of the files that it names. It distinguishes scenes; it is not a
-/// cryptographic hash.
+/// The 64-bit FNV-1a hash of everything that samples depend on: what the scene's file says, the numbers
+/// of presets, both in [`identity`], and the bytes of the files that it names. It distinguishes scenes of one version of the
+/// program; it is not a cryptographic hash.
 ///
 /// Left out are comments and the order of keys in the file, the number of samples, seed and target
 /// noise, which are compared by themselves, and the development of the picture. The folder of the
-/// scene at `path` may move.
+/// scene may move.
 ///
 /// # Errors
 ///
 /// [`AssetError`] if a file of the scene cannot be read.
-pub fn fingerprint(loaded: &Loaded, path: &Path) -> Result<u64, AssetError> {
-    let mut scene = loaded.description.clone();
-    scene.source.clear();
-    scene.film = Film {
-        spp: 1,
-        noise: None,
-        seed: 0,
-        ..scene.film
-    };
-    scene.picture = Picture::default();
-    // What follows from a plant's numbers would be most of the text.
-    scene
-        .meshes
-        .retain(|mesh| !matches!(mesh.value, Mesh::Axes(_)));
-    for object in &mut scene.objects {
-        if object.value.plant.is_some() {
-            object.value.instances = None;
-        }
-    }
-    // Numbers in it have all their digits.
-    let mut text = format!("{scene:?}");
-    let folder = path.canonicalize().ok();
-    if let Some(folder) = folder.as_deref().and_then(Path::parent) {
-        // As it is printed within the scene.
-        let folder = format!("{:?}", folder.display().to_string());
-        let folder = folder.trim_matches('"');
-        if folder.len() > 1 {
-            text = text.replace(folder, "");
-        }
-    }
-    let mut hash = fnv1a(text.as_bytes());
-    for file in &loaded.inputs {
+pub(super) fn fingerprint(identity: &str, inputs: &[PathBuf]) -> Result<u64, AssetError> {
+    let mut hash = fnv1a(identity.as_bytes());
+    for file in inputs {
         let bytes = assets::read(file)?;
         hash = go_on(hash, &(bytes.len() as u64).to_le_bytes());
         hash = go_on(hash, &bytes);
     }
     Ok(hash)
+}
+
+/// What a scene's file says, in one form however it is written, and all numbers of its leaves, bodies and
+/// plants, which presets may hide.
+pub(super) fn identity(tree: &Table, authored: &Authored) -> String {
+    let mut text = String::new();
+    write_table(&mut text, tree, Depth::File);
+    for leaf in &authored.leaves {
+        text += &plan_file::leaf_to_toml(&leaf.name, &leaf.value.plan, Extent::All);
+    }
+    for solid in &authored.solids {
+        let (mut own, mut plain) = (solid.value.clone(), Solid::usual());
+        text += &plan_file::solid_to_toml(&solid.name, &mut own, &mut plain, blocks::solid);
+    }
+    for plant in &authored.plants {
+        text += &plan_file::plant_to_toml(&plant.name, &plant.value.plan);
+    }
+    text
+}
+
+/// Where a table lies in the file.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Depth {
+    File,
+    /// A section, the order of whose blocks counts: lights and objects have numbers.
+    Section,
+    Film,
+    Block,
+}
+
+/// Keys that samples do not depend on, or that are compared by themselves.
+fn is_left_out(depth: Depth, key: &str) -> bool {
+    match depth {
+        Depth::File => key == "picture",
+        Depth::Film => ["spp", "seed", "noise"].contains(&key),
+        Depth::Section | Depth::Block => false,
+    }
+}
+
+fn write_table(text: &mut String, table: &Table, depth: Depth) {
+    let mut entries: Vec<_> = table.0.iter().collect();
+    if depth != Depth::Section {
+        entries.sort_by_key(|entry| &entry.key);
+    }
+    entries.retain(|entry| !is_left_out(depth, &entry.key));
+    for entry in entries {
+        let inner = match depth {
+            Depth::File => Depth::Section,
+            Depth::Section if ["rgb", "spectral"].contains(&entry.key.as_str()) => Depth::Film,
+            Depth::Section | Depth::Film | Depth::Block => Depth::Block,
+        };
+        *text += &format!("{:?}=", entry.key);
+        write_value(text, &entry.node.value, inner);
+        text.push('\n');
+    }
+}
+
+/// A value in one form: 1 and 1.0 are the same.
+fn write_value(text: &mut String, value: &Value, depth: Depth) {
+    match value {
+        Value::Text(own) => *text += &format!("{own:?}"),
+        Value::Integer(own) => *text += &own.to_string(),
+        Value::Number(own) => *text += &own.to_string(),
+        Value::Flag(own) => *text += &own.to_string(),
+        Value::Other(_, own) => *text += own,
+        Value::List(list) => {
+            text.push('[');
+            for node in list {
+                write_value(text, &node.value, Depth::Block);
+                text.push(',');
+            }
+            text.push(']');
+        }
+        Value::Table(table) => {
+            text.push('{');
+            write_table(text, table, depth);
+            text.push('}');
+        }
+    }
 }
 
 const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
@@ -71,7 +126,7 @@ fn go_on(start: u64, bytes: &[u8]) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+
     use crate::scene::load::load;
 
     const SCENE: &str = "
@@ -101,10 +156,8 @@ mod tests {
         std::fs::write(&path, text).expect("the folder can be written");
         std::fs::write(folder.path().join("plate.obj"), plate).expect("the folder can be written");
         let overrides: Vec<_> = overrides.iter().map(|&text| text.to_owned()).collect();
-        let mut loaded = load(&path, &overrides).expect("the scene is right");
-        // The default name is the folder's.
-        loaded.description.name.clear();
-        fingerprint(&loaded, &path).expect("its files are there")
+        let loaded = load(&path, &overrides).expect("the scene is right");
+        loaded.fingerprint().expect("its files are there")
     }
 
     #[test]
@@ -126,12 +179,25 @@ mod tests {
                 PLATE,
                 &["materials.white.diffuse.reflectance=0.50"],
             ),
+            of(
+                &SCENE.replace("vertical_fov_deg = 30", "").replace(
+                    "position_m = [0, -3, 0]",
+                    "vertical_fov_deg = 30.0\nposition_m = [0.0, -3, 0]",
+                ),
+                PLATE,
+                &[],
+            ),
         ];
-        assert_eq!(moved, [usual; 2]);
+        assert_eq!(moved, [usual; 3]);
         let others = [
             of(SCENE, &PLATE.replace("0 0 1", "0 0 2"), &[]),
             of(SCENE, PLATE, &["materials.white.diffuse.reflectance=0.51"]),
             of(SCENE, PLATE, &["film.rgb.filter_radius_px=1"]),
+            of(
+                &SCENE.replace("film.rgb", "film.spectral"),
+                PLATE,
+                &["film.spectral.bands_nm=[500]"],
+            ),
             of(SCENE, PLATE, &["camera.perspective.vertical_fov_deg=31"]),
         ];
         for other in others {

@@ -14,9 +14,11 @@ use leafmodel::document::schema::{self, Alone, BlockSchema};
 use leafmodel::document::source::escaped;
 use leafmodel::plan_file;
 
-use super::assets::DECODER;
+use super::assets::{AssetError, DECODER};
 use super::blocks::{self, Purpose};
 use super::description::{Description, Leaf, Named, Picture, Solid};
+use super::expand::{Fault, expand};
+use super::fingerprint::{fingerprint, identity};
 
 /// A scene that was accepted.
 #[derive(Clone, Debug)]
@@ -27,6 +29,20 @@ pub struct Loaded {
     pub warnings: Vec<Warning>,
     /// Resolved paths of the files that it names, which no output may overwrite.
     pub inputs: Vec<PathBuf>,
+    /// What tells the scene from others, but for the bytes of its files.
+    identity: String,
+}
+
+impl Loaded {
+    /// A 64-bit hash of everything that samples depend on, left out what is compared by itself (number
+    /// of samples, seed, target noise) and the development of the picture.
+    ///
+    /// # Errors
+    ///
+    /// [`AssetError`] if a file of the scene cannot be read.
+    pub fn fingerprint(&self) -> Result<u64, AssetError> {
+        fingerprint(&self.identity, &self.inputs)
+    }
 }
 
 /// Reads the scene file at `path`, with overrides `key=value` written as in the file.
@@ -199,13 +215,27 @@ fn into_scene(
 ) -> Result<Loaded, DocumentErrors> {
     opened.cx.assets = Some(&DECODER);
     let recorded = std::mem::take(&mut opened.recorded);
-    let description = blocks::read(&opened.cx, &opened.tree, default_name, recorded, purpose);
+    let authored = blocks::read(&opened.cx, &opened.tree, default_name, recorded, purpose);
+    let mut said = String::new();
+    let description = authored.and_then(|authored| {
+        said = identity(&opened.tree, &authored);
+        let expanded = expand(authored);
+        let refuse = |Fault {
+                          path,
+                          problem,
+                          help,
+                      }| {
+            blocks::refuse(&opened.cx, &opened.tree, &path, problem, help);
+        };
+        expanded.map_err(refuse).ok()
+    });
     let inputs = opened.cx.inputs.take();
     let (description, warnings) = opened.finish(description)?;
     Ok(Loaded {
         description,
         warnings,
         inputs,
+        identity: said,
     })
 }
 

@@ -1,10 +1,7 @@
 //! The interface to leafmodel: converts grown leaves and bodies to meshes and materials, and
 //! millimetres to metres.
 
-pub(super) mod boughs;
-pub(super) mod individuals;
 pub(super) mod parts;
-mod walls;
 
 use std::sync::Arc;
 

@@ -13,7 +13,6 @@ use crate::image::openexr;
 use crate::integrator::caption::Caption;
 use crate::integrator::render::{Begun, Job};
 use crate::integrator::sample_map::SampleMap;
-use crate::scene::fingerprint::fingerprint;
 use crate::scene::load::Loaded;
 
 /// The channel of a picture with the number of samples of each pixel.
@@ -164,7 +163,7 @@ impl Plan {
         };
         let heading = Heading {
             program: PROGRAM.to_owned(),
-            scene: fingerprint(loaded, &arguments.scene.scene).map_err(Failure::bad)?,
+            scene: loaded.fingerprint().map_err(Failure::bad)?,
             job: Job {
                 width: film.width,
                 height: film.height,

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::{Arguments, Command};
 use crate::cli::{Failure, colour, grow};
-use crate::scene::fingerprint::{fingerprint, fnv1a};
+use crate::scene::fingerprint::fnv1a;
 use crate::scene::load::load;
 use crate::sweep::{Refused, Sweep, Target, Task};
 use leafmodel::document::path::allowed;
@@ -121,8 +121,9 @@ fn identity(sweep: &Sweep, task: &Task<'_>) -> Result<u64, Why> {
                 .chain(task.overrides())
                 .collect();
             let loaded = load(path, &overrides).map_err(Why::Document)?;
-            let print =
-                fingerprint(&loaded, path).map_err(|error| Why::Failure(Failure::bad(error)))?;
+            let print = loaded
+                .fingerprint()
+                .map_err(|error| Why::Failure(Failure::bad(error)))?;
             let scene = &loaded.description;
             let film = &scene.film;
             format!(

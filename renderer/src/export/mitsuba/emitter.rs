@@ -33,8 +33,7 @@ pub(super) fn emitter(
         Light::Area { .. }
         | Light::Constant { .. }
         | Light::Environment { .. }
-        | Light::Overcast { .. }
-        | Light::Rig(_) => None,
+        | Light::Overcast { .. } => None,
         Light::Daylight(day) => {
             let irradiance = day.lights().0.irradiance().written();
             let limb = Element::plugin("texture", "lamina_sun").with("name", "radiance");

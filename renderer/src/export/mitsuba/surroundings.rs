@@ -68,7 +68,6 @@ pub(super) fn emitters(scene: &Description, world: &World, spectra: &mut Spectra
         | Light::Environment { .. }
         | Light::Daylight(_)
         | Light::Overcast { .. }
-        | Light::Rig(_)
         | Light::Area { .. }
         | Light::Spot { .. } => None,
     });

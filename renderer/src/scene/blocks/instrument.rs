@@ -19,9 +19,9 @@ use leafmodel::document::value_kind::{Degrees, Flag, Kind, Number, degrees};
 use leafmodel::document::values::{list, number, number_at, wrong_length, wrong_type};
 
 use super::film::{Range, WAVELENGTHS_NM};
+use crate::scene::authored::Authored;
 use crate::scene::description::{
-    Canopy, DepthProfile, Description, Detector, Gonio, Incidence, Instrument, InstrumentKind,
-    Named, Sample,
+    Canopy, DepthProfile, Detector, Gonio, Incidence, Instrument, InstrumentKind, Named, Sample,
 };
 
 /// What `constituents` of an instrument means.
@@ -137,7 +137,7 @@ pub(super) fn instrument(instrument: &mut Instrument, keys: &mut Keys<'_>) {
 
 /// From here on spectra must cover what the instruments need, if they are what the scene is read
 /// for; `None` if there is none.
-pub(super) fn tell_range(scene: &Description, keys: &Keys<'_>) {
+pub(super) fn tell_range(scene: &Authored, keys: &Keys<'_>) {
     let Some(block) = keys.reader() else {
         return;
     };

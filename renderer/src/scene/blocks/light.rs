@@ -18,7 +18,9 @@ use super::spectrum::SpectrumOf;
 use crate::light::daylight::Daylight;
 use crate::light::daylight::spctrl2::Atmosphere;
 use crate::scene::angle::sin_cos_deg;
-use crate::scene::description::{AreaPattern, Light, Rig, Spectrum};
+use crate::scene::authored;
+use crate::scene::authored::Light::{self as Authored, Rig, Single};
+use crate::scene::description::{AreaPattern, Light, Spectrum};
 use crate::spectrum::rgb;
 
 /// A picture that shines, up to 4 GiB.
@@ -30,26 +32,28 @@ const PICTURE: FilePath = FilePath::of(
 const DARK: Spectrum = Spectrum::Constant(0.0);
 
 /// The keys of one of `[lights]`.
-pub(super) fn light(light: &mut Light, keys: &mut Keys<'_>) {
+pub(super) fn light(light: &mut Authored, keys: &mut Keys<'_>) {
     keys.kind(light, &KINDS);
 }
 
-const KINDS: [Variant<Light>; 8] = [
+const KINDS: [Variant<Authored>; 8] = [
     Variant {
         name: "distant",
         about: "A disc at infinity, like the sun.",
-        new: || Light::Distant {
-            towards: DVec3::Z,
-            angular_diameter: 0.53_f64.to_radians(),
-            irradiance: DARK,
+        new: || {
+            Single(Light::Distant {
+                towards: DVec3::Z,
+                angular_diameter: 0.53_f64.to_radians(),
+                irradiance: DARK,
+            })
         },
-        is: |light| matches!(light, Light::Distant { .. }),
+        is: |light| matches!(light, Single(Light::Distant { .. })),
         declare: |light, keys| {
-            if let Light::Distant {
+            if let Single(Light::Distant {
                 towards,
                 angular_diameter,
                 irradiance,
-            } = light
+            }) = light
             {
                 let about = "On a surface that faces the light; the sun at the ground has about \
                     1.5 at 560 nm.";
@@ -71,10 +75,10 @@ const KINDS: [Variant<Light>; 8] = [
     Variant {
         name: "constant",
         about: "The same radiance from everywhere.",
-        new: || Light::Constant { radiance: DARK },
-        is: |light| matches!(light, Light::Constant { .. }),
+        new: || Single(Light::Constant { radiance: DARK }),
+        is: |light| matches!(light, Single(Light::Constant { .. })),
         declare: |light, keys| {
-            if let Light::Constant { radiance } = light {
+            if let Single(Light::Constant { radiance }) = light {
                 let about = "Its radiance.";
                 keys.required("radiance_w_m2_sr_nm", radiance, SpectrumOf::Emission, about);
                 refuse_darkness(radiance, keys);
@@ -84,22 +88,24 @@ const KINDS: [Variant<Light>; 8] = [
     Variant {
         name: "environment",
         about: "A latitude–longitude picture at infinity, up is +z.",
-        new: || Light::Environment {
-            file: std::path::PathBuf::new(),
-            layer: None,
-            scale: 1.0,
-            rotation: 0.0,
-            white: Spectrum::D65 { scale: 1.0 },
+        new: || {
+            Single(Light::Environment {
+                file: std::path::PathBuf::new(),
+                layer: None,
+                scale: 1.0,
+                rotation: 0.0,
+                white: Spectrum::D65 { scale: 1.0 },
+            })
         },
-        is: |light| matches!(light, Light::Environment { .. }),
+        is: |light| matches!(light, Single(Light::Environment { .. })),
         declare: |light, keys| {
-            if let Light::Environment {
+            if let Single(Light::Environment {
                 file,
                 layer,
                 scale,
                 rotation,
                 white,
-            } = light
+            }) = light
             {
                 super::file(keys, "path", file, PICTURE, "The picture.");
                 super::picture_layer(layer, keys);
@@ -116,10 +122,10 @@ const KINDS: [Variant<Light>; 8] = [
     Variant {
         name: "daylight",
         about: "The sun and a clear sky, with the spectra of a day.",
-        new: || Light::Daylight(Daylight::usual()),
-        is: |light| matches!(light, Light::Daylight(_)),
+        new: || Single(Light::Daylight(Daylight::usual())),
+        is: |light| matches!(light, Single(Light::Daylight(_))),
         declare: |light, keys| {
-            if let Light::Daylight(day) = light {
+            if let Single(Light::Daylight(day)) = light {
                 daylight(day, keys);
             }
         },
@@ -127,16 +133,18 @@ const KINDS: [Variant<Light>; 8] = [
     Variant {
         name: "overcast",
         about: "A sky that is covered with cloud, brightest in the zenith.",
-        new: || Light::Overcast {
-            irradiance: DARK,
-            ground_albedo: Atmosphere::default().ground_albedo,
+        new: || {
+            Single(Light::Overcast {
+                irradiance: DARK,
+                ground_albedo: Atmosphere::default().ground_albedo,
+            })
         },
-        is: |light| matches!(light, Light::Overcast { .. }),
+        is: |light| matches!(light, Single(Light::Overcast { .. })),
         declare: |light, keys| {
-            if let Light::Overcast {
+            if let Single(Light::Overcast {
                 irradiance,
                 ground_albedo,
-            } = light
+            }) = light
             {
                 let about = "On a horizontal surface; a grey day gives some 0.1 to 0.4 at 560 nm.";
                 keys.required(
@@ -155,19 +163,21 @@ const KINDS: [Variant<Light>; 8] = [
     Variant {
         name: "area",
         about: "An object whose surface shines to the side of its normal.",
-        new: || Light::Area {
-            // Replaced when the key is read.
-            object: usize::MAX,
-            radiance: DARK,
-            pattern: None,
+        new: || {
+            Single(Light::Area {
+                // Replaced when the key is read.
+                object: usize::MAX,
+                radiance: DARK,
+                pattern: None,
+            })
         },
-        is: |light| matches!(light, Light::Area { .. }),
+        is: |light| matches!(light, Single(Light::Area { .. })),
         declare: |light, keys| {
-            if let Light::Area {
+            if let Single(Light::Area {
                 object,
                 radiance,
                 pattern,
-            } = light
+            }) = light
             {
                 const OBJECT: NameIn = NameIn("objects", "the name of an object that shines");
                 keys.required(
@@ -188,22 +198,24 @@ const KINDS: [Variant<Light>; 8] = [
     Variant {
         name: "spot",
         about: "A point that shines into a cone.",
-        new: || Light::Spot {
-            position: DVec3::ZERO,
-            look_at: DVec3::NEG_Z,
-            cone_angle: 20.0_f64.to_radians(),
-            penumbra_angle: 0.0,
-            intensity: DARK,
+        new: || {
+            Single(Light::Spot {
+                position: DVec3::ZERO,
+                look_at: DVec3::NEG_Z,
+                cone_angle: 20.0_f64.to_radians(),
+                penumbra_angle: 0.0,
+                intensity: DARK,
+            })
         },
-        is: |light| matches!(light, Light::Spot { .. }),
+        is: |light| matches!(light, Single(Light::Spot { .. })),
         declare: |light, keys| {
-            if let Light::Spot {
+            if let Single(Light::Spot {
                 position,
                 look_at,
                 cone_angle,
                 penumbra_angle,
                 intensity,
-            } = light
+            }) = light
             {
                 let about = "Radiant intensity on the axis: at 1 m, the irradiance on a surface \
                     that faces the light.";
@@ -228,10 +240,10 @@ const KINDS: [Variant<Light>; 8] = [
     Variant {
         name: "rig",
         about: "Lights as photographers set them up, around what the camera looks at.",
-        new: || Light::Rig(Rig::usual()),
-        is: |light| matches!(light, Light::Rig(_)),
+        new: || Rig(authored::Rig::usual()),
+        is: |light| matches!(light, Rig(_)),
         declare: |light, keys| {
-            if let Light::Rig(own) = light {
+            if let Rig(own) = light {
                 rig(own, keys);
             }
         },

@@ -14,16 +14,26 @@ use super::placement::{ANGLES_DEG, SCALES, turn};
 use super::report;
 use super::scatter::scatter;
 use super::volume::volume;
-use crate::scene::description::{Object, ObjectShape};
+use crate::scene::authored::Object;
+use crate::scene::description::{self, ObjectShape};
 
 impl Object {
     /// An object with all defaults.
+    pub(super) fn nowhere() -> Self {
+        Self {
+            plant: None,
+            placed: description::Object::nowhere(),
+        }
+    }
+}
+
+impl description::Object {
+    /// An object without shapes, at the origin.
     pub(in crate::scene) fn nowhere() -> Self {
         Self {
             shapes: Vec::new(),
             to_world: DMat4::IDENTITY,
             instances: None,
-            plant: None,
             strewn: None,
             volume: None,
         }
@@ -33,6 +43,10 @@ impl Object {
 /// The keys of one of `[objects]`.
 pub(super) fn object(object: &mut Object, keys: &mut Keys<'_>) {
     let names = shapes(object, keys);
+    let Object {
+        plant,
+        placed: object,
+    } = object;
     placement(object, keys);
     let shapes = keys.is_sound().then_some(names.as_slice());
     let frame = keys.is_sound().then_some(object.to_world);
@@ -46,7 +60,7 @@ pub(super) fn object(object: &mut Object, keys: &mut Keys<'_>) {
             instances(places, keys, shapes, frame);
         },
     );
-    scatter(object, keys);
+    scatter(object, plant.is_some(), keys);
     volume(object, keys);
     let in_one_place = object.instances.is_none() && !object.is_spread();
     if in_one_place && names.len() > 1 && keys.is_sound() {
@@ -105,7 +119,7 @@ fn shapes(object: &mut Object, keys: &mut Keys<'_>) -> Vec<String> {
                 let about = "That body instead, in the frame of its shape.";
                 keys.needed("solid", &mut named, kind, about);
                 let solids = named.iter().map(|(solid, _)| *solid);
-                object.shapes = solids.map(|solid| ObjectShape::Solid { solid }).collect();
+                object.placed.shapes = solids.map(|solid| ObjectShape::Solid { solid }).collect();
             }
             _ => {
                 keys.exclude("leaf", "material");
@@ -115,7 +129,7 @@ fn shapes(object: &mut Object, keys: &mut Keys<'_>) -> Vec<String> {
                     origin.";
                 keys.needed("leaf", &mut named, kind, about);
                 let leaves = named.iter().map(|(leaf, _)| *leaf);
-                object.shapes = leaves.map(|leaf| ObjectShape::Leaf { leaf }).collect();
+                object.placed.shapes = leaves.map(|leaf| ObjectShape::Leaf { leaf }).collect();
             }
         }
     }
@@ -145,11 +159,11 @@ fn mesh_shapes(
         mesh: *mesh,
         material: *material,
     });
-    object.shapes = pairs.collect();
+    object.placed.shapes = pairs.collect();
 }
 
 /// Local to world: `matrix`, or scale, then rotations about x, y, z, then position.
-fn placement(object: &mut Object, keys: &mut Keys<'_>) {
+fn placement(object: &mut description::Object, keys: &mut Keys<'_>) {
     let (mut position, mut rotate, mut scale) = (DVec3::ZERO, [0.0; 3], 1.0);
     let about = "Where the shape's origin goes.";
     keys.key("position_m", &mut position, Vector(COORDINATES_M), about);

@@ -7,7 +7,7 @@ use leafmodel::plan_file;
 
 use super::name_list::NamesIn;
 use super::scatter::refuse_ages_of_one;
-use crate::scene::description::Plant;
+use crate::scene::authored::Plant;
 
 /// The keys of one of `[plants]`.
 pub(super) fn plant(plant: &mut Plant, keys: &mut Keys<'_>) {

@@ -11,9 +11,8 @@ use leafmodel::document::source::escaped;
 use leafmodel::document::values::listed;
 
 use super::Purpose;
-use crate::scene::description::{
-    Description, InstrumentKind, Light, Material, Mesh, Named, Object, ObjectShape,
-};
+use crate::scene::authored::{Authored, Light};
+use crate::scene::description::{self, InstrumentKind, Material, Mesh, Named, ObjectShape};
 
 /// Sections to whose blocks others refer.
 pub(super) const SECTIONS: [&str; 8] = [
@@ -28,7 +27,7 @@ pub(super) const SECTIONS: [&str; 8] = [
 ];
 
 /// Checks the scene as a whole; `keys` are those at its top.
-pub(super) fn check(scene: &Description, keys: &Keys<'_>, purpose: Purpose) {
+pub(super) fn check(scene: &Authored, keys: &Keys<'_>, purpose: Purpose) {
     let Some(root) = keys.reader() else {
         return;
     };
@@ -53,7 +52,7 @@ pub(super) fn check(scene: &Description, keys: &Keys<'_>, purpose: Purpose) {
 }
 
 /// The objects by which the picture is balanced and exposed are there.
-fn check_cards(scene: &Description, keys: &Keys<'_>) {
+fn check_cards(scene: &Authored, keys: &Keys<'_>) {
     let picture = &scene.picture;
     for (key, name) in [
         ("grey_object", &picture.grey_object),
@@ -69,14 +68,14 @@ fn check_cards(scene: &Description, keys: &Keys<'_>) {
 }
 
 /// The light by which the picture is balanced is there.
-fn check_white_light(scene: &Description, keys: &Keys<'_>) {
+fn check_white_light(scene: &Authored, keys: &Keys<'_>) {
     let Some(name) = &scene.picture.white_light else {
         return;
     };
     let mut known = Vec::new();
     for light in &scene.lights {
         known.push(light.name.clone());
-        if matches!(light.value, Light::Daylight(_)) {
+        if matches!(light.value, Light::Single(description::Light::Daylight(_))) {
             known.extend(["sun", "sky"].map(|part| format!("{}.{part}", light.name)));
         }
     }
@@ -95,24 +94,28 @@ fn check_white_light(scene: &Description, keys: &Keys<'_>) {
 }
 
 /// An area light needs a mesh object, and an object has at most one area light.
-fn check_shining(scene: &Description, keys: &Keys<'_>) {
+fn check_shining(scene: &Authored, keys: &Keys<'_>) {
     let mut shining = BTreeSet::new();
     let is_plain = |mesh: usize| {
         let mesh = scene.meshes.get(mesh);
         mesh.is_some_and(|mesh| !matches!(mesh.value, Mesh::Gltf { .. }))
     };
     for light in &scene.lights {
-        let Light::Area { object, .. } = light.value else {
+        let Light::Single(shining_light) = &light.value else {
+            continue;
+        };
+        let description::Light::Area { object, .. } = *shining_light else {
             continue;
         };
         // An unknown name is reported where it is written.
         let Some(named) = scene.objects.get(object) else {
             continue;
         };
-        let shape = named.value.shapes.first();
+        let placed = &named.value.placed;
+        let shape = placed.shapes.first();
         let problem = if named.value.plant.is_some() {
             "is a plant, and plants do not shine"
-        } else if named.value.instances.is_some() || named.value.is_spread() {
+        } else if placed.instances.is_some() || placed.is_spread() {
             "has instances, and those do not shine"
         } else if matches!(shape, Some(ObjectShape::Leaf { .. })) {
             "is a leaf, and leaves do not shine"
@@ -121,10 +124,8 @@ fn check_shining(scene: &Description, keys: &Keys<'_>) {
         } else if shape.is_some_and(|shape| is_no_surface(scene, *shape)) {
             "is the boundary of a medium, and those do not shine"
         } else if shining.insert(object) {
-            if light
-                .value
-                .emission_of(&scene.objects)
-                .is_some_and(is_plain)
+            if shining_light.emitting_object().is_some()
+                && placed.first_mesh().is_some_and(is_plain)
             {
                 let problem = format!("`{}` has no mesh from a glTF file", named.name);
                 let help = "leave `emission` out, or name an object with a mesh of the kind `gltf`";
@@ -144,7 +145,7 @@ fn check_shining(scene: &Description, keys: &Keys<'_>) {
 }
 
 /// Whether a shape is a mesh whose material is the boundary of a medium or no boundary at all.
-fn is_no_surface(scene: &Description, shape: ObjectShape) -> bool {
+fn is_no_surface(scene: &Authored, shape: ObjectShape) -> bool {
     let material = match shape {
         ObjectShape::Mesh { material, .. } => scene.materials.get(material),
         ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
@@ -153,9 +154,9 @@ fn is_no_surface(scene: &Description, shape: ObjectShape) -> bool {
 }
 
 /// What is strewn on something that is strewn itself stands behind it in the file.
-fn check_strewn(scene: &Description, keys: &Keys<'_>) {
+fn check_strewn(scene: &Authored, keys: &Keys<'_>) {
     for (number, object) in scene.objects.iter().enumerate() {
-        let Some(strewn) = &object.value.strewn else {
+        let Some(strewn) = &object.value.placed.strewn else {
             continue;
         };
         let on = std::iter::once(("on", strewn.on));
@@ -165,7 +166,7 @@ fn check_strewn(scene: &Description, keys: &Keys<'_>) {
             };
             let problem = if below == number {
                 "an object cannot lie on itself".to_owned()
-            } else if below > number && named.value.is_spread() {
+            } else if below > number && named.value.placed.is_spread() {
                 format!("`{}` is strewn later itself", named.name)
             } else {
                 continue;
@@ -177,7 +178,7 @@ fn check_strewn(scene: &Description, keys: &Keys<'_>) {
 }
 
 /// The sample of a sphere or a goniometer stands in one place.
-fn check_samples(scene: &Description, keys: &Keys<'_>) {
+fn check_samples(scene: &Authored, keys: &Keys<'_>) {
     for instrument in &scene.instruments {
         let sample = match &instrument.value.kind {
             InstrumentKind::Sphere(sample) => sample,
@@ -188,10 +189,8 @@ fn check_samples(scene: &Description, keys: &Keys<'_>) {
         let Some(object) = scene.objects.get(sample.object) else {
             continue;
         };
-        let Object {
-            instances, plant, ..
-        } = &object.value;
-        if instances.is_some() || plant.is_some() || object.value.is_spread() {
+        let placed = &object.value.placed;
+        if placed.instances.is_some() || object.value.plant.is_some() || placed.is_spread() {
             let problem = format!("`{}` stands in more than one place", object.name);
             let help = "name an object with one mesh, leaf or solid in one place";
             let path = [
@@ -206,7 +205,7 @@ fn check_samples(scene: &Description, keys: &Keys<'_>) {
 }
 
 /// A material that takes the colours of a mesh needs one from a glTF file, and is made for that.
-fn check_colours(scene: &Description, keys: &Keys<'_>) {
+fn check_colours(scene: &Authored, keys: &Keys<'_>) {
     let taken = |material: &Named<Material>| material.value.colours_of();
     for material in &scene.materials {
         // An unknown name is reported where it is written.
@@ -256,7 +255,7 @@ fn check_colours(scene: &Description, keys: &Keys<'_>) {
         }
     }
     for object in &scene.objects {
-        for shape in &object.value.shapes {
+        for shape in &object.value.placed.shapes {
             let ObjectShape::Mesh { mesh, material } = *shape else {
                 continue;
             };
@@ -280,14 +279,14 @@ fn check_colours(scene: &Description, keys: &Keys<'_>) {
 }
 
 /// Warns of unused blocks, which are allowed but usually a mistake.
-fn warn_of_the_unused(scene: &Description, keys: &Keys<'_>) {
+fn warn_of_the_unused(scene: &Authored, keys: &Keys<'_>) {
     let Some(root) = keys.reader() else {
         return;
     };
     let used = |wanted: fn(&ObjectShape) -> Option<usize>| -> BTreeSet<usize> {
         let objects = scene.objects.iter();
         objects
-            .flat_map(|object| object.value.shapes.iter().filter_map(wanted))
+            .flat_map(|object| object.value.placed.shapes.iter().filter_map(wanted))
             .collect()
     };
     let meshes = used(|shape| match shape {

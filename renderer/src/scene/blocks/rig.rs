@@ -7,7 +7,7 @@ use leafmodel::document::value_kind::{Degrees, Number, Vector, Word};
 
 use super::camera::COORDINATES_M;
 use super::spectrum::D65_NM;
-use crate::scene::description::{Rig, RigPreset};
+use crate::scene::authored::{Rig, RigPreset};
 
 const PRESETS: [(&str, RigPreset); 6] = [
     ("studio", RigPreset::Studio),

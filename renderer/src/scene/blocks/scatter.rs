@@ -39,15 +39,15 @@ impl StrewnOn {
     }
 }
 
-/// The key `scatter` of an object.
-pub(super) fn scatter(object: &mut Object, keys: &mut Keys<'_>) {
+/// The key `scatter` of an object, which may be a plant.
+pub(super) fn scatter(object: &mut Object, is_plant: bool, keys: &mut Keys<'_>) {
     keys.exclude("instances", "scatter");
     let mut strewn = object.strewn.take().map(|strewn| *strewn);
     let about = "Where copies of the object are strewn, instead of its own place.";
     keys.optional_block("scatter", &mut strewn, StrewnOn::usual, about, strewn_on);
     if let Some(strewn) = &strewn {
         let is_leaf = |shape: &ObjectShape| matches!(shape, ObjectShape::Leaf { .. });
-        let only_leaves = object.plant.is_none() && object.shapes.iter().all(is_leaf);
+        let only_leaves = !is_plant && object.shapes.iter().all(is_leaf);
         let differ = strewn.individuals > 1 || strewn.days.is_some();
         if keys.is_sound() && differ && !only_leaves {
             let key = if strewn.days.is_some() {
@@ -59,7 +59,7 @@ pub(super) fn scatter(object: &mut Object, keys: &mut Keys<'_>) {
             let help = "take it out; a plant has its own `individuals` and `days`";
             keys.refuse(&["scatter", key], problem, help);
         }
-        if keys.is_sound() && object.plant.is_some() && is_at_rest(strewn) {
+        if keys.is_sound() && is_plant && is_at_rest(strewn) {
             let problem = "a plant stands where it grows".to_owned();
             keys.refuse(&["scatter", "settle"], problem, "take it out");
         }

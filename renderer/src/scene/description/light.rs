@@ -1,10 +1,10 @@
-//! Lights and rigs of lights.
+//! Lights.
 
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 
-use super::{Daylight, Named, Object, ObjectShape, Spectrum};
+use super::{Daylight, Spectrum};
 
 /// A light.
 #[derive(Clone, Debug)]
@@ -38,9 +38,6 @@ pub enum Light {
     },
     /// The sun and a clear sky.
     Daylight(Daylight),
-    /// Lights as photographers set them up; when the scene has been read, its parts stand in its
-    /// place.
-    Rig(Rig),
     /// A sky that is covered with cloud.
     Overcast {
         /// Irradiance on a horizontal surface, W m⁻² nm⁻¹.
@@ -78,7 +75,6 @@ impl Light {
     pub fn parts(&self) -> usize {
         match self {
             Self::Daylight(_) => 2,
-            Self::Rig(_) => 0,
             Self::Distant { .. }
             | Self::Constant { .. }
             | Self::Environment { .. }
@@ -88,21 +84,46 @@ impl Light {
         }
     }
 
-    /// The mesh whose own materials say what it emits: index into
-    /// [`Description::meshes`](super::Description::meshes).
-    pub fn emission_of(&self, objects: &[Named<Object>]) -> Option<usize> {
-        let Self::Area {
-            object,
-            pattern: Some(AreaPattern { emission: true, .. }),
-            ..
-        } = self
-        else {
-            return None;
-        };
-        // An unknown name is reported where it is written.
-        match objects.get(*object)?.value.shapes.first()? {
-            ObjectShape::Mesh { mesh, .. } => Some(*mesh),
-            ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
+    /// Its spectrum, relative: of daylight, of sun and sky on a level plane.
+    pub(in crate::scene) fn relative_spectrum(&self) -> Spectrum {
+        match self {
+            Self::Distant { irradiance, .. } | Self::Overcast { irradiance, .. } => {
+                irradiance.clone()
+            }
+            Self::Constant { radiance } | Self::Area { radiance, .. } => radiance.clone(),
+            Self::Environment { white, .. } => white.clone(),
+            Self::Spot { intensity, .. } => intensity.clone(),
+            Self::Daylight(day) => {
+                let (sun, sky) = day.lights();
+                let up = libm::sin(day.elevation);
+                let points = sun.irradiance().points().into_iter();
+                let points = points.map(|(nm, direct)| {
+                    let diffuse = f64::from(sky.diffuse().at(nm as f32));
+                    (nm, direct * up + diffuse)
+                });
+                Spectrum::Table {
+                    points: points.collect(),
+                    extrapolate: true,
+                }
+            }
+        }
+    }
+
+    /// The object whose own materials say what it emits.
+    pub fn emitting_object(&self) -> Option<usize> {
+        match self {
+            Self::Area {
+                object,
+                pattern: Some(AreaPattern { emission: true, .. }),
+                ..
+            } => Some(*object),
+            Self::Distant { .. }
+            | Self::Constant { .. }
+            | Self::Environment { .. }
+            | Self::Daylight(_)
+            | Self::Overcast { .. }
+            | Self::Area { .. }
+            | Self::Spot { .. } => None,
         }
     }
 
@@ -114,7 +135,6 @@ impl Light {
             Self::Distant { .. }
             | Self::Constant { .. }
             | Self::Daylight(_)
-            | Self::Rig(_)
             | Self::Overcast { .. }
             | Self::Spot { .. } => None,
         }
@@ -140,36 +160,4 @@ impl AreaPattern {
     pub fn picture(&self) -> Option<(&Path, Option<&str>)> {
         Some((self.picture.as_deref()?, self.layer.as_deref()))
     }
-}
-
-/// Lights as photographers set them up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rig {
-    /// How they stand.
-    pub preset: RigPreset,
-    /// What is lit, m; `None` is what the camera looks at.
-    pub subject: Option<DVec3>,
-    /// Size of the subject, m, > 0.
-    pub size: f64,
-    /// Azimuth in which the camera is taken to look, rad; `None` is that in which it does.
-    pub azimuth: Option<f64>,
-    /// Light more or less than usual, as a power of 2.
-    pub ev: f64,
-}
-
-/// The arrangements of lights.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RigPreset {
-    /// Three soft boxes.
-    Studio,
-    /// A tent of white cloth that is lit from outside.
-    Tent,
-    /// A light table below and a lamp above.
-    Lightbox,
-    /// A sky covered with cloud.
-    Overcast,
-    /// A low sun before the camera.
-    GoldenHour,
-    /// The sun on open land, a forest behind the subject.
-    ForestEdge,
 }

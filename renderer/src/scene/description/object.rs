@@ -15,8 +15,6 @@ pub struct Object {
     pub to_world: DMat4,
     /// The places of instances; `None` means the single place `to_world`.
     pub instances: Option<Vec<InstancePlace>>,
-    /// The plant that it is, index into [`Description::plants`](super::Description::plants). Its parts are the shapes then.
-    pub plant: Option<usize>,
     /// Where it is strewn; its places follow when the world is built. The parts of a plant then
     /// have their places in the plant's frame.
     pub strewn: Option<Box<StrewnOn>>,
@@ -25,6 +23,14 @@ pub struct Object {
 }
 
 impl Object {
+    /// The mesh of its first shape, index into [`Description::meshes`](super::Description::meshes).
+    pub fn first_mesh(&self) -> Option<usize> {
+        match self.shapes.first()? {
+            ObjectShape::Mesh { mesh, .. } => Some(*mesh),
+            ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
+        }
+    }
+
     /// Whether its places are found when the world is built.
     pub fn is_spread(&self) -> bool {
         self.strewn.is_some() || self.volume.is_some()

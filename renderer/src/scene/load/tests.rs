@@ -266,3 +266,29 @@ fn a_scene_has_the_name_of_its_file_in_every_script() {
         "{long}"
     );
 }
+
+#[test]
+fn the_plan_of_a_plant_is_what_its_keys_say() {
+    let scene = SCENE.replace("solid = \"fruit\"", "plant = \"shoot\"");
+    let text = format!(
+        "{PLAIN}{scene}[plants.shoot]\nleaf = \"beech\"\nseed = 3\nindividuals = 2\n\
+         nodes = 5\nper_node = 2\ndivergence_deg = 100\n[plants.shoot.branches]\norder = 2\nshare = 0.8\n\
+         [plants.shoot.posture]\nlight = [0, 1, 1]\ncluster = 3\n[plants.shoot.buds]\nlength_mm = 3\n"
+    );
+    let opened = Opened::text(&text, "shoot.toml", Path::new("."), &[], schema);
+    let opened = opened.expect("it is a document");
+    let purpose = Purpose::Picture;
+    let authored = blocks::read(&opened.cx, &opened.tree, "shoot", String::new(), purpose);
+    let read = opened.finish(authored);
+    let (mut authored, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
+    let plan = authored.plants.remove(0).value.plan;
+    assert_eq!((plan.seed, plan.individuals, plan.axis.nodes), (3, 2, 5));
+    let phyllotaxis = plan.axis.phyllotaxis;
+    assert_eq!((phyllotaxis.per_node, plan.posture.cluster), (2, 3));
+    let off = phyllotaxis.divergence - 100_f64.to_radians();
+    assert!(off.abs() < 1e-12, "{off}");
+    let branching = plan.branching.expect("it has branches");
+    assert_eq!((branching.order, branching.share), (2, 0.8));
+    assert_eq!(plan.buds.expect("it has buds").length_mm, 3.0);
+    assert!((plan.posture.light.y - 0.5_f64.sqrt()).abs() < 1e-12);
+}

@@ -54,9 +54,10 @@ pub(super) fn set_drops(
             return None;
         };
         match (&mesh.value, &scene.materials[material].value) {
-            (description::Mesh::Drop(_), description::Material::Dielectric { eta, .. }) => {
-                Some(*eta as f32).filter(|eta| *eta != 1.0)
-            }
+            (
+                description::Shape::Mesh(description::Mesh::Drop(_)),
+                description::Material::Dielectric { eta, .. },
+            ) => Some(*eta as f32).filter(|eta| *eta != 1.0),
             _ => None,
         }
     });

@@ -19,7 +19,7 @@ use crate::image::display::recorded_colour;
 use crate::image::light_colour::LightColour;
 use crate::light::Light;
 use crate::scene::description::{self, Description};
-use crate::scene::rigs;
+use crate::scene::expand::rigs::of_part;
 use crate::spectrum::rgb::basis_at;
 use crate::spectrum::{Curve, Share, WavelengthSampler};
 
@@ -40,7 +40,7 @@ pub(super) fn light_colours(
     for named in &scene.lights {
         let (own, others) = rest.split_at(named.value.parts());
         rest = others;
-        let rig = rigs::of_part(&named.name);
+        let rig = of_part(&named.name);
         if rig.is_some_and(|rig| !rigs_told.insert(rig)) {
             continue;
         }
@@ -98,7 +98,7 @@ pub(super) fn check_brightness(
             let radiance = shown.fold(0.0, f32::max);
             if radiance > MOST_RADIANCE {
                 return Err(WorldError::TooBright {
-                    name: rigs::of_part(&named.name).unwrap_or(&named.name).to_owned(),
+                    name: of_part(&named.name).unwrap_or(&named.name).to_owned(),
                     nm: share.nm,
                     // What single precision does not hold is at least its greatest number.
                     radiance: radiance.min(f32::MAX),

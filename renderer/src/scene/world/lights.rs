@@ -124,7 +124,6 @@ pub(super) fn build_lights<'i>(
             Light::Sky(SkyLight::overcast(&irradiance, *ground_albedo))
         }
         // Its parts have taken its place.
-        description::Light::Rig(_) => return Ok(Vec::new()),
         description::Light::Daylight(day) => {
             let (sun, sky) = day.lights();
             return Ok(vec![Light::Sun(sun), Light::Sky(sky)]);

@@ -37,9 +37,26 @@ pub(in crate::scene) struct Built {
 /// Reads or makes a mesh; `wanted` says what of its own surface is.
 pub(in crate::scene) fn build_mesh(
     name: &str,
-    mesh: &description::Mesh,
+    shape: &description::Shape,
     wanted: Wanted,
 ) -> Result<Built, WorldError> {
+    let plain = |mesh| Built {
+        mesh,
+        surface: OwnSurface::default(),
+        left_out: Vec::new(),
+    };
+    let mesh = match shape {
+        description::Shape::Mesh(mesh) => mesh,
+        description::Shape::Body(body) => {
+            let (positions, normals) = tube(body);
+            let mesh = TriangleMesh::new(positions, Some(normals), None, body.triangles.clone());
+            let named = |source| WorldError::Mesh {
+                name: name.to_owned(),
+                source,
+            };
+            return mesh.map(plain).map_err(named);
+        }
+    };
     if let description::Mesh::Gltf {
         file,
         beside,
@@ -61,11 +78,7 @@ pub(in crate::scene) fn build_mesh(
             left_out: model.left_out,
         });
     }
-    Ok(Built {
-        mesh: plain_mesh(name, mesh)?,
-        surface: OwnSurface::default(),
-        left_out: Vec::new(),
-    })
+    plain_mesh(name, mesh).map(plain)
 }
 
 fn plain_mesh(name: &str, mesh: &description::Mesh) -> Result<TriangleMesh, WorldError> {
@@ -93,10 +106,6 @@ fn plain_mesh(name: &str, mesh: &description::Mesh) -> Result<TriangleMesh, Worl
         description::Mesh::Terrain(terrain) => terrain.mesh().map_err(named),
         description::Mesh::Masonry(wall) => wall.mesh().map_err(named),
         description::Mesh::Gltf { .. } => unreachable!("it has colours and was built before"),
-        description::Mesh::Axes(axes) => {
-            let (positions, normals) = tube(axes);
-            TriangleMesh::new(positions, Some(normals), None, axes.triangles.clone()).map_err(named)
-        }
         description::Mesh::File { file, scale } => {
             let bytes = assets::read(file).map_err(|source| WorldError::Asset {
                 place: format!("meshes.{name}"),

@@ -5,8 +5,9 @@ use leafmodel::document::limits::Limits;
 use leafmodel::document::names::NameIn;
 use leafmodel::document::value_kind::Number;
 
+use crate::scene::authored::{self, Authored};
 use crate::scene::blocks::spectrum::SpectrumOf;
-use crate::scene::description::{Amount, Description, Incident, Instrument, Light, Spectrum};
+use crate::scene::description::{Amount, Incident, Instrument, Spectrum};
 use crate::spectrum::Curve;
 
 impl Incident {
@@ -96,13 +97,17 @@ fn is_dark(spectrum: &Spectrum) -> bool {
 }
 
 /// A light whose spectrum an instrument takes has one, with light in it.
-pub(in crate::scene::blocks) fn check_lights(scene: &Description, keys: &Keys<'_>) {
+pub(in crate::scene::blocks) fn check_lights(scene: &Authored, keys: &Keys<'_>) {
     for instrument in &scene.instruments {
         let incident = instrument.value.incident.as_ref();
         let light = incident.and_then(|incident| scene.lights.get(incident.light?));
         let Some(light) = light else { continue };
         let name = &light.name;
-        let problem = match spectrum_of(&light.value) {
+        let spectrum = match &light.value {
+            authored::Light::Single(light) => Some(light.relative_spectrum()),
+            authored::Light::Rig(_) => None,
+        };
+        let problem = match spectrum {
             None => format!("`{name}` is a rig of several lights"),
             Some(spectrum) if !covers_par(&spectrum) => {
                 format!("the spectrum of `{name}` does not cover 400 to 700 nm")
@@ -115,45 +120,5 @@ pub(in crate::scene::blocks) fn check_lights(scene: &Description, keys: &Keys<'_
         let kind = instrument.value.kind.word();
         let path = ["instruments", &instrument.name, kind, "incident", "light"];
         keys.refuse(&path, problem, "write a `spectrum` instead");
-    }
-}
-
-/// Takes the spectra of the lights that instruments name, before rigs change the numbers of lights.
-pub(in crate::scene::blocks) fn take_spectra(scene: &mut Description) {
-    let lights = &scene.lights;
-    for instrument in &mut scene.instruments {
-        let Some(incident) = &mut instrument.value.incident else {
-            continue;
-        };
-        let light = incident.light.and_then(|number| lights.get(number));
-        if let Some(spectrum) = light.and_then(|light| spectrum_of(&light.value)) {
-            incident.spectrum = spectrum;
-        }
-    }
-}
-
-/// The spectrum of a light, relative: of daylight, of sun and sky on a level plane. `None` of a rig.
-fn spectrum_of(light: &Light) -> Option<Spectrum> {
-    match light {
-        Light::Distant { irradiance, .. } | Light::Overcast { irradiance, .. } => {
-            Some(irradiance.clone())
-        }
-        Light::Constant { radiance } | Light::Area { radiance, .. } => Some(radiance.clone()),
-        Light::Environment { white, .. } => Some(white.clone()),
-        Light::Spot { intensity, .. } => Some(intensity.clone()),
-        Light::Daylight(day) => {
-            let (sun, sky) = day.lights();
-            let up = libm::sin(day.elevation);
-            let points = sun.irradiance().points().into_iter();
-            let points = points.map(|(nm, direct)| {
-                let diffuse = f64::from(sky.diffuse().at(nm as f32));
-                (nm, direct * up + diffuse)
-            });
-            Some(Spectrum::Table {
-                points: points.collect(),
-                extrapolate: true,
-            })
-        }
-        Light::Rig(_) => None,
     }
 }

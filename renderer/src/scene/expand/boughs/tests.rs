@@ -3,7 +3,7 @@ use std::path::Path;
 use glam::{DMat4, DVec3};
 use leafmodel::blade::senescence::AgeSource;
 
-use crate::scene::description::{Description, InstancePlace, Mesh, ObjectShape};
+use crate::scene::description::{Description, InstancePlace, ObjectShape, Shape};
 use crate::scene::load::parse;
 use crate::scene::world::World;
 
@@ -64,7 +64,7 @@ fn the_petiole_of_each_leaf_ends_in_the_axis_that_bears_it() {
     let ObjectShape::Mesh { mesh, .. } = object.shapes[0] else {
         panic!("the axes come first");
     };
-    let Mesh::Axes(axes) = &scene.meshes[mesh].value else {
+    let Shape::Body(axes) = &scene.meshes[mesh].value else {
         panic!("the mesh is that of the axes");
     };
     let world = World::build(&scene).expect("a good scene");

@@ -1,9 +1,9 @@
 //! Leaves of one kind that are not alike: individuals, and days of ageing.
 
 use leafmodel::blade::senescence::AgeSource;
-use leafmodel::document::keys::Keys;
 use leafmodel::document::names::Named;
 
+use super::{Fault, Planted};
 use crate::scene::description::{Description, Leaf, ObjectShape};
 
 /// A leaf, and others of its kind.
@@ -17,9 +17,8 @@ pub(super) fn individuals(leaf: &Leaf, count: u32) -> Vec<Leaf> {
         .collect()
 }
 
-/// Gives objects that are strewn the different leaves that they ask for; `keys` are those at the
-/// top of the file, to which what is wrong is reported.
-pub(in crate::scene) fn grow_apart(scene: &mut Description, keys: &Keys<'_>) {
+/// Gives objects that are strewn the different leaves that they ask for.
+pub(super) fn grow_apart(scene: &mut Description, planted: &Planted) -> Result<(), Fault> {
     for number in 0..scene.objects.len() {
         let object = &scene.objects[number];
         let Some(strewn) = &object.value.strewn else {
@@ -38,13 +37,13 @@ pub(in crate::scene) fn grow_apart(scene: &mut Description, keys: &Keys<'_>) {
             let mut leaves = individuals(&scene.leaves[leaf].value, count);
             if let Some(days) = days {
                 if let Some((problem, help)) = ageless(scene, &[leaf]) {
-                    keys.refuse(&["objects", &name, "scatter", "days"], problem, help);
-                    return;
+                    let path = &["objects", &name, "scatter", "days"];
+                    return Err(Fault::new(path, problem, help));
                 }
                 age(&mut leaves, days, |number| number);
             }
             // The first is the leaf itself, unless another object or place shows it at its own age.
-            let own = days.is_none() || users(scene, leaf) == 1;
+            let own = days.is_none() || users(scene, planted, leaf) == 1;
             for (number, value) in leaves.into_iter().enumerate() {
                 let leaf = if number == 0 && own {
                     scene.leaves[leaf].value = value;
@@ -61,6 +60,7 @@ pub(in crate::scene) fn grow_apart(scene: &mut Description, keys: &Keys<'_>) {
         }
         scene.objects[number].value.shapes = shapes;
     }
+    Ok(())
 }
 
 /// Why one of these leaves cannot have days of ageing, and what to do; `None` if all can.
@@ -105,15 +105,11 @@ pub(super) fn scattered_ranks(count: usize) -> impl Fn(usize) -> usize {
 }
 
 /// How often a leaf stands in objects and in plants that objects are.
-pub(super) fn users(scene: &Description, leaf: usize) -> usize {
+pub(super) fn users(scene: &Description, planted: &Planted, leaf: usize) -> usize {
     let shape = ObjectShape::Leaf { leaf };
     let objects = scene.objects.iter().flat_map(|object| &object.value.shapes);
-    let stands = |plant: usize| {
-        let mut objects = scene.objects.iter();
-        objects.any(|object| object.value.plant == Some(plant))
-    };
-    let plants = scene.plants.iter().enumerate();
-    let plants = plants.filter(|(number, _)| stands(*number));
+    let plants = planted.plants.iter().enumerate();
+    let plants = plants.filter(|(number, _)| planted.of_object.contains(&Some(*number)));
     let borne = plants.flat_map(|(_, plant)| {
         let perianth = plant.value.perianth.iter().flatten();
         plant.value.leaves.iter().chain(perianth)

@@ -1,7 +1,6 @@
 //! Plants of a scene as objects with instances: its leaves in their places, and its axes.
 //!
-//! After this nothing else has to know that a plant is one: the tracer and the exporters see leaves,
-//! a mesh and places.
+//! The tracer and the exporters see leaves, a mesh and places.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -9,16 +8,16 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 use leafmodel::blade::stalk::StalkMesh;
-use leafmodel::document::keys::Keys;
 use leafmodel::document::names::Named;
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plant::{Crumb, Foot, Organ, Plant as Grown, PlantError, Wall};
 
 use super::individuals::{age, ageless, individuals, scattered_ranks, users};
-use super::walls;
+use super::{Fault, Planted, walls};
 use crate::geometry::shapes::Lump;
+use crate::scene::authored::Plant;
 use crate::scene::description::{
-    Coat, Description, Held, InstancePlace, Leaf, Material, Mesh, ObjectShape, Plant, Reflectance,
+    Coat, Description, Held, InstancePlace, Leaf, Material, Mesh, ObjectShape, Reflectance, Shape,
     SolidOptics, Spectrum,
 };
 use crate::spectrum::library;
@@ -50,62 +49,42 @@ struct Parts {
     places: Vec<(u32, DAffine3)>,
 }
 
-/// Replaces the plants of all objects; `keys` are those at the top of the file, to which what is
-/// wrong is reported.
-pub(in crate::scene) fn place(scene: &mut Description, keys: &Keys<'_>) {
+/// Grows the plants of all objects, and gives these their shapes and places.
+pub(super) fn place(scene: &mut Description, planted: &Planted) -> Result<(), Fault> {
     // What climbs on an object has a shape of its own in each place.
     let mut known: BTreeMap<(usize, Option<usize>), Parts> = BTreeMap::new();
-    for number in 0..scene.objects.len() {
-        let Some(plant) = scene.objects[number].value.plant else {
+    for (number, plant) in planted.of_object.iter().enumerate() {
+        let Some(plant) = *plant else {
             continue;
         };
-        let climbs = !scene.plants[plant].value.walls.is_empty();
+        let Named { name, value } = &planted.plants[plant];
+        let climbs = !value.walls.is_empty();
         let parts = match known.entry((plant, climbs.then_some(number))) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(place) => {
-                let Named { name, value } = scene.plants[plant].clone();
-                let wall = match walls::of(scene, &value, number) {
-                    Ok(wall) => wall,
-                    Err((key, problem, help)) => {
-                        keys.refuse(&["plants", &name, key], problem, help);
-                        return;
-                    }
-                };
                 let own = if climbs {
                     format!("{name}.{}", scene.objects[number].name)
                 } else {
                     name.clone()
                 };
+                let fault = |key, problem, help| Fault::new(&["plants", name, key], problem, help);
+                let wall = walls::of(scene, planted, value, number)
+                    .map_err(|(key, problem, help)| fault(key, problem, help))?;
                 if value.days.is_some()
                     && let Some((problem, help)) = ageless(scene, &value.leaves)
                 {
-                    keys.refuse(&["plants", &name, "days"], problem, help);
-                    return;
+                    return Err(fault("days", problem, help));
                 }
-                match parts(scene, &own, &value, wall.as_ref()) {
-                    Ok((parts, crossing)) => {
-                        scene.plants[plant].value.crossing = crossing;
-                        place.insert(parts)
-                    }
-                    Err(error) => {
-                        let (key, help) = match error {
-                            PlantError::NotBorne(_) | PlantError::NoLeaf => {
-                                ("leaf", "let it bear another leaf")
-                            }
-                            PlantError::Bent(_) => ("length_mm", "let its axes bend less"),
-                            PlantError::NoPot => ("pot", "make the pot wider"),
-                            PlantError::TooLarge if value.plan.relief.is_some() => (
-                                "relief",
-                                "use a longer `edge_mm`, or fewer nodes or branches",
-                            ),
-                            PlantError::OutOfRange { .. }
-                            | PlantError::NoRoom { .. }
-                            | PlantError::TooLarge => ("nodes", "use fewer nodes or branches"),
-                        };
-                        keys.refuse(&["plants", &name, key], error.to_string(), help);
-                        return;
-                    }
-                }
+                let (parts, crossing) = parts(scene, planted, (&own, value), wall.as_ref())
+                    .map_err(|error| {
+                        let (key, help) = remedy(&error, value);
+                        fault(key, error.to_string(), help)
+                    })?;
+                scene.crossing.extend(crossing.map(|value| Named {
+                    name: name.clone(),
+                    value,
+                }));
+                place.insert(parts)
             }
         };
         let object = &mut scene.objects[number].value;
@@ -114,18 +93,14 @@ pub(in crate::scene) fn place(scene: &mut Description, keys: &Keys<'_>) {
             Some(places) => places.iter().map(InstancePlace::matrix).collect(),
         };
         if stands.len() * parts.places.len() > MOST_PLACES {
-            let name = scene.objects[number].name.clone();
+            let name = &scene.objects[number].name;
             let problem = format!(
                 "{} plants of {} parts are more than {MOST_PLACES} places",
                 stands.len(),
                 parts.places.len()
             );
-            keys.refuse(
-                &["objects", &name, "instances"],
-                problem,
-                "use fewer places",
-            );
-            return;
+            let path = &["objects", name, "instances"];
+            return Err(Fault::new(path, problem, "use fewer places"));
         }
         let placed = stands.iter().flat_map(|stand| {
             let places = parts.places.iter();
@@ -134,14 +109,31 @@ pub(in crate::scene) fn place(scene: &mut Description, keys: &Keys<'_>) {
         object.instances = Some(placed.collect());
         object.shapes.clone_from(&parts.shapes);
     }
+    Ok(())
+}
+
+/// The key that is wrong where a plant cannot be grown, and what to do.
+fn remedy(error: &PlantError, plant: &Plant) -> (&'static str, &'static str) {
+    match error {
+        PlantError::NotBorne(_) | PlantError::NoLeaf => ("leaf", "let it bear another leaf"),
+        PlantError::Bent(_) => ("length_mm", "let its axes bend less"),
+        PlantError::NoPot => ("pot", "make the pot wider"),
+        PlantError::TooLarge if plant.plan.relief.is_some() => (
+            "relief",
+            "use a longer `edge_mm`, or fewer nodes or branches",
+        ),
+        PlantError::OutOfRange { .. } | PlantError::NoRoom { .. } | PlantError::TooLarge => {
+            ("nodes", "use fewer nodes or branches")
+        }
+    }
 }
 
 /// Grows a plant and adds its leaves, its axes and their bark to the scene; also how many leaves cut
-/// something, of how many.
+/// something, of how many, if any do.
 fn parts(
     scene: &mut Description,
-    name: &str,
-    plant: &Plant,
+    planted: &Planted,
+    (name, plant): (&str, &Plant),
     wall: Option<&Wall>,
 ) -> Result<(Parts, Option<[usize; 2]>), PlantError> {
     let mut kinds = plant.leaves.clone();
@@ -179,13 +171,14 @@ fn parts(
         add_crumbs(scene, &mut parts, (name, soil), &grown.crumbs);
     }
     add_leaves(
-        scene,
+        (scene, planted),
         &mut parts,
         name,
         (&kinds, plant.leaves.len(), &individuals),
         &grown,
     );
-    let crossing = grown.crossing.map(|some| [some, grown.leaves.len()]);
+    let crossing = grown.crossing.filter(|some| *some > 0);
+    let crossing = crossing.map(|some| [some, grown.leaves.len()]);
     Ok((parts, crossing))
 }
 
@@ -249,13 +242,13 @@ fn add_crumbs(
     for shape in 0..CRUMB_SHAPES {
         scene.meshes.push(Named {
             name: format!("{name}.crumb.{shape}"),
-            value: Mesh::Lump(Lump {
+            value: Shape::Mesh(Mesh::Lump(Lump {
                 radius: 1e-3,
                 angularity: 0.35,
                 irregularity: 0.5,
                 segments: 18,
                 seed: u64::from(shape),
-            }),
+            })),
         });
         let mesh = scene.meshes.len() - 1;
         parts.shapes.push(ObjectShape::Mesh { mesh, material });
@@ -272,7 +265,7 @@ fn add_crumbs(
 
 /// Adds the leaves of a plant, each individual once; the first `borne` kinds are no sepals or petals.
 fn add_leaves(
-    scene: &mut Description,
+    (scene, planted): (&mut Description, &Planted),
     parts: &mut Parts,
     name: &str,
     (kinds, borne, individuals): (&[usize], usize, &[Vec<Leaf>]),
@@ -287,7 +280,7 @@ fn add_leaves(
                 let value = individuals[leaf.kind][leaf.individual as usize].clone();
                 // The first individual is the leaf itself, unless something else shows that at its own age.
                 let own = value.plan.senescence == scene.leaves[kind].value.plan.senescence
-                    || users(scene, kind) == 1;
+                    || users(scene, planted, kind) == 1;
                 let number = if leaf.individual == 0 && own {
                     scene.leaves[kind].value = value;
                     kind
@@ -334,7 +327,7 @@ fn add_body(
 ) {
     scene.meshes.push(Named {
         name,
-        value: Mesh::Axes(Arc::new(body)),
+        value: Shape::Body(Arc::new(body)),
     });
     let mesh = scene.meshes.len() - 1;
     let shape = parts.shapes.len() as u32;

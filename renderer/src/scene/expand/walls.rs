@@ -3,7 +3,9 @@
 use glam::{DMat4, DVec3};
 use leafmodel::plant::Wall;
 
-use crate::scene::description::{Description, ObjectShape, Plant};
+use super::Planted;
+use crate::scene::authored::Plant;
+use crate::scene::description::{Description, ObjectShape};
 use crate::scene::model::Wanted;
 use crate::scene::world::meshes::build_mesh;
 
@@ -11,7 +13,12 @@ use crate::scene::world::meshes::build_mesh;
 type Fault = (&'static str, String, &'static str);
 
 /// The wall of the plant that is this object; none if it climbs on none that is given.
-pub(super) fn of(scene: &Description, plant: &Plant, object: usize) -> Result<Option<Wall>, Fault> {
+pub(super) fn of(
+    scene: &Description,
+    planted: &Planted,
+    plant: &Plant,
+    object: usize,
+) -> Result<Option<Wall>, Fault> {
     let Some(climbing) = plant.plan.climbing.filter(|_| !plant.walls.is_empty()) else {
         return Ok(None);
     };
@@ -26,18 +33,23 @@ pub(super) fn of(scene: &Description, plant: &Plant, object: usize) -> Result<Op
     let to_plant = stands.value.to_world.inverse();
     let mut triangles = Vec::new();
     for &wall in &plant.walls {
-        triangles.extend(surface(scene, wall, to_plant)?);
+        triangles.extend(surface(scene, planted, wall, to_plant)?);
     }
     Ok(Some(Wall::of(&triangles, climbing.away)))
 }
 
 /// The triangles of an object that is a mesh in one place, in the plant's frame, mm.
-fn surface(scene: &Description, object: usize, to_plant: DMat4) -> Result<Vec<[DVec3; 3]>, Fault> {
+fn surface(
+    scene: &Description,
+    planted: &Planted,
+    object: usize,
+    to_plant: DMat4,
+) -> Result<Vec<[DVec3; 3]>, Fault> {
     let fault = |problem: String, help| Err(("wall", problem, help));
     let wall = &scene.objects[object];
     let (&[ObjectShape::Mesh { mesh, .. }], None, None, false) = (
         wall.value.shapes.as_slice(),
-        wall.value.plant,
+        planted.of_object[object],
         &wall.value.instances,
         wall.value.is_spread(),
     ) else {

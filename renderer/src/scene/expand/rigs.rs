@@ -1,6 +1,6 @@
 //! Lights that stand as photographers set them up, as lights and objects of the scene.
 //!
-//! After this nothing else has to know of rigs. Soft boxes are rectangles with area lights, all
+//! Soft boxes are rectangles with area lights, all
 //! sizes and distances are multiples of the subject's size, and the light's level is that of a
 //! picture with the exposure 0: a level sheet at the subject gets [`ON_PAPER`].
 
@@ -11,9 +11,10 @@ use leafmodel::document::names::Named;
 
 use crate::light::daylight::Daylight;
 use crate::light::pattern::Pattern;
+use crate::scene::authored::{self, Rig, RigPreset};
 use crate::scene::description::{
-    AreaPattern, Description, Light, Material, Mesh, Object, ObjectShape, Reflectance, Rig,
-    RigPreset, Spectrum,
+    AreaPattern, Description, Light, Material, Mesh, Object, ObjectShape, Reflectance, Shape,
+    Spectrum,
 };
 
 /// Irradiance of a level sheet at the subject, of D65, W m⁻² nm⁻¹ at 560 nm. With the tone
@@ -215,50 +216,42 @@ pub(in crate::scene) fn of_part(light: &str) -> Option<&str> {
     light.split_once('.').map(|(rig, _)| rig)
 }
 
-/// Replaces the rigs of a scene by their lights and objects.
-pub(in crate::scene) fn set_up(scene: &mut Description) {
-    let written = std::mem::take(&mut scene.lights);
-    for light in written {
-        if let Light::Rig(rig) = &light.value {
-            let stage = Stage::new(scene, rig);
-            let level = ON_PAPER * libm::exp2(rig.ev);
-            match rig.preset {
-                RigPreset::Studio | RigPreset::Tent | RigPreset::Lightbox => {
-                    build(scene, &light.name, rig.preset, &stage, level);
-                }
-                RigPreset::Overcast => add(
-                    scene,
-                    &light.name,
-                    "sky",
-                    Light::Overcast {
-                        irradiance: Spectrum::D65 { scale: level },
-                        ground_albedo: 0.2,
-                    },
-                ),
-                RigPreset::GoldenHour => {
-                    // Before the camera, to the left: leaves are lit from behind.
-                    let day = day(6.0, stage.azimuth + 40_f64.to_radians(), 3.5);
-                    add(
-                        scene,
-                        &light.name,
-                        "day",
-                        Light::Daylight(levelled(day, level)),
-                    );
-                }
-                RigPreset::ForestEdge => {
-                    // The forest stands behind the subject; the sun on the open side, high.
-                    let mut day = day(40.0, stage.azimuth + 1.25 * FRAC_PI_2, 2.5);
-                    day.forest = Some(stage.azimuth);
-                    add(
-                        scene,
-                        &light.name,
-                        "day",
-                        Light::Daylight(levelled(day, level)),
-                    );
-                }
+/// Adds lights to a scene, of a rig its lights and objects.
+pub(super) fn set_up(scene: &mut Description, lights: Vec<Named<authored::Light>>) {
+    for Named { name, value } in lights {
+        let rig = match value {
+            authored::Light::Single(value) => {
+                scene.lights.push(Named { name, value });
+                continue;
             }
-        } else {
-            scene.lights.push(light);
+            authored::Light::Rig(rig) => rig,
+        };
+        let stage = Stage::new(scene, &rig);
+        let level = ON_PAPER * libm::exp2(rig.ev);
+        match rig.preset {
+            RigPreset::Studio | RigPreset::Tent | RigPreset::Lightbox => {
+                build(scene, &name, rig.preset, &stage, level);
+            }
+            RigPreset::Overcast => add(
+                scene,
+                &name,
+                "sky",
+                Light::Overcast {
+                    irradiance: Spectrum::D65 { scale: level },
+                    ground_albedo: 0.2,
+                },
+            ),
+            RigPreset::GoldenHour => {
+                // Before the camera, to the left: leaves are lit from behind.
+                let day = day(6.0, stage.azimuth + 40_f64.to_radians(), 3.5);
+                add(scene, &name, "day", Light::Daylight(levelled(day, level)));
+            }
+            RigPreset::ForestEdge => {
+                // The forest stands behind the subject; the sun on the open side, high.
+                let mut day = day(40.0, stage.azimuth + 1.25 * FRAC_PI_2, 2.5);
+                day.forest = Some(stage.azimuth);
+                add(scene, &name, "day", Light::Daylight(levelled(day, level)));
+            }
         }
     }
 }
@@ -335,10 +328,10 @@ fn hang(
     let size = panel.size * stage.size;
     scene.meshes.push(Named {
         name: name.clone(),
-        value: Mesh::Rectangle {
+        value: Shape::Mesh(Mesh::Rectangle {
             width: size.x,
             height: size.y,
-        },
+        }),
     });
     let shape = ObjectShape::Mesh {
         mesh: scene.meshes.len() - 1,
