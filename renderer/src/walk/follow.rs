@@ -118,43 +118,39 @@ pub(crate) trait Walk<'w, const N: usize, F> {
     ) {
         let world = self.world();
         while event < world.integrator.max_events {
-            let met = if world.media.are_present {
-                self.fly(leg, passage.as_mut(), event, stream, found)
+            let hit = if world.media.are_present {
+                match self.fly(leg, passage.as_mut(), event, stream, found) {
+                    Met::Surface(hit) => hit,
+                    Met::Medium(collision) => {
+                        if !self.collides(leg, &mut passage, &collision, event, stream, found) {
+                            return;
+                        }
+                        event += u32::from(!Self::COUNTS_FLIGHTS);
+                        continue;
+                    }
+                    Met::Nothing => return self.leaves(leg, &mut passage, found),
+                    Met::Unknown => break,
+                }
             } else {
                 let (ahead, moved) = self.next(&mut leg.ray, [0.0, f32::INFINITY], event, found);
+                leg.cone = leg.cone.from(moved);
                 match ahead {
-                    Ahead::Hit(hit) => {
-                        leg.cone = leg.cone.from(moved);
-                        Met::Surface(hit)
+                    Ahead::Hit(hit) => hit,
+                    Ahead::Nothing | Ahead::End(_) => {
+                        return self.leaves(leg, &mut passage, found);
                     }
-                    Ahead::Nothing | Ahead::End(_) => Met::Nothing,
-                    Ahead::Unknown => Met::Unknown,
+                    Ahead::Unknown => break,
                 }
             };
-            let continues = match met {
-                Met::Surface(hit) => {
-                    let (geometry, objects) = self.scenery();
-                    let material = &world.materials[objects[hit.instance as usize].material];
-                    let beam = (&leg.ray, &leg.cone);
-                    let mut encounter =
-                        Encounter::new(geometry, material, beam, &hit, self.wavelengths());
-                    let met = (material, &mut encounter, &hit);
-                    let continues = self.meets(leg, &mut passage, met, event, stream, found);
-                    event += 1;
-                    continues
-                }
-                Met::Medium(collision) => {
-                    let continues =
-                        self.collides(leg, &mut passage, &collision, event, stream, found);
-                    event += u32::from(!Self::COUNTS_FLIGHTS);
-                    continues
-                }
-                Met::Nothing => return self.leaves(leg, &mut passage, found),
-                Met::Unknown => break,
-            };
-            if !continues {
+            let (geometry, objects) = self.scenery();
+            let material = &world.materials[objects[hit.instance as usize].material];
+            let beam = (&leg.ray, &leg.cone);
+            let mut encounter = Encounter::new(geometry, material, beam, &hit, self.wavelengths());
+            let met = (material, &mut encounter, &hit);
+            if !self.meets(leg, &mut passage, met, event, stream, found) {
                 return;
             }
+            event += 1;
         }
         self.cut(leg, &mut passage, found);
     }
