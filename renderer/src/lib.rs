@@ -75,6 +75,7 @@ pub mod bsdf;
 pub mod camera;
 pub mod checkpoint;
 pub mod cli;
+mod codec;
 pub mod export;
 pub mod film;
 pub mod geometry;

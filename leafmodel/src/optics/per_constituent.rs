@@ -2,11 +2,12 @@
 
 use std::fmt;
 use std::ops::{Index, IndexMut};
+use serde::{Deserialize, Serialize};
 
 use super::constituent::Constituent;
 
 /// A value for each [`Constituent`], found by it: `absorption[Constituent::Water]`.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Deserialize, Eq, Hash, PartialEq, Serialize)]
 #[repr(transparent)]
 pub struct PerConstituent<T>([T; Constituent::COUNT]);
 
