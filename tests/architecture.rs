@@ -250,7 +250,7 @@ fn leaves_are_grown_behind_one_seam() {
         "solid",
         "tracing",
     ];
-    const SEAM: [&str; 13] = [
+    const SEAM: [&str; 18] = [
         "scene/plants",
         "scene/expand/boughs",
         "scene/expand/individuals",
@@ -262,6 +262,11 @@ fn leaves_are_grown_behind_one_seam() {
         "cli/compare_networks",
         "cli/fit_veins",
         "cli/trace",
+        "comparison",
+        "report",
+        "export/blade",
+        "export/daylight",
+        "export/sheet",
         "export/drawing",
         "export/overlay",
     ];

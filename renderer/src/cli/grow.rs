@@ -15,7 +15,6 @@ mod maps;
 mod outputs;
 mod warnings;
 
-use std::io::Write as _;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -39,10 +38,10 @@ use self::grown::Grown;
 use self::outputs::{Kind, Outputs};
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::GrowArguments;
+use crate::cli::places::write_whole;
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, needs, say, stats};
-use crate::image::atomic;
+use crate::cli::{Failure, needs, on_threads, say, stats};
 
 pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     if arguments.list {
@@ -94,14 +93,7 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
             started,
         )
     };
-    match arguments.threads {
-        None => work(),
-        Some(threads) => rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.into())
-            .build()
-            .map_err(Failure::system)?
-            .install(work),
-    }
+    on_threads(arguments.threads, work)
 }
 
 /// Fails if the growth of a leaf needs more memory than `allowed`; a blade is made and painted only
@@ -317,11 +309,7 @@ fn finish(path: &Path, bytes: &[u8], stop: &AtomicBool) -> Result<(), Failure> {
     if stop.load(Ordering::Relaxed) {
         return Err(Failure::Interrupted);
     }
-    write(path, bytes)?;
+    write_whole(path, bytes)?;
     say(path.display());
     Ok(())
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    atomic::replace(path, |file| file.write_all(bytes)).map_err(Failure::system)
 }

@@ -1,13 +1,12 @@
 //! Times, memory and speed, for people and for scripts.
 
-use std::io::Write as _;
 use std::path::Path;
 
 use serde_json::Value;
 
 use crate::checkpoint::PROGRAM;
 use crate::cli::Failure;
-use crate::image::atomic;
+use crate::cli::places::write_whole;
 
 /// Greatest resident memory of this process so far, MiB; `None` where the system does not report
 /// it.
@@ -24,6 +23,5 @@ pub(super) fn write(path: &Path, stats: &Value) -> Result<(), Failure> {
     if let Some(members) = stats.as_object_mut() {
         members.insert("program".to_owned(), PROGRAM.into());
     }
-    let text = format!("{stats:#}\n");
-    atomic::replace(path, |file| file.write_all(text.as_bytes())).map_err(Failure::system)
+    write_whole(path, format!("{stats:#}\n"))
 }

@@ -12,9 +12,8 @@ mod table;
 mod tasks;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Write as _;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -29,7 +28,6 @@ use self::tasks::{hexadecimal, words_of};
 use crate::cli::arguments::{SweepArguments, file_and_leaf};
 use crate::cli::signals::Signals;
 use crate::cli::{Failure, check_writable, grow, say, stats};
-use crate::image::atomic;
 use crate::sweep::{Sweep, Target, Words, is_sweep_file};
 
 pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
@@ -336,9 +334,4 @@ impl Outcome {
         }
         Ok(())
     }
-}
-
-/// Writes bytes whole or not at all.
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    atomic::replace(path, |file| file.write_all(bytes)).map_err(Failure::system)
 }

@@ -17,6 +17,7 @@ use rayon::prelude::*;
 
 use super::free::Grower;
 use crate::cli::Failure;
+use crate::cli::places::write_whole;
 use crate::cli::signals::Signals;
 
 /// Time between two lines about the progress, and between two writings of the table.
@@ -113,7 +114,7 @@ impl<'p> Simulations<'p> {
         eprintln!("{done} of {all} leaves, about {left:.0} s to go");
         // The last writing, when all is done, tells what is wrong.
         if let Ok(bytes) = self.table(&known.grown) {
-            let _ = super::write(&self.path, &bytes);
+            let _ = write_whole(&self.path, &bytes);
         }
     }
 
@@ -124,7 +125,7 @@ impl<'p> Simulations<'p> {
     /// Writes the table.
     pub(super) fn save(&self) -> Result<(), Failure> {
         let known = self.known();
-        super::write(&self.path, &self.table(&known.grown)?)
+        write_whole(&self.path, &self.table(&known.grown)?)
     }
 
     fn table(&self, grown: &Grown) -> Result<Vec<u8>, Failure> {

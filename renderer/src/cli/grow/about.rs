@@ -7,8 +7,8 @@ use leafmodel::species::leaf_traits::{LeafTraits, Provenance, Quantity, traits};
 
 use super::choice::{is_word, unknown_preset};
 use crate::cli::arguments::file_and_leaf;
-use crate::cli::columns::in_columns;
 use crate::cli::{Failure, say};
+use crate::report::table::in_columns;
 
 /// Prints a preset's description and, if it stands for a species, the table of its traits.
 pub(super) fn tell(name: &str) -> Result<(), Failure> {

@@ -3,7 +3,7 @@
 use leafmodel::optics::Pigments;
 use leafmodel::optics::layers::Anatomy;
 
-use crate::cli::columns::in_columns;
+use crate::report::table::in_columns;
 
 /// Every figure with its unit, reliability and source.
 pub(super) fn table() -> String {

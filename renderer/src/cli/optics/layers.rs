@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::bsdf::leaf::usual_abaxial_ratio;
 use crate::checkpoint::PROGRAM;
-use crate::cli::columns::in_columns;
+use crate::report::table::in_columns;
 use crate::spectrum::Lanes;
 
 /// Wavelengths, nm, at which the faces of broad leaves were compared by measurement.

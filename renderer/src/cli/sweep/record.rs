@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 
 use super::tasks::hexadecimal;
 use crate::checkpoint::PROGRAM;
+use crate::cli::places::write_whole;
 use crate::image::{Layer, openexr};
 use crate::sweep::{Sweep, Target, Task};
 
@@ -104,7 +105,7 @@ impl Record {
             "outputs": outputs,
         });
         let text = format!("{record:#}\n");
-        super::write(&folder.join(Self::name(self.identity)), text.as_bytes())
+        write_whole(&folder.join(Self::name(self.identity)), text.as_bytes())
             .map_err(|_| "the record cannot be written".to_owned())
     }
 

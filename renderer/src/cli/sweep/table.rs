@@ -9,6 +9,7 @@ use super::record::Record;
 use super::tasks::hexadecimal;
 use crate::checkpoint::PROGRAM;
 use crate::cli::Failure;
+use crate::cli::places::write_whole;
 use crate::sweep::{Sweep, Task};
 
 /// Whether a task is done.
@@ -74,5 +75,5 @@ pub(super) fn write(path: &Path, sweep: &Sweep, rows: &[Row<'_>]) -> Result<(), 
         table.write_record(&cells).map_err(unwritten)?;
     }
     let bytes = table.into_inner().map_err(Failure::system)?;
-    super::write(path, &bytes)
+    write_whole(path, &bytes)
 }

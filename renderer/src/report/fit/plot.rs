@@ -14,7 +14,7 @@ const LARGER: f64 = 10.0;
 
 /// One panel a leaf: R from below in green, 1 − T from above in blue; points are measured, lines
 /// fitted. Below, what is left, ten times larger.
-pub(super) fn svg(fitted: &[Fitted<'_>]) -> String {
+pub(crate) fn svg(fitted: &[Fitted<'_>]) -> String {
     let drawn = &fitted[..fitted.len().min(MOST_LEAVES)];
     let mut canvas = Canvas::new([SIZE[0], SIZE[1] * drawn.len() as f64]);
     for (number, fitted) in drawn.iter().enumerate() {

@@ -1,14 +1,14 @@
-//! What was found as JSON.
+//! Findings of a comparison as JSON, from which its page and its tables are made.
 
 use leafmodel::measure::comparison::{Effect, Summary};
 use serde_json::{Value, json};
 
-use super::Findings;
-use super::compared::{Contrast, SpreadContrast, Tested};
 use crate::checkpoint::PROGRAM;
+use crate::comparison::Findings;
+use crate::comparison::compared::{Contrast, SpreadContrast, Tested};
 
 /// All numbers, and the values of each leaf.
-pub(super) fn json(findings: &Findings) -> Value {
+pub(crate) fn json(findings: &Findings) -> Value {
     let compared = &findings.compared;
     let leaves = findings.leaves.iter().map(|leaf| {
         json!({

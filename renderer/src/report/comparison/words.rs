@@ -2,18 +2,18 @@
 
 use leafmodel::measure::comparison::Effect;
 
-use super::Findings;
-use super::compared::{LEVEL, Tested};
-use crate::cli::columns::in_columns;
+use crate::comparison::Findings;
+use crate::comparison::compared::{LEVEL, Tested};
 use crate::plot::short;
+use crate::report::table::in_columns;
 
 /// The name of a measure with its part.
-pub(super) fn label(key: &str, part: Option<usize>) -> String {
+pub(crate) fn label(key: &str, part: Option<usize>) -> String {
     part.map_or_else(|| key.to_owned(), |part| format!("{key} {part}"))
 }
 
 /// A p-value as people write it.
-pub(super) fn shown_p(p: f64) -> String {
+pub(crate) fn shown_p(p: f64) -> String {
     if p < 0.0001 {
         "< 0.0001".to_owned()
     } else if p < 0.01 {
@@ -28,7 +28,7 @@ fn dash() -> String {
 }
 
 /// The table for a person, a part for each pair.
-pub(super) fn text(findings: &Findings) -> String {
+pub(crate) fn text(findings: &Findings) -> String {
     let mut parts = Vec::new();
     for (number, pair) in findings.compared.pairs.iter().enumerate() {
         let names = pair.map(|group| findings.groups[group].as_str());
@@ -48,7 +48,7 @@ pub(super) fn text(findings: &Findings) -> String {
 }
 
 /// The test of means that there is between two groups.
-pub(super) fn test_of_means(findings: &Findings, pair: [usize; 2]) -> &'static str {
+pub(crate) fn test_of_means(findings: &Findings, pair: [usize; 2]) -> &'static str {
     if pair.into_iter().any(|group| findings.size(group) == 1) {
         "one among p"
     } else {
@@ -123,7 +123,7 @@ fn grouped(findings: &Findings, number: usize, pair: [usize; 2], names: [&str; 2
 }
 
 /// An effect with its interval.
-pub(super) fn shown_effect(effect: Effect) -> String {
+pub(crate) fn shown_effect(effect: Effect) -> String {
     let [low, high] = effect.interval;
     let two = |value: f64| {
         if value.abs() < 100.0 {
@@ -192,7 +192,7 @@ fn spreads(findings: &Findings, number: usize, pair: [usize; 2], names: [&str; 2
 }
 
 /// What remains after the correction, in words; a line for each kind of test.
-pub(super) fn conclusions(findings: &Findings) -> Vec<String> {
+pub(crate) fn conclusions(findings: &Findings) -> Vec<String> {
     let compared = &findings.compared;
     let contrasts = || {
         compared

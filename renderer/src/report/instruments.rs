@@ -1,19 +1,32 @@
-//! Figures as tables.
+//! Figures of instruments: CSV, JSON and charts.
 
-use std::fmt::Write as _;
+mod plot;
 
 use serde_json::{Value, json};
 
+pub(crate) use self::plot::svg;
+use super::table::{Table, cell};
 use crate::checkpoint::PROGRAM;
 use crate::instruments::{Budget, CutPaths, Direction, Row, Target, ViewAngles};
 use crate::scene::description::Description;
 
 /// A row for each figure.
-pub(super) fn csv(rows: &[Row]) -> String {
-    let mut text = String::from(
-        "instrument,quantity,part,face,incidence_deg,view_zenith_deg,view_azimuth_deg,\
-         depth_um,band,wavelength_nm,value,standard_error,unit\n",
-    );
+pub(crate) fn csv(rows: &[Row]) -> String {
+    let mut table = Table::new([
+        "instrument",
+        "quantity",
+        "part",
+        "face",
+        "incidence_deg",
+        "view_zenith_deg",
+        "view_azimuth_deg",
+        "depth_um",
+        "band",
+        "wavelength_nm",
+        "value",
+        "standard_error",
+        "unit",
+    ]);
     for row in rows {
         let [zenith, azimuth] = view_of(row);
         // Shares of the incident flux are of the order of 1, other figures of any.
@@ -21,25 +34,23 @@ pub(super) fn csv(rows: &[Row]) -> String {
             "1" => format!("{:.9}", row.value),
             _ => format!("{:.8e}", row.value),
         };
-        // Writing to a String cannot fail.
-        let _ = writeln!(
-            text,
-            "{},{},{},{},{},{},{},{},{},{},{value},{:.3e},{}",
-            row.instrument,
-            row.quantity,
-            row.part.as_deref().unwrap_or(""),
-            row.face.unwrap_or(""),
-            row.incidence,
-            shown(zenith),
-            shown(azimuth),
-            shown(row.depth_um),
-            row.band.as_deref().unwrap_or(""),
-            shown(row.wavelength_nm),
-            row.error,
-            row.unit,
-        );
+        table.row([
+            row.instrument.clone(),
+            row.quantity.to_owned(),
+            cell(row.part.as_ref()),
+            cell(row.face),
+            row.incidence.to_string(),
+            cell(zenith),
+            cell(azimuth),
+            cell(row.depth_um),
+            cell(row.band.as_ref()),
+            cell(row.wavelength_nm),
+            value,
+            format!("{:.3e}", row.error),
+            row.unit.to_owned(),
+        ]);
     }
-    text
+    table.text()
 }
 
 /// Zenith angle and azimuth of the detector, degrees.
@@ -48,14 +59,9 @@ fn view_of(row: &Row) -> [Option<f64>; 2] {
     [0, 1].map(|axis| degrees.map(|degrees| degrees[axis]))
 }
 
-/// A number, or nothing.
-fn shown(number: Option<f64>) -> String {
-    number.map(|number| number.to_string()).unwrap_or_default()
-}
-
 /// The figures, and what they were measured with; `is_complete` says whether all instruments have
 /// followed all of their rays.
-pub(super) fn json(
+pub(crate) fn json(
     scene: &Description,
     budget: &Budget,
     (rows, cuts): (&[Row], &[(String, CutPaths)]),

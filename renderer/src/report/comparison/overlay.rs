@@ -7,15 +7,14 @@ use leafmodel::export::runs::Runs;
 use leafmodel::shape::outline::Outline;
 use leafmodel::venation::areole::areoles;
 use leafmodel::venation::network::VenationNetwork;
+use thiserror::Error;
 
-use super::leaves::{Leaf, Shown};
-use super::page::hue;
-use crate::cli::Failure;
-use crate::cli::arguments::Alignment;
+use crate::comparison::leaves::{Leaf, Shown};
 use crate::plot::{Anchor, Canvas, short};
+use crate::report::page::hue;
 
 /// Overlays in one report.
-pub(super) const MOST: usize = 6;
+pub(crate) const MOST: usize = 6;
 /// Longer side of the drawing, and the space around it, pixels.
 const SIDE: f64 = 900.0;
 const SPACE: f64 = 12.0;
@@ -27,6 +26,22 @@ const HAIR: f64 = 0.6;
 const NEAR: f64 = 0.4;
 /// Lines whose widths differ by less than this share are drawn as one.
 const CLASS: f64 = 1.25;
+
+/// How one network is laid over another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Alignment {
+    /// As the files have them
+    AsGiven,
+    /// Turned, scaled and moved so that base and apex fall together
+    BaseAndApex,
+    /// Scaled and moved so that centroids and areas of the blades are the same
+    CentroidAndArea,
+}
+
+/// A leaf by whose margin two networks cannot be aligned.
+#[derive(Debug, Error)]
+#[error("--align: {0} has no margin of one piece; give one by --outline, or --align as-given")]
+pub(crate) struct NoMargin(String);
 
 /// A similarity of the plane: `p ↦ turn · p + shift`, as complex numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,16 +81,16 @@ impl Similarity {
 }
 
 /// A drawing, and what there is to say of it.
-pub(super) struct Overlay {
-    pub(super) figure: String,
-    pub(super) caption: String,
+pub(crate) struct Overlay {
+    pub(crate) figure: String,
+    pub(crate) caption: String,
 }
 
 /// Draws the veins of the second leaf over those of the first.
-pub(super) fn overlay(
+pub(crate) fn overlay(
     leaves: [&Leaf; 2],
     wanted: Option<Alignment>,
-) -> Result<Option<Overlay>, Failure> {
+) -> Result<Option<Overlay>, NoMargin> {
     let [Some(first), Some(second)] = leaves.map(|leaf| leaf.shown.as_ref()) else {
         return Ok(None);
     };
@@ -136,7 +151,7 @@ fn aligned(
     leaves: [&Leaf; 2],
     shown: [&Shown; 2],
     wanted: Option<Alignment>,
-) -> Result<(Similarity, String), Failure> {
+) -> Result<(Similarity, String), NoMargin> {
     let margins = shown.map(|leaf| match leaf.outlines.as_slice() {
         [outline] => Some(outline),
         _ => None,
@@ -153,9 +168,7 @@ fn aligned(
             .zip(&margins)
             .find(|(_, margin)| margin.is_none());
         let name = lacking.map_or("a leaf", |(leaf, _)| leaf.name.as_str());
-        Failure::bad(format!(
-            "--align: {name} has no margin of one piece; give one by --outline, or --align as-given"
-        ))
+        NoMargin(name.to_owned())
     };
     let turned = |map: Similarity| {
         let degrees = libm::atan2(map.turn.y, map.turn.x).to_degrees();

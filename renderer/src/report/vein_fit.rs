@@ -1,14 +1,14 @@
-//! What a fit has found, as files and as a table.
+//! Parameters of growth that were found from measures: CSV, JSON, a drawing, and words.
 
-use csv::Writer;
+mod picture;
+
 use leafmodel::inference::{
     Correlation, Fit, Identified, Parameter, Prediction, Problem, Role, Told,
 };
 use serde_json::{Map, Value, json};
 
-use crate::cli::Failure;
-use crate::cli::arguments::FitVeinsArguments;
-use crate::cli::columns::in_columns;
+pub(crate) use self::picture::marginals;
+use super::table::{Table, in_columns};
 use crate::plot;
 
 /// A fitted measure with less than this share of what is foretold on one side of it is missed.
@@ -18,27 +18,18 @@ const BESIDE: f64 = 0.1;
 const FEW: f64 = 50.0;
 
 /// The posterior: a column for each free key, and the weight of each row.
-pub(super) fn sample(problem: &Problem, found: &Fit) -> Result<Vec<u8>, Failure> {
-    let mut table = Writer::from_writer(Vec::new());
-    let unwritten = |error: csv::Error| Failure::system(error);
+pub(crate) fn sample(problem: &Problem, found: &Fit) -> String {
     let keys = problem.parameters().iter().map(Parameter::name);
-    let header: Vec<&str> = keys.chain(["weight"]).collect();
-    table.write_record(header).map_err(unwritten)?;
+    let mut table = Table::new(keys.chain(["weight"]));
     for (values, weight) in &found.sample {
         let numbers = values.iter().chain([weight]);
-        let cells = numbers.map(|number| format!("{number:?}"));
-        table.write_record(cells).map_err(unwritten)?;
+        table.row(numbers.map(|number| format!("{number:?}")));
     }
-    table.into_inner().map_err(Failure::system)
+    table.text()
 }
 
 /// All that is known.
-pub(super) fn json(
-    arguments: &FitVeinsArguments,
-    leaf: &str,
-    problem: &Problem,
-    found: &Fit,
-) -> Value {
+pub(crate) fn json(problem: &Problem, found: &Fit) -> Value {
     let counted = |pairs: &[(String, usize)]| -> Map<String, Value> {
         let pairs = pairs.iter();
         pairs.map(|(key, n)| (key.clone(), json!(n))).collect()
@@ -52,9 +43,6 @@ pub(super) fn json(
         .map(|one| json!({ "keys": one.names, "correlation": one.value }))
         .collect();
     json!({
-        "leaf": leaf,
-        "measures": arguments.measures.display().to_string(),
-        "settings": arguments.set.iter().chain(&arguments.overrides).collect::<Vec<_>>(),
         "seed": problem.seed(),
         "simulations": found.simulations,
         "failed": found.failed,
@@ -116,7 +104,7 @@ fn prediction(one: &Prediction) -> Value {
 }
 
 /// What a person should take away.
-pub(super) fn sentences(found: &Fit) -> Vec<String> {
+pub(crate) fn sentences(found: &Fit) -> Vec<String> {
     let mut lines: Vec<String> = found.parameters.iter().map(Told::sentence).collect();
     lines.extend(found.correlations.iter().filter_map(Correlation::sentence));
     if found.effective_size < FEW {
@@ -196,7 +184,7 @@ pub(super) fn sentences(found: &Fit) -> Vec<String> {
 }
 
 /// Parameters, predictions and sentences in columns.
-pub(super) fn table(found: &Fit) -> String {
+pub(crate) fn table(found: &Fit) -> String {
     let mut rows = vec![["", "median", "mean", "sd", "50 %", "90 %", "95 %"].map(str::to_owned)];
     for told in &found.parameters {
         let [half, most, nearly_all] = told.intervals.map(|[low, high]| interval(low, high));

@@ -11,7 +11,7 @@ const BINS: usize = 40;
 
 /// SVG with a panel for each parameter, all in one row. The grey area is the prior, bars are the
 /// posterior, the thick line below is the 95 % interval and the mark on it the median.
-pub(super) fn marginals(problem: &Problem, found: &Fit) -> String {
+pub(crate) fn marginals(problem: &Problem, found: &Fit) -> String {
     let count = found.parameters.len() as f64;
     let mut canvas = Canvas::new([
         GAP[0] + count * (PANEL[0] + GAP[0]),

@@ -2,11 +2,11 @@
 
 use leafmodel::measure::comparison::Effect;
 
-use super::Findings;
-use super::compared::{Distribution, LEVEL, Measure, values};
-use super::page::{anchor, hue};
 use super::words::{label, shown_effect};
+use crate::comparison::Findings;
+use crate::comparison::compared::{Distribution, LEVEL, Measure, values};
 use crate::plot::{Anchor, Axis, Canvas, short};
+use crate::report::page::{anchor, hue};
 
 /// Width of a figure in a card, pixels.
 const CARD: f64 = 450.0;

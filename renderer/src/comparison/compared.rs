@@ -16,19 +16,19 @@ use super::leaves::Leaf;
 const ROUNDING: f64 = 1e-12;
 
 /// P-values up to this count.
-pub(super) const LEVEL: f64 = 0.05;
+pub(crate) const LEVEL: f64 = 0.05;
 
 /// The kind of values that lie where the program has put points: their number means nothing.
-pub(super) const PROBES: &str = "vein_distance";
+pub(crate) const PROBES: &str = "vein_distance";
 
 /// A p-value, and what is left of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Tested {
-    pub(super) p: f64,
+pub(crate) struct Tested {
+    pub(crate) p: f64,
     /// Corrected by Holm.
-    pub(super) holm: f64,
+    pub(crate) holm: f64,
     /// Corrected by Benjamini and Hochberg.
-    pub(super) fdr: f64,
+    pub(crate) fdr: f64,
 }
 
 impl Tested {
@@ -40,85 +40,85 @@ impl Tested {
 
 /// One measure in all groups.
 #[derive(Clone, Debug)]
-pub(super) struct Measure {
-    pub(super) key: &'static str,
+pub(crate) struct Measure {
+    pub(crate) key: &'static str,
     /// Which part of a list: the vein order.
-    pub(super) part: Option<usize>,
-    pub(super) unit: &'static str,
-    pub(super) definition: &'static str,
+    pub(crate) part: Option<usize>,
+    pub(crate) unit: &'static str,
+    pub(crate) definition: &'static str,
     /// Leaf and value, by group.
-    pub(super) values: Vec<Vec<(usize, f64)>>,
-    pub(super) summaries: Vec<Option<Summary>>,
+    pub(crate) values: Vec<Vec<(usize, f64)>>,
+    pub(crate) summaries: Vec<Option<Summary>>,
     /// In the order of the pairs.
-    pub(super) contrasts: Vec<Contrast>,
+    pub(crate) contrasts: Vec<Contrast>,
 }
 
 /// How a measure of one group differs from that of another.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Contrast {
+pub(crate) struct Contrast {
     /// Of means: the second less the first.
-    pub(super) difference: Option<f64>,
+    pub(crate) difference: Option<f64>,
     /// Of means: the second over the first, if both have one sign.
-    pub(super) ratio: Option<f64>,
-    pub(super) welch: Option<Welch>,
+    pub(crate) ratio: Option<f64>,
+    pub(crate) welch: Option<Welch>,
     /// Where one of the groups is a single leaf: that leaf among those of the other.
-    pub(super) among: Option<Among>,
+    pub(crate) among: Option<Among>,
     /// Of whichever of both there is.
-    pub(super) means: Option<Tested>,
-    pub(super) ranks: Option<Ranks>,
-    pub(super) orders: Option<Tested>,
-    pub(super) g: Option<Effect>,
-    pub(super) delta: Option<Effect>,
+    pub(crate) means: Option<Tested>,
+    pub(crate) ranks: Option<Ranks>,
+    pub(crate) orders: Option<Tested>,
+    pub(crate) g: Option<Effect>,
+    pub(crate) delta: Option<Effect>,
     /// Why there is no test.
-    pub(super) untested: Option<&'static str>,
+    pub(crate) untested: Option<&'static str>,
 }
 
 /// All single values of a kind in all groups.
 #[derive(Clone, Debug)]
-pub(super) struct Distribution {
-    pub(super) kind: &'static str,
-    pub(super) unit: &'static str,
-    pub(super) definition: &'static str,
+pub(crate) struct Distribution {
+    pub(crate) kind: &'static str,
+    pub(crate) unit: &'static str,
+    pub(crate) definition: &'static str,
     /// Leaves that have values, by group.
-    pub(super) leaves: Vec<Vec<usize>>,
+    pub(crate) leaves: Vec<Vec<usize>>,
     /// How many values each group has.
-    pub(super) counts: Vec<usize>,
+    pub(crate) counts: Vec<usize>,
     /// The mean of the medians of a group's leaves.
-    pub(super) medians: Vec<Option<f64>>,
-    pub(super) contrasts: Vec<SpreadContrast>,
+    pub(crate) medians: Vec<Option<f64>>,
+    pub(crate) contrasts: Vec<SpreadContrast>,
 }
 
 /// How values of one kind differ between two groups.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct SpreadContrast {
+pub(crate) struct SpreadContrast {
     /// Leaves as the unit.
-    pub(super) leafwise: Option<Permuted>,
-    pub(super) permuted: Option<Tested>,
+    pub(crate) leafwise: Option<Permuted>,
+    pub(crate) permuted: Option<Tested>,
     /// All values of a group together, as if each were independent.
-    pub(super) pooled: Option<Steps>,
-    pub(super) steps: Option<Tested>,
-    pub(super) ranks: Option<Ranks>,
-    pub(super) orders: Option<Tested>,
-    pub(super) delta: Option<Effect>,
-    pub(super) untested: Option<&'static str>,
+    pub(crate) pooled: Option<Steps>,
+    pub(crate) steps: Option<Tested>,
+    pub(crate) ranks: Option<Ranks>,
+    pub(crate) orders: Option<Tested>,
+    pub(crate) delta: Option<Effect>,
+    pub(crate) untested: Option<&'static str>,
 }
 
 /// All that is found.
 #[derive(Clone, Debug)]
-pub(super) struct Compared {
+pub(crate) struct Compared {
     /// Numbers of two groups each; the first is the one with which the second is compared.
-    pub(super) pairs: Vec<[usize; 2]>,
-    pub(super) measures: Vec<Measure>,
-    pub(super) distributions: Vec<Distribution>,
+    pub(crate) pairs: Vec<[usize; 2]>,
+    pub(crate) measures: Vec<Measure>,
+    pub(crate) distributions: Vec<Distribution>,
     /// Measures that no leaf has.
-    pub(super) absent: Vec<&'static str>,
+    pub(crate) absent: Vec<&'static str>,
     /// How many tests each correction counts: of means, orders, and distributions.
-    pub(super) tests: [usize; 3],
+    pub(crate) tests: [usize; 3],
 }
 
 impl Compared {
     /// Compares all leaves; `only` these measures and kinds, if it names any.
-    pub(super) fn new(
+    pub(crate) fn new(
         leaves: &[Leaf],
         groups: usize,
         all_pairs: bool,
@@ -319,12 +319,19 @@ fn kinds(leaves: &[Leaf], groups: usize, is_wanted: &dyn Fn(&str) -> bool) -> Ve
 }
 
 /// The values of a kind in a leaf, ascending; none if it has none.
-pub(super) fn values<'l>(leaf: &'l Leaf, kind: &str) -> &'l [f64] {
+pub(crate) fn values<'l>(leaf: &'l Leaf, kind: &str) -> &'l [f64] {
     let found = leaf.samples.iter().find(|values| values.kind == kind);
     found.map_or(&[], |values| &values.numbers)
 }
 
 impl Distribution {
+    /// The second median over the first, if both have one sign.
+    pub(crate) fn ratio(&self, pair: [usize; 2]) -> Option<f64> {
+        let [first, second] = pair.map(|group| self.medians[group]);
+        let (first, second) = (first?, second?);
+        (first * second > 0.0).then(|| second / first)
+    }
+
     fn contrast(&self, pair: [usize; 2], leaves: &[Leaf], seed: u64) -> SpreadContrast {
         let [first, second] = pair.map(|group| -> Vec<&[f64]> {
             let members = self.leaves[group].iter();
@@ -361,7 +368,7 @@ impl Distribution {
 }
 
 /// What limits tests between groups of these sizes, in words; nothing where they can tell something.
-pub(super) fn limit(first: usize, second: usize) -> Option<String> {
+pub(crate) fn limit(first: usize, second: usize) -> Option<String> {
     let floor = smallest_p(first, second);
     (first > 1 && second > 1 && floor > LEVEL).then(|| {
         format!(

@@ -122,7 +122,7 @@ fn charts(rows: &[Row]) -> Vec<Chart> {
 }
 
 /// A file with all charts below each other; `None` if there is nothing to draw a line through.
-pub(super) fn svg(rows: &[Row]) -> Option<String> {
+pub(crate) fn svg(rows: &[Row]) -> Option<String> {
     let charts = charts(rows);
     let drawn = &charts[..charts.len().min(MOST_CHARTS)];
     if drawn.is_empty() {
