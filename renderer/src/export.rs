@@ -41,6 +41,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub(crate) mod blade;
 pub mod caption;
 pub mod drawing;
 mod element;

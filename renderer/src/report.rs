@@ -10,6 +10,7 @@ pub(crate) mod comparison;
 pub(crate) mod fit;
 pub(crate) mod instruments;
 pub(crate) mod measures;
+pub(crate) mod optics;
 pub(crate) mod page;
 pub(crate) mod table;
 pub(crate) mod vein_fit;

@@ -2,7 +2,6 @@
 
 mod about;
 mod ages;
-mod blade_files;
 mod choice;
 mod colours;
 mod drawings;
@@ -29,7 +28,6 @@ use leafmodel::species::PRESETS;
 use leafmodel::species::diagnosis::findings;
 use serde_json::json;
 
-use self::blade_files::Parts;
 use self::choice::Chosen;
 pub(super) use self::choice::{NotChosen, Wish, is_word, unknown_preset};
 use self::drawings::{Look, without_sources};
@@ -42,6 +40,7 @@ use crate::cli::places::write_whole;
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
 use crate::cli::{Failure, needs, on_threads, say, stats};
+use crate::export::blade::{self, Parts};
 
 pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     if arguments.list {
@@ -160,8 +159,8 @@ fn carry_out(
                 look.file(*kind, without_sources(outlines, all_veins), None)?
             }
             Kind::Ply | Kind::Obj => match &grown {
-                Grown::Whole(leaf) if *kind == Kind::Ply => blade_files::ply(&Parts::of(leaf)),
-                Grown::Whole(leaf) => blade_files::obj(&Parts::of(leaf)).into_bytes(),
+                Grown::Whole(leaf) if *kind == Kind::Ply => blade::ply(&Parts::of(leaf)),
+                Grown::Whole(leaf) => blade::obj(&Parts::of(leaf)).into_bytes(),
                 Grown::Flat { .. } => continue,
             },
             Kind::Gif | Kind::Apng | Kind::Mp4 | Kind::Toml => continue,
@@ -204,7 +203,7 @@ fn carry_out(
             "leaf": name,
             "seconds": seconds,
             "build_seconds": build_seconds,
-            "peak_mib": stats::peak_mib(),
+            "peak_mib": needs::peak_mib(),
             "nodes": all_veins.nodes().len(),
             "sources": all_veins.sources(),
             "steps": all_veins.steps(),

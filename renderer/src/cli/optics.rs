@@ -1,10 +1,6 @@
 //! `lamina optics`: R and T of a leaf by PROSPECT-D as a table, and their colours; both faces of the
 //! leaf as layers.
 
-mod angles;
-mod colour;
-mod figures;
-mod layers;
 mod leaf;
 mod table;
 
@@ -20,6 +16,7 @@ use crate::cli::arguments::OpticsArguments;
 use crate::cli::places::{require_ending, write_and_say};
 use crate::cli::progress::Patience;
 use crate::cli::{Failure, check_writable, say};
+use crate::report::optics::{angles, colour, figures, layers};
 
 pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     if arguments.list {

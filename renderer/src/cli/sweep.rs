@@ -64,6 +64,7 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let made = folder.join("tasks");
     let refused = |error| Failure::system(format!("{}: {error}", made.display()));
     std::fs::create_dir_all(&made).map_err(refused)?;
+    record::check_version(&made)?;
     let table = folder.join(match arguments.tasks {
         None => "sweep.csv".to_owned(),
         Some(_) => format!("sweep-{}-{}.csv", range.start, range.end),

@@ -9,7 +9,6 @@ use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use csv::Writer;
 use leafmodel::document::rows::{Decimal, Form, Rows, Separator};
 use leafmodel::document::whole_file;
 use leafmodel::inference::{Draw, Outcome, Problem};
@@ -19,6 +18,7 @@ use super::free::Grower;
 use crate::cli::Failure;
 use crate::cli::places::write_whole;
 use crate::cli::signals::Signals;
+use crate::report::table::{Table, cell};
 
 /// Time between two lines about the progress, and between two writings of the table.
 const BETWEEN: Duration = Duration::from_secs(10);
@@ -113,9 +113,7 @@ impl<'p> Simulations<'p> {
         let left = each * all.saturating_sub(done) as f64;
         eprintln!("{done} of {all} leaves, about {left:.0} s to go");
         // The last writing, when all is done, tells what is wrong.
-        if let Ok(bytes) = self.table(&known.grown) {
-            let _ = write_whole(&self.path, &bytes);
-        }
+        let _ = write_whole(&self.path, self.table(&known.grown));
     }
 
     fn known(&self) -> MutexGuard<'_, Known> {
@@ -125,28 +123,21 @@ impl<'p> Simulations<'p> {
     /// Writes the table.
     pub(super) fn save(&self) -> Result<(), Failure> {
         let known = self.known();
-        write_whole(&self.path, &self.table(&known.grown)?)
+        write_whole(&self.path, self.table(&known.grown))
     }
 
-    fn table(&self, grown: &Grown) -> Result<Vec<u8>, Failure> {
-        let mut table = Writer::from_writer(Vec::new());
-        let unwritten = |error: csv::Error| Failure::system(error);
-        table
-            .write_record(header(self.problem))
-            .map_err(unwritten)?;
+    fn table(&self, grown: &Grown) -> String {
+        let mut table = Table::new(header(self.problem));
+        // All digits, and a point.
+        let exact = |value: &f64| format!("{value:?}");
         for (draw, outcome) in grown.values() {
-            let mut cells = vec![
-                self.identity.clone(),
-                draw.generation.to_string(),
-                draw.number.to_string(),
-                draw.seed.to_string(),
-            ];
-            cells.extend(draw.values.iter().map(|value| format!("{value:?}")));
+            let numbers = [draw.generation.into(), draw.number.into(), draw.seed];
+            let mut cells = vec![self.identity.clone()];
+            cells.extend(numbers.map(|number: u64| number.to_string()));
+            cells.extend(draw.values.iter().map(exact));
             match outcome {
                 Ok(measures) => {
-                    let text =
-                        |value: &Option<f64>| value.map_or_else(String::new, |v| format!("{v:?}"));
-                    cells.extend(measures.iter().map(text));
+                    cells.extend(measures.iter().map(|value| cell(value.as_ref().map(exact))));
                     cells.push(String::new());
                 }
                 Err(problem) => {
@@ -154,9 +145,9 @@ impl<'p> Simulations<'p> {
                     cells.push(problem.clone());
                 }
             }
-            table.write_record(&cells).map_err(unwritten)?;
+            table.row(cells);
         }
-        table.into_inner().map_err(Failure::system)
+        table.text()
     }
 }
 

@@ -15,7 +15,7 @@ use crate::spectrum::Lanes;
 const COMPARED_NM: [f64; 4] = [450.0, 550.0, 680.0, 800.0];
 
 /// Both faces at every nanometre of PROSPECT-D's table; a comment says what wrote it, of which leaf.
-pub(super) fn table(contents: &Contents, line: &str) -> String {
+pub(crate) fn table(contents: &Contents, line: &str) -> String {
     let leaf = LayeredLeaf::new(contents);
     let mut table = format!("# Lamina {PROGRAM}, leaf of layers: {line}\nwavelength_nm");
     for column in ["R_adaxial", "T_adaxial", "R_abaxial", "T_abaxial"] {
@@ -66,7 +66,7 @@ fn row(leaf: &LayeredLeaf, nm: u32) -> String {
 
 /// Both faces at a few wavelengths, beside the plate model of the same contents and the rule by
 /// which a scene finds the abaxial face.
-pub(super) fn faces(contents: &Contents) -> String {
+pub(crate) fn faces(contents: &Contents) -> String {
     let leaf = LayeredLeaf::new(contents);
     let head = [
         "nm",

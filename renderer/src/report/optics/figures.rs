@@ -6,7 +6,7 @@ use leafmodel::optics::layers::Anatomy;
 use crate::report::table::in_columns;
 
 /// Every figure with its unit, reliability and source.
-pub(super) fn table() -> String {
+pub(crate) fn table() -> String {
     let head = ["figure", "value", "unit", "trust", "source"].map(str::to_owned);
     let layers = Anatomy::figures().into_iter().map(|mut figure| {
         figure.of.insert_str(0, "leaf of layers, ");

@@ -37,14 +37,14 @@ fn cosines(angles_deg: &[f64]) -> Vec<f64> {
 }
 
 /// A leaf, and wavelengths.
-pub(super) struct Angles {
+pub(crate) struct Angles {
     leaf: LayeredLeaf,
     wavelengths_nm: Vec<f64>,
 }
 
 impl Angles {
     /// A leaf of these contents at these wavelengths, or at the usual ones if there is none.
-    pub(super) fn of(contents: &Contents, wavelengths_nm: &[f64]) -> Self {
+    pub(crate) fn of(contents: &Contents, wavelengths_nm: &[f64]) -> Self {
         let wavelengths_nm = if wavelengths_nm.is_empty() {
             &USUAL_NM
         } else {
@@ -57,7 +57,7 @@ impl Angles {
     }
 
     /// BRDF and BTDF by ordinates, by incidence, view and azimuth.
-    pub(super) fn table(&self, line: &str) -> String {
+    pub(crate) fn table(&self, line: &str) -> String {
         let head = format!(
             "# Lamina {PROGRAM}, leaf of layers by ordinates: {line}\n\
              # The shares mirrored and straight were never scattered and are in neither BRDF nor BTDF\n\
@@ -100,7 +100,7 @@ impl Angles {
     }
 
     /// Means over ranges of directions by ordinates, and by so many photons with standard errors.
-    pub(super) fn compared(&self, photons: u64, line: &str) -> String {
+    pub(crate) fn compared(&self, photons: u64, line: &str) -> String {
         let mut head = format!(
             "# Lamina {PROGRAM}, leaf of layers by ordinates and by {photons} photons: {line}\n"
         );

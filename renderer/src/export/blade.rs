@@ -26,11 +26,11 @@ struct Part<'l> {
 }
 
 /// All parts of a leaf, in millimetres.
-pub(super) struct Parts<'l>(Vec<Part<'l>>);
+pub(crate) struct Parts<'l>(Vec<Part<'l>>);
 
 impl<'l> Parts<'l> {
     /// Blades and their stalks in their places, then the axes.
-    pub(super) fn of(leaf: &'l WholeLeaf) -> Self {
+    pub(crate) fn of(leaf: &'l WholeLeaf) -> Self {
         let mut parts = Vec::new();
         for placement in &leaf.placements {
             let blade = &leaf.blades[placement.blade];
@@ -55,7 +55,7 @@ impl<'l> Parts<'l> {
     }
 
     /// Total number of triangles.
-    pub(super) fn triangles(&self) -> usize {
+    pub(crate) fn triangles(&self) -> usize {
         self.0.iter().map(|part| part.triangles.len()).sum()
     }
 
@@ -110,7 +110,7 @@ impl Part<'_> {
 }
 
 /// PLY with normals, uv and thickness, and the number of the part for each face.
-pub(super) fn ply(parts: &Parts<'_>) -> Vec<u8> {
+pub(crate) fn ply(parts: &Parts<'_>) -> Vec<u8> {
     let mut header = format!(
         "ply\nformat binary_little_endian 1.0\ncomment Lamina {PROGRAM}, lengths in mm\nelement vertex {}\n",
         parts.vertices()
@@ -147,7 +147,7 @@ pub(super) fn ply(parts: &Parts<'_>) -> Vec<u8> {
 
 /// OBJ with an object and a material, `blade-1` and so on or `stalks`, for each run of faces of one
 /// part.
-pub(super) fn obj(parts: &Parts<'_>) -> String {
+pub(crate) fn obj(parts: &Parts<'_>) -> String {
     let vertices: Vec<_> = parts.0.iter().flat_map(Part::vertices).collect();
     let vertices = vertices.par_chunks(LINES).map(|some| {
         let mut text = String::new();

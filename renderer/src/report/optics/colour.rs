@@ -11,7 +11,7 @@ const METHOD: &str = "XYZ by CIE 1931 2° under D65, 360 to 830 nm by 1 nm, Y of
                       sRGB by IEC 61966-2-1, clipped to [0, 1]";
 
 /// Colour of reflected and of transmitted light.
-pub(super) struct Colours {
+pub(crate) struct Colours {
     reflectance: Colour,
     transmittance: Colour,
 }
@@ -24,7 +24,7 @@ struct Colour {
 }
 
 impl Colours {
-    pub(super) fn of(contents: &Contents) -> Self {
+    pub(crate) fn of(contents: &Contents) -> Self {
         let optics =
             |nm| ProspectD::coefficients_extrapolated(nm).reflectance_transmittance(contents);
         Self {
@@ -38,7 +38,7 @@ impl Colours {
     }
 
     /// A table for human readers.
-    pub(super) fn table(&self) -> String {
+    pub(crate) fn table(&self) -> String {
         let mut text = String::from("   X       Y       Z       sRGB                     hex");
         for (name, colour) in self.both() {
             let [x, y, z] = colour.xyz;
@@ -52,7 +52,7 @@ impl Colours {
     }
 
     /// JSON for programs.
-    pub(super) fn json(&self) -> Value {
+    pub(crate) fn json(&self) -> Value {
         let of = |colour: &Colour| json!({ "xyz": colour.xyz, "srgb": colour.srgb, "hex": colour.hex() });
         json!({ "R": of(&self.reflectance), "T": of(&self.transmittance), "method": METHOD })
     }
