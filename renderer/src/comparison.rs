@@ -96,18 +96,24 @@ impl Findings {
     /// compared one by one, with single values.
     pub(crate) fn headline(&self, contrast: &SpreadContrast) -> Option<Tested> {
         if self.is_single {
-            contrast.steps
+            contrast.as_if_independent.kolmogorov_smirnov?.tested
         } else {
-            contrast.permuted
+            contrast.leaves_permuted?.tested
         }
     }
 
     /// The distance that goes with it.
     pub(crate) fn distance(&self, contrast: &SpreadContrast) -> Option<f64> {
         if self.is_single {
-            contrast.pooled.map(|steps| steps.distance)
+            Some(
+                contrast
+                    .as_if_independent
+                    .kolmogorov_smirnov?
+                    .found
+                    .distance,
+            )
         } else {
-            contrast.leafwise.map(|found| found.distance)
+            Some(contrast.leaves_permuted?.found.distance)
         }
     }
 

@@ -14,3 +14,4 @@ pub(crate) mod optics;
 pub(crate) mod page;
 pub(crate) mod table;
 pub(crate) mod vein_fit;
+pub(crate) mod warnings;

@@ -1,8 +1,8 @@
 //! Something for each constituent: contents, factors, absorptions, texels, names of columns.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::{Index, IndexMut};
-use serde::{Deserialize, Serialize};
 
 use super::constituent::Constituent;
 

@@ -3,7 +3,6 @@
 mod about;
 mod ages;
 mod choice;
-mod colours;
 mod drawings;
 mod fields;
 mod films;
@@ -12,7 +11,6 @@ mod grown;
 mod individuals;
 mod maps;
 mod outputs;
-mod warnings;
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,14 +1,13 @@
 //! `lamina instruments`: figures of a scene's instruments as tables.
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::cli::arguments::InstrumentsArguments;
 use crate::cli::places::{
     check_outputs, has_ending, is_json_not_csv, require_ending, write_and_say,
 };
-use crate::cli::progress::{BETWEEN_LINES, Patience};
+use crate::cli::progress::{Clock, Patience};
 use crate::cli::signals::Signals;
 use crate::cli::{Failure, needs, note, on_threads, warn};
 use crate::instruments::{
@@ -245,19 +244,16 @@ fn report_cuts(name: &str, cut: &CutPaths, most_events: u32) {
 struct Rays<'a> {
     name: &'a str,
     budget: &'a Budget,
-    started: Instant,
-    last_line: Mutex<Instant>,
+    clock: Clock,
     followed: AtomicU64,
 }
 
 impl<'a> Rays<'a> {
     fn new(name: &'a str, budget: &'a Budget) -> Self {
-        let started = Instant::now();
         Self {
             name,
             budget,
-            started,
-            last_line: Mutex::new(started),
+            clock: Clock::new(),
             followed: AtomicU64::new(0),
         }
     }
@@ -268,22 +264,17 @@ impl<'a> Rays<'a> {
 
     fn tell(&self, rays: u64) {
         self.followed.store(rays, Ordering::Relaxed);
-        let mut last = self
-            .last_line
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        if last.elapsed() < BETWEEN_LINES {
+        if !self.clock.is_due() {
             return;
         }
-        *last = Instant::now();
-        let (name, seconds) = (self.name, self.started.elapsed().as_secs_f64());
+        let (name, all) = (self.name, self.budget.rays);
         if let Some(error) = self.budget.error {
+            let seconds = self.clock.seconds();
             eprintln!("{name}: {rays} rays after {seconds:.0} s, until --error {error}");
-            return;
+        } else {
+            let after = self.clock.after(rays.max(1) as f64 / all as f64);
+            eprintln!("{name}: {rays} of {all} rays {after}");
         }
-        let all = self.budget.rays;
-        let left = seconds * (all as f64 / rays.max(1) as f64 - 1.0).max(0.0);
-        eprintln!("{name}: {rays} of {all} rays after {seconds:.0} s, about {left:.0} s to go");
     }
 }
 

@@ -9,6 +9,7 @@ use leafmodel::measure::comparison::{
 };
 use leafmodel::measure::definition;
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::leaves::Leaf;
 
@@ -22,7 +23,7 @@ pub(crate) const LEVEL: f64 = 0.05;
 pub(crate) const PROBES: &str = "vein_distance";
 
 /// A p-value, and what is left of it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub(crate) struct Tested {
     pub(crate) p: f64,
     /// Corrected by Holm.
@@ -31,10 +32,18 @@ pub(crate) struct Tested {
     pub(crate) fdr: f64,
 }
 
-impl Tested {
-    fn new(p: f64) -> Self {
-        let (holm, fdr) = (p, p);
-        Self { p, holm, fdr }
+/// What a test has found, and its p-value if that counts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(crate) struct Test<T> {
+    #[serde(flatten)]
+    pub(crate) found: T,
+    pub(crate) tested: Option<Tested>,
+}
+
+impl<T> Test<T> {
+    fn new(found: T, p: impl Into<Option<f64>>) -> Self {
+        let tested = p.into().map(|p| Tested { p, holm: p, fdr: p });
+        Self { found, tested }
     }
 }
 
@@ -54,23 +63,35 @@ pub(crate) struct Measure {
 }
 
 /// How a measure of one group differs from that of another.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize)]
 pub(crate) struct Contrast {
     /// Of means: the second less the first.
     pub(crate) difference: Option<f64>,
+    /// Its interval by Welch's test.
+    difference_interval_95: Option<[f64; 2]>,
     /// Of means: the second over the first, if both have one sign.
     pub(crate) ratio: Option<f64>,
-    pub(crate) welch: Option<Welch>,
+    pub(crate) welch: Option<Test<Welch>>,
     /// Where one of the groups is a single leaf: that leaf among those of the other.
-    pub(crate) among: Option<Among>,
-    /// Of whichever of both there is.
-    pub(crate) means: Option<Tested>,
-    pub(crate) ranks: Option<Ranks>,
-    pub(crate) orders: Option<Tested>,
-    pub(crate) g: Option<Effect>,
-    pub(crate) delta: Option<Effect>,
+    pub(crate) one_among_others: Option<Test<Among>>,
+    pub(crate) mann_whitney: Option<Test<Ranks>>,
+    pub(crate) hedges_g: Option<Effect>,
+    pub(crate) cliffs_delta: Option<Effect>,
     /// Why there is no test.
     pub(crate) untested: Option<&'static str>,
+}
+
+impl Contrast {
+    /// The test of means, of whichever kind there is.
+    pub(crate) fn means(&self) -> Option<Tested> {
+        let welch = self.welch.and_then(|test| test.tested);
+        welch.or_else(|| self.one_among_others?.tested)
+    }
+
+    /// The test of ranks.
+    pub(crate) fn orders(&self) -> Option<Tested> {
+        self.mann_whitney?.tested
+    }
 }
 
 /// All single values of a kind in all groups.
@@ -89,18 +110,21 @@ pub(crate) struct Distribution {
 }
 
 /// How values of one kind differ between two groups.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize)]
 pub(crate) struct SpreadContrast {
     /// Leaves as the unit.
-    pub(crate) leafwise: Option<Permuted>,
-    pub(crate) permuted: Option<Tested>,
-    /// All values of a group together, as if each were independent.
-    pub(crate) pooled: Option<Steps>,
-    pub(crate) steps: Option<Tested>,
-    pub(crate) ranks: Option<Ranks>,
-    pub(crate) orders: Option<Tested>,
-    pub(crate) delta: Option<Effect>,
+    pub(crate) leaves_permuted: Option<Test<Permuted>>,
+    pub(crate) as_if_independent: Pooled,
+    /// Why there is no test.
     pub(crate) untested: Option<&'static str>,
+}
+
+/// All values of a group together, as if each were independent.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub(crate) struct Pooled {
+    pub(crate) kolmogorov_smirnov: Option<Test<Steps>>,
+    pub(crate) mann_whitney: Option<Test<Ranks>>,
+    pub(crate) cliffs_delta: Option<Effect>,
 }
 
 /// All that is found.
@@ -155,35 +179,31 @@ impl Compared {
 
     /// Corrects the p-values of each kind of test for the number of such tests.
     fn correct(&mut self) {
-        let contrasts = || self.measures.iter().flat_map(|measure| &measure.contrasts);
-        let of_means = contrasts()
-            .filter(|contrast| contrast.means.is_some())
-            .count();
-        let of_orders = contrasts()
-            .filter(|contrast| contrast.orders.is_some())
-            .count();
-        let measures = self.measures.iter_mut();
-        let measures = measures.flat_map(|measure| measure.contrasts.iter_mut());
         let (mut means, mut orders) = (Vec::new(), Vec::new());
-        for contrast in measures {
-            means.extend(contrast.means.as_mut());
-            orders.extend(contrast.orders.as_mut());
+        let measures = self.measures.iter_mut();
+        for contrast in measures.flat_map(|measure| measure.contrasts.iter_mut()) {
+            means.extend(tested(&mut contrast.welch));
+            means.extend(tested(&mut contrast.one_among_others));
+            orders.extend(tested(&mut contrast.mann_whitney));
         }
-        correct(means);
-        correct(orders);
-        let spreads = self.distributions.iter_mut();
-        let spreads = spreads.flat_map(|distribution| distribution.contrasts.iter_mut());
-        let (mut permuted, mut steps, mut orders) = (Vec::new(), Vec::new(), Vec::new());
-        for contrast in spreads {
-            permuted.extend(contrast.permuted.as_mut());
-            steps.extend(contrast.steps.as_mut());
-            orders.extend(contrast.orders.as_mut());
+        let (mut permuted, mut steps, mut pooled_orders) = (Vec::new(), Vec::new(), Vec::new());
+        let distributions = self.distributions.iter_mut();
+        for contrast in distributions.flat_map(|distribution| distribution.contrasts.iter_mut()) {
+            let pooled = &mut contrast.as_if_independent;
+            permuted.extend(tested(&mut contrast.leaves_permuted));
+            steps.extend(tested(&mut pooled.kolmogorov_smirnov));
+            pooled_orders.extend(tested(&mut pooled.mann_whitney));
         }
-        self.tests = [of_means, of_orders, permuted.len().max(steps.len())];
-        correct(permuted);
-        correct(steps);
-        correct(orders);
+        let spreads = permuted.len().max(steps.len());
+        self.tests = [means.len(), orders.len(), spreads];
+        for tests in [means, orders, permuted, steps, pooled_orders] {
+            correct(tests);
+        }
     }
+}
+
+fn tested<T>(test: &mut Option<Test<T>>) -> Option<&mut Tested> {
+    test.as_mut()?.tested.as_mut()
 }
 
 fn correct(tests: Vec<&mut Tested>) {
@@ -262,22 +282,23 @@ impl Measure {
         } else if all().all(|value| (value - first[0]).abs() <= ROUNDING * greatest) {
             contrast.untested = Some("the same in all leaves");
         } else if sizes[pair[0]] == 1 {
-            contrast.among = one_among(first[0], &second);
+            contrast.one_among_others =
+                one_among(first[0], &second).map(|found| Test::new(found, found.p));
         } else if sizes[pair[1]] == 1 {
-            contrast.among = one_among(second[0], &first);
+            contrast.one_among_others =
+                one_among(second[0], &first).map(|found| Test::new(found, found.p));
         } else if first.len() < 2 || second.len() < 2 {
             contrast.untested = Some("one leaf of a group has it");
         } else {
-            contrast.welch = welch(&first, &second);
-            contrast.ranks = mann_whitney(&first, &second);
-            contrast.g = hedges_g(&first, &second);
-            contrast.delta = cliffs_delta(&first, &second);
+            let welch = welch(&first, &second);
+            contrast.difference_interval_95 = welch.map(|found| found.interval);
+            contrast.welch = welch.map(|found| Test::new(found, found.p));
+            let ranks = mann_whitney(&first, &second);
+            contrast.mann_whitney = ranks.map(|found| Test::new(found, found.p));
+            contrast.hedges_g = hedges_g(&first, &second);
+            contrast.cliffs_delta = cliffs_delta(&first, &second);
         }
-        let p = contrast.welch.map(|welch| welch.p);
-        let p = p.or(contrast.among.map(|among| among.p));
-        contrast.means = p.map(Tested::new);
-        contrast.orders = contrast.ranks.map(|ranks| Tested::new(ranks.p));
-        if contrast.means.is_none() && contrast.orders.is_none() {
+        if contrast.means().is_none() && contrast.orders().is_none() {
             contrast.untested = contrast.untested.or(Some("no spread"));
         }
         contrast
@@ -344,23 +365,24 @@ impl Distribution {
             contrast.untested = Some("missing in a group");
             return contrast;
         };
-        contrast.leafwise = Some(leafwise);
-        contrast.permuted = leafwise.p.map(Tested::new);
+        contrast.leaves_permuted = Some(Test::new(leafwise, leafwise.p));
         let [one, other] = [first.as_slice(), second.as_slice()].map(|leaves| {
             let mut all = leaves.concat();
             all.sort_unstable_by(f64::total_cmp);
             all
         });
-        contrast.pooled = kolmogorov_smirnov(&one, &other);
-        contrast.delta = cliffs_delta(&one, &other);
+        let steps = kolmogorov_smirnov(&one, &other);
+        let pooled = &mut contrast.as_if_independent;
+        pooled.cliffs_delta = cliffs_delta(&one, &other);
         if self.kind == PROBES {
+            pooled.kolmogorov_smirnov = steps.map(|found| Test::new(found, None::<f64>));
             contrast.untested = Some("points are no sample");
             return contrast;
         }
-        contrast.steps = contrast.pooled.map(|steps| Tested::new(steps.p));
-        contrast.ranks = mann_whitney(&one, &other);
-        contrast.orders = contrast.ranks.map(|ranks| Tested::new(ranks.p));
-        if first.len() + second.len() > 2 && contrast.permuted.is_none() {
+        pooled.kolmogorov_smirnov = steps.map(|found| Test::new(found, found.p));
+        let ranks = mann_whitney(&one, &other);
+        pooled.mann_whitney = ranks.map(|found| Test::new(found, found.p));
+        if first.len() + second.len() > 2 && leafwise.p.is_none() {
             contrast.untested = Some("a group of one leaf");
         }
         contrast

@@ -1,16 +1,19 @@
 //! Cumulative curves, and the test of Kolmogorov and Smirnov.
 
+use serde::Serialize;
+
 /// Products of two counts up to which all orders are counted.
 const COUNTED: u64 = 20_000_000;
 /// Terms of Kolmogorov's series beyond which nothing is added.
 const TERMS: u32 = 100;
 
 /// The greatest distance of two cumulative curves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Steps {
     /// It, 0 to 1.
     pub distance: f64,
     /// Two-sided p, in [0, 1].
+    #[serde(skip)]
     pub p: f64,
     /// Whether all orders were counted; otherwise p is that of Kolmogorov's limit.
     pub exact: bool,

@@ -1,6 +1,7 @@
 //! Distributions of groups of leaves, tested with the leaf as the unit.
 
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::ranks::smallest_p;
 use crate::measure::statistics::quantile;
@@ -16,17 +17,19 @@ const DRAWN: u64 = 9_999;
 const SAME: f64 = 1e-12;
 
 /// The distance of two groups of leaves, and how often chance makes as large a one.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Permuted {
     /// Greatest distance of the mean cumulative curves of both groups at the places of comparison,
     /// 0 to 1.
     pub distance: f64,
     /// Share of the divisions of all leaves into two groups of these sizes that are as far apart;
     /// `None` if a group has fewer than two leaves.
+    #[serde(skip)]
     pub p: Option<f64>,
     /// Whether all divisions were tried; otherwise 9,999 were drawn.
     pub exact: bool,
     /// The smallest p that groups of these sizes can have.
+    #[serde(rename = "smallest_p")]
     pub smallest: f64,
 }
 

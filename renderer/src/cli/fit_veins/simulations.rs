@@ -7,21 +7,20 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
 
 use leafmodel::document::rows::{Decimal, Form, Rows, Separator};
 use leafmodel::document::whole_file;
 use leafmodel::inference::{Draw, Outcome, Problem};
 use rayon::prelude::*;
+use serde_json::Value;
 
 use super::free::Grower;
+use crate::checkpoint::PROGRAM;
 use crate::cli::Failure;
 use crate::cli::places::write_whole;
+use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
 use crate::report::table::{Table, cell};
-
-/// Time between two lines about the progress, and between two writings of the table.
-const BETWEEN: Duration = Duration::from_secs(10);
 
 /// Simulations by generation and number.
 type Grown = BTreeMap<(u32, u32), (Draw, Outcome)>;
@@ -34,6 +33,8 @@ pub(super) struct Simulations<'p> {
     identity: String,
     problem: &'p Problem,
     known: Mutex<Known>,
+    /// Of lines about the progress, and of writings of the table.
+    clock: Clock,
 }
 
 #[derive(Debug)]
@@ -41,14 +42,11 @@ struct Known {
     grown: Grown,
     /// How many were there when the fit began.
     before: usize,
-    began: Instant,
-    saved: Instant,
 }
 
 impl<'p> Simulations<'p> {
     /// Reads the table at `path` if there is one.
     pub(super) fn open(path: &Path, identity: u64, problem: &'p Problem) -> Result<Self, Failure> {
-        let now = Instant::now();
         let identity = format!("{identity:016x}");
         let grown = read(path, &identity, problem)?;
         let before = grown.len();
@@ -62,12 +60,8 @@ impl<'p> Simulations<'p> {
             path: path.to_owned(),
             identity,
             problem,
-            known: Mutex::new(Known {
-                grown,
-                before,
-                began: now,
-                saved: now,
-            }),
+            known: Mutex::new(Known { grown, before }),
+            clock: Clock::new(),
         })
     }
 
@@ -104,12 +98,11 @@ impl<'p> Simulations<'p> {
         known
             .grown
             .insert(place(draw), (draw.clone(), outcome.clone()));
-        if known.saved.elapsed() < BETWEEN && !signals.save.swap(false, Ordering::Relaxed) {
+        if !self.clock.is_due() && !signals.save.swap(false, Ordering::Relaxed) {
             return;
         }
-        known.saved = Instant::now();
         let (done, all) = (known.grown.len(), self.problem.simulations());
-        let each = known.began.elapsed().as_secs_f64() / (done - known.before) as f64;
+        let each = self.clock.seconds() / (done - known.before) as f64;
         let left = each * all.saturating_sub(done) as f64;
         eprintln!("{done} of {all} leaves, about {left:.0} s to go");
         // The last writing, when all is done, tells what is wrong.
@@ -173,11 +166,21 @@ fn read(path: &Path, identity: &str, problem: &Problem) -> Result<Grown, Failure
         Err(error) => return Err(Failure::system(format!("{}: {error}", path.display()))),
     };
     let foreign = || {
-        Failure::bad(format!(
-            "{} is of another fit: of another leaf, other measures, ranges, a seed, a number of \
-             simulations or a version of its own; name another folder by --out",
-            path.display()
-        ))
+        // What a fit that came to its end has written beside its table.
+        let report = std::fs::read(path.with_file_name("fit.json")).ok();
+        let report = report.and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
+        let version = report.and_then(|report| Some(report["program"].as_str()?.to_owned()));
+        let path = path.display();
+        Failure::bad(match version.filter(|version| version != PROGRAM) {
+            Some(version) => format!(
+                "{path} was written by Lamina {version}: continue the fit with that version, or name \
+                 another folder by --out"
+            ),
+            None => format!(
+                "{path} is of another fit: of another leaf, other measures, ranges, a seed, a number of \
+                 simulations or a version of its own; name another folder by --out"
+            ),
+        })
     };
     let form = Form {
         separator: Some(Separator::Comma),

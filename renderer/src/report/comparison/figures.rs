@@ -250,13 +250,13 @@ pub(super) fn effects(findings: &Findings, pair: usize) -> Option<String> {
         .iter()
         .filter_map(|measure| {
             let contrast = measure.contrasts[pair];
-            let effect = contrast.g?;
+            let effect = contrast.hedges_g?;
             Some(Line {
                 key: measure.key,
                 part: measure.part,
                 effect,
                 shown: shown_effect(effect),
-                is_sure: contrast.means.is_some_and(|tested| tested.holm <= LEVEL),
+                is_sure: contrast.means().is_some_and(|tested| tested.holm <= LEVEL),
             })
         })
         .collect();

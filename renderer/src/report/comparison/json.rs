@@ -1,11 +1,10 @@
 //! Findings of a comparison as JSON, from which its page and its tables are made.
 
-use leafmodel::measure::comparison::{Effect, Summary};
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::checkpoint::PROGRAM;
 use crate::comparison::Findings;
-use crate::comparison::compared::{Contrast, SpreadContrast, Tested};
 
 /// All numbers, and the values of each leaf.
 pub(crate) fn json(findings: &Findings) -> Value {
@@ -30,7 +29,7 @@ pub(crate) fn json(findings: &Findings) -> Value {
             );
             json!({
                 "group": findings.groups[group],
-                "summary": found.map(summary),
+                "summary": found,
                 "values": leaves.collect::<Vec<_>>(),
             })
         });
@@ -42,7 +41,7 @@ pub(crate) fn json(findings: &Findings) -> Value {
             "definition": measure.definition,
             "groups": groups.collect::<Vec<_>>(),
             "pairs": contrasts
-                .map(|(pair, contrast)| contrast_json(findings, *pair, contrast))
+                .map(|(pair, contrast)| between(findings, *pair, contrast))
                 .collect::<Vec<_>>(),
         })
     });
@@ -67,7 +66,7 @@ pub(crate) fn json(findings: &Findings) -> Value {
             "definition": distribution.definition,
             "groups": groups.collect::<Vec<_>>(),
             "pairs": contrasts
-                .map(|(pair, contrast)| spread_json(findings, *pair, contrast))
+                .map(|(pair, contrast)| between(findings, *pair, contrast))
                 .collect::<Vec<_>>(),
         })
     });
@@ -87,75 +86,9 @@ pub(crate) fn json(findings: &Findings) -> Value {
     })
 }
 
-fn summary(found: Summary) -> Value {
-    json!({
-        "count": found.count,
-        "mean": found.mean,
-        "median": found.median,
-        "standard_deviation": found.deviation,
-        "mean_interval_95": found.interval,
-    })
-}
-
-fn tested(tested: Option<Tested>) -> Value {
-    let members = |found: Tested| json!({ "p": found.p, "holm": found.holm, "fdr": found.fdr });
-    tested.map_or(Value::Null, members)
-}
-
-fn effect(effect: Option<Effect>) -> Value {
-    let members = |found: Effect| json!({ "value": found.value, "interval_95": found.interval });
-    effect.map_or(Value::Null, members)
-}
-
-fn contrast_json(findings: &Findings, pair: [usize; 2], contrast: &Contrast) -> Value {
-    json!({
-        "groups": pair.map(|group| &findings.groups[group]),
-        "difference": contrast.difference,
-        "difference_interval_95": contrast.welch.map(|welch| welch.interval),
-        "ratio": contrast.ratio,
-        "hedges_g": effect(contrast.g),
-        "cliffs_delta": effect(contrast.delta),
-        "welch": contrast.welch.map(|welch| json!({
-            "t": welch.t,
-            "degrees_of_freedom": welch.freedom,
-            "tested": tested(contrast.means),
-        })),
-        "one_among_others": contrast.among.map(|among| json!({
-            "t": among.t,
-            "degrees_of_freedom": among.freedom,
-            "tested": tested(contrast.means),
-        })),
-        "mann_whitney": contrast.ranks.map(|ranks| json!({
-            "u": ranks.u,
-            "exact": ranks.exact,
-            "tested": tested(contrast.orders),
-        })),
-        "untested": contrast.untested,
-    })
-}
-
-fn spread_json(findings: &Findings, pair: [usize; 2], contrast: &SpreadContrast) -> Value {
-    json!({
-        "groups": pair.map(|group| &findings.groups[group]),
-        "leaves_permuted": contrast.leafwise.map(|found| json!({
-            "distance": found.distance,
-            "smallest_p": found.smallest,
-            "exact": found.exact,
-            "tested": tested(contrast.permuted),
-        })),
-        "as_if_independent": {
-            "kolmogorov_smirnov": contrast.pooled.map(|steps| json!({
-                "distance": steps.distance,
-                "exact": steps.exact,
-                "tested": tested(contrast.steps),
-            })),
-            "mann_whitney": contrast.ranks.map(|ranks| json!({
-                "u": ranks.u,
-                "exact": ranks.exact,
-                "tested": tested(contrast.orders),
-            })),
-            "cliffs_delta": effect(contrast.delta),
-        },
-        "untested": contrast.untested,
-    })
+/// What was found between two groups, with their names.
+fn between(findings: &Findings, pair: [usize; 2], contrast: &impl Serialize) -> Value {
+    let mut found = json!(contrast);
+    found["groups"] = json!(pair.map(|group| &findings.groups[group]));
+    found
 }

@@ -95,13 +95,18 @@ fn what_a_group_lacks_or_all_leaves_share_is_not_tested_and_no_test_is_counted()
     assert_eq!(findings.compared.tests[..2], [1, 1]);
     // One test: nothing to correct.
     let tested = findings.compared.measures[0].contrasts[0]
-        .means
+        .means()
         .expect("a test");
     assert_eq!((tested.p, tested.p), (tested.holm, tested.fdr));
     // The leaf without areoles is no leaf of the distribution, and one leaf alone is not permuted.
     let spread = &findings.compared.distributions[0];
     assert_eq!((spread.leaves[1].len(), spread.counts[1]), (1, 2));
-    assert_eq!(spread.contrasts[0].permuted, None);
+    assert_eq!(
+        spread.contrasts[0]
+            .leaves_permuted
+            .and_then(|test| test.tested),
+        None
+    );
     let [html, csv, values, ..] = all_outputs(&findings);
     assert!(
         html.contains("&lt;0&amp;1&gt;") && !html.contains("<0&"),
@@ -123,18 +128,14 @@ fn corrections_count_the_tests_of_all_pairs() {
     let of = |group, number, value: f64| leaf(group, number, &[("areole_count", Some(value))], &[]);
     let leaves = (0..12).map(|number| {
         let group = number / 4;
-        of(
-            group,
-            number,
-            10.0 * group as f64 + (3 * number % 4) as f64,
-        )
+        of(group, number, 10.0 * group as f64 + (3 * number % 4) as f64)
     });
     let findings = findings(&["a", "b", "c"], leaves.collect());
     assert_eq!(findings.compared.pairs, [[0, 1], [0, 2]]);
     assert_eq!(findings.compared.tests, [2, 2, 0]);
     let [near, far] = [0, 1].map(|pair| {
         let contrast = &findings.compared.measures[0].contrasts[pair];
-        contrast.means.expect("groups of four")
+        contrast.means().expect("groups of four")
     });
     // The smaller p times two, the other as it is.
     assert!(far.p < near.p);
@@ -158,12 +159,12 @@ fn one_leaf_is_tested_among_those_of_a_group_and_two_leaves_are_not() {
     );
     let contrast = &among.compared.measures[0].contrasts[0];
     // (8 − 3) / (2 √(1 + 1/3)) with 2 degrees of freedom.
-    let t = contrast.among.expect("a group").t;
+    let t = contrast.one_among_others.expect("a group").found.t;
     assert!(
         (t - 5.0 / (2.0 * (4.0_f64 / 3.0).sqrt())).abs() < 1e-12,
         "{t}"
     );
-    assert!(contrast.welch.is_none() && contrast.means.is_some() && contrast.orders.is_none());
+    assert!(contrast.welch.is_none() && contrast.means().is_some() && contrast.orders().is_none());
     let [_, csv, .., text] = all_outputs(&among);
     assert!(text.contains("one among p"), "{text}");
     assert!(
@@ -179,7 +180,9 @@ fn one_leaf_is_tested_among_those_of_a_group_and_two_leaves_are_not() {
     );
     // Two values each, all of the first larger: 2 of 6 divisions.
     let steps = two.compared.distributions[0].contrasts[0]
-        .steps
+        .as_if_independent
+        .kolmogorov_smirnov
+        .and_then(|test| test.tested)
         .expect("values");
     assert!((steps.p - 2.0 / 6.0).abs() < 1e-15, "{steps:?}");
     all_outputs(&two);

@@ -3,7 +3,7 @@
 use leafmodel::measure::comparison::Effect;
 
 use crate::comparison::Findings;
-use crate::comparison::compared::{LEVEL, Tested};
+use crate::comparison::compared::{Contrast, LEVEL, Tested};
 use crate::plot::short;
 use crate::report::table::in_columns;
 
@@ -109,14 +109,14 @@ fn grouped(findings: &Findings, number: usize, pair: [usize; 2], names: [&str; 2
             contrast
                 .ratio
                 .map_or_else(dash, |ratio| format!("{ratio:.3}")),
-            contrast.g.map_or_else(
+            contrast.hedges_g.map_or_else(
                 || contrast.untested.map_or_else(dash, str::to_owned),
                 shown_effect,
             ),
-            p(contrast.means, |tested| tested.p),
-            p(contrast.means, |tested| tested.holm),
-            p(contrast.orders, |tested| tested.p),
-            p(contrast.orders, |tested| tested.holm),
+            p(contrast.means(), |tested| tested.p),
+            p(contrast.means(), |tested| tested.holm),
+            p(contrast.orders(), |tested| tested.p),
+            p(contrast.orders(), |tested| tested.holm),
         ]);
     }
     in_columns(&rows)
@@ -222,16 +222,16 @@ pub(crate) fn conclusions(findings: &Findings) -> Vec<String> {
     };
     let lines = [
         line(
-            if contrasts().any(|contrast| contrast.among.is_some()) {
+            if contrasts().any(|contrast| contrast.one_among_others.is_some()) {
                 "means of leaves (Welch; a group of one leaf as one among the others)"
             } else {
                 "means of leaves (Welch)"
             },
-            contrasts().filter_map(|contrast| contrast.means).collect(),
+            contrasts().filter_map(Contrast::means).collect(),
         ),
         line(
             "ranks of leaves (Mann and Whitney)",
-            contrasts().filter_map(|contrast| contrast.orders).collect(),
+            contrasts().filter_map(Contrast::orders).collect(),
         ),
         line(
             if findings.is_single {

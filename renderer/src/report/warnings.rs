@@ -12,7 +12,7 @@ const WIDEST_SHARE: f64 = 0.2;
 const STUB: f64 = 0.5;
 
 /// Warnings about a lamina grown from this plan.
-pub(super) fn of(plan: &LeafPlan, lamina: &Lamina) -> Vec<String> {
+pub(crate) fn of(plan: &LeafPlan, lamina: &Lamina) -> Vec<String> {
     let mut warnings = Vec::new();
     let network = &lamina.network;
     match network.ending() {

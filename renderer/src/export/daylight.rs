@@ -51,7 +51,7 @@ fn encoded(linear: f64) -> u8 {
 }
 
 /// The reflectance of each texel under D65 as sRGB, apex up, on white paper.
-pub(super) fn in_daylight(map: &ContentsMap, pigments: &Pigments, outline: &Outline) -> Vec<u8> {
+pub(crate) fn in_daylight(map: &ContentsMap, pigments: &Pigments, outline: &Outline) -> Vec<u8> {
     let daylight = Daylight::new(pigments);
     let frame = UvFrame::around(outline.points());
     let (width, height) = (map.width as usize, map.height as usize);
