@@ -9,9 +9,9 @@ use renderer::bsdf::metallic_roughness::MetallicRoughness;
 use renderer::bsdf::{Bsdf, View};
 use renderer::geometry::frame::Frame;
 use renderer::geometry::{Ray, SurfacePoint};
-use renderer::integrator::facet::{self, Facet, Surroundings};
 use renderer::sampling::stream::Stream;
 use renderer::spectrum::Lanes;
+use renderer::walk::facet::{self, Facet, Surroundings};
 use support::chi_square::{ChiSquare, sidak};
 use support::picture::{mean_of, means_and_errors, picture_of};
 

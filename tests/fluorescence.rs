@@ -108,18 +108,21 @@ fn a_leaf_without_the_block_is_black_in_light_of_other_wavelengths() {
     assert_eq!(mean, 0.0);
 }
 
-#[test]
-fn two_leaves_one_over_the_other_look_as_the_instrument_measures_them() {
-    let blocks = format!(
+/// Two leaves one over the other in the sun, and an instrument over them.
+fn two_leaves() -> String {
+    scene(&format!(
         "[objects.below]\nmesh = \"sheet\"\nmaterial = \"green\"\nposition_m = [0, 0, -0.01]\n\
          [lights.sun.distant]\nirradiance_w_m2_nm = {BLUE_TO_ORANGE}\nelevation_deg = 30\n\
          azimuth_deg = 40\n\
          [instruments.field.canopy]\nwithin_m = [-1, -1, 1, 1]\nincidence_deg = [60]\n\
          wavelengths_nm = [550]\n\
          fluorescence = {{ spectrum = {BLUE_TO_ORANGE}, emission_nm = {BANDS_NM:?} }}\n"
-    );
-    let text = scene(&blocks);
-    let loaded = parse_for_instruments(&text, "two.toml", Path::new("."), &[]);
+    ))
+}
+
+/// The figures of the only instrument of a scene.
+fn measured(text: &str, rays: u64) -> Vec<Row> {
+    let loaded = parse_for_instruments(text, "two.toml", Path::new("."), &[]);
     let description = loaded
         .unwrap_or_else(|errors| panic!("{errors}"))
         .description;
@@ -130,13 +133,25 @@ fn two_leaves_one_over_the_other_look_as_the_instrument_measures_them() {
     };
     let world = World::build_with(&description, &options).expect("it can be built");
     let budget = Budget {
-        rays: 1 << 18,
+        rays,
         error: None,
         seed: 3,
     };
-    let rows = read_out(&world, &description, 0, first[0], &budget)
-        .expect("it can be measured")
-        .rows;
+    let reading = read_out(&world, &description, 0, first[0], &budget);
+    reading.expect("it can be measured").rows
+}
+
+#[test]
+fn a_limit_that_no_path_reaches_changes_no_figure_of_fluorescence() {
+    let text = two_leaves();
+    let limited = format!("{text}[integrator]\nmax_events = 1000\n");
+    assert_eq!(measured(&limited, 1 << 12), measured(&text, 1 << 12));
+}
+
+#[test]
+fn two_leaves_one_over_the_other_look_as_the_instrument_measures_them() {
+    let text = two_leaves();
+    let rows = measured(&text, 1 << 18);
     for ((mean, error), nm) in bands(&text).into_iter().zip(BANDS_NM) {
         let own =
             |row: &&Row| row.quantity == "fluorescence_upwards" && row.wavelength_nm == Some(nm);

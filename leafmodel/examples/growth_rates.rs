@@ -7,15 +7,16 @@
 use std::io::Write as _;
 
 use leafmodel::shape::growth_form::Side;
-use leafmodel::species::young::FORMS;
+use leafmodel::species::{Preset, find};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let name = std::env::args().nth(1).unwrap_or("young-3b".to_owned());
-    let form = FORMS.iter().find(|form| form.name == name);
+    let plan = find(&name).map(Preset::plan);
+    let form = plan.as_ref().and_then(|plan| plan.outline.growth_form());
     let form = form.ok_or("name one of the forms young-3a to young-9d")?;
     let mut out = std::io::stdout().lock();
     writeln!(out, "place,rate,half_width")?;
-    for row in form.shape().row_growth(Side::Right)? {
+    for row in form.row_growth(Side::Right)? {
         writeln!(out, "{},{},{}", row.place, row.rate, row.half_width)?;
     }
     Ok(())

@@ -12,7 +12,6 @@ use leafmodel::mosaic::atlas::Atlas;
 use leafmodel::mosaic::noise_pattern::NoisePattern;
 use leafmodel::mosaic::paint::TypeField;
 use leafmodel::mosaic::shapes::{lathe, rounded_cube, sphere};
-use leafmodel::mosaic::statistics::probes;
 use leafmodel::mosaic::voronoi::Voronoi;
 use leafmodel::mosaic::{
     CellType, ControlImage, CylinderControl, Mosaic, MosaicPlan, RadiusRule, Steered, Surface,
@@ -107,7 +106,7 @@ fn noise(surface: &Surface) -> (Vec<SurfacePoint>, Vec<u16>) {
         gain: 0.5,
         share: 0.4,
     };
-    let sites = probes(surface, 20_000, 1);
+    let sites = surface.probes(20_000, 1);
     let places: Vec<DVec3> = sites.iter().map(|site| surface.position(site)).collect();
     let kinds = pattern.kinds(&places, 1);
     (sites, kinds)

@@ -5,7 +5,7 @@
 //!
 //! - **In**: an outline, the veins, a [`BladeForm`].
 //! - **Out**: a [`BladeMesh`] in millimetres, base at the origin, midrib along +y, adaxial side +z.
-//! - **Always true**: what [`BladeMesh::validate`] checks: no cracks, no flipped or folded faces.
+//! - **Always true**: no cracks, no flipped or folded faces.
 //! - **Left out**: the two surfaces of a sheet with thickness (thickness is a number at each
 //!   vertex).
 //!
@@ -18,7 +18,6 @@
 //! // Halves raised by 20° about a straight midrib.
 //! let form = BladeForm { fold: 20_f64.to_radians(), curl: 0.0, ..plan.form };
 //! let mesh = BladeMesh::build(&lamina.outline, &lamina.network, &form)?;
-//! mesh.validate(lamina.outline.area())?;
 //! let highest = mesh.positions.iter().map(|p| p.z).fold(0.0, f64::max);
 //! assert!(highest > 0.0, "the margin stands above the midrib");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -29,7 +28,6 @@ pub mod ageing_courses;
 mod closed;
 pub mod contents_map;
 mod coverage;
-pub(crate) mod distances;
 mod error;
 mod form;
 pub mod frame;
@@ -63,33 +61,51 @@ pub mod weathering;
 
 pub use frame::UvFrame;
 pub use margin_thickness::MarginThickness;
-pub use mesh::{BladeError, BladeMesh, MeshDefect};
+pub use mesh::{BladeError, BladeMesh};
 pub(crate) use sheet::even_sheet;
 
+use crate::document::declared::Declared;
+use crate::document::keys::Keys;
+use crate::document::limits::Limits;
+use crate::document::value_kind::Number;
 use crate::venation::network::VeinSegment;
 
 /// How a flat lamina is bent, and how finely it is meshed. Angles are radians.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct BladeForm {
-    /// Angle by which each half is raised about the midrib, towards the adaxial side (0 flat), −1.4
-    /// to 1.4.
+    /// Angle by which each half is raised about the midrib, towards the adaxial side.
+    ///
+    /// Radians.
+    #[key("fold_deg", degrees(-80.0..=80.0))]
     pub fold: f64,
-    /// Angle through which the midrib bends from base to apex, towards the abaxial side (0
-    /// straight), −6.2 to 6.2.
+    /// Angle through which the midrib bends from base to apex, towards the abaxial side.
+    ///
+    /// Radians.
+    #[key("curl_deg", degrees(-355.0..=355.0))]
     pub curl: f64,
-    /// Amplitude of the wave along the margin as a share of the leaf's length, 0 to 0.5.
+    /// Height of the wave along the margin over the leaf's length.
+    #[key("ruffle", 0.0..=0.5)]
     pub ruffle: f64,
-    /// Waves along each side of the margin, 0 to 100.
+    /// Waves along each side.
+    #[key("ruffle_waves", 0.0..=100.0)]
     pub ruffle_waves: f64,
-    /// Slope of the folds along primary and secondary veins, radians, 0 (none) to 1.
+    /// Slope of the folds along primary and secondary veins (pleats), which lie in the valleys.
+    ///
+    /// Radians.
+    #[key("pleat_deg", degrees(0.0..=55.0))]
     pub pleat: f64,
-    /// Height of vein relief on the abaxial side over the vein's diameter, 0 (none) to 5.
+    /// Height of veins on the abaxial side over their diameter.
+    #[key("relief", 0.0..=5.0)]
     pub relief: f64,
-    /// Thickness of the lamina between veins, mm, 0.001 to 10.
+    /// Thickness between veins.
+    #[key("thickness_mm", 0.001..=10.0)]
     pub thickness_mm: f64,
     /// How it falls towards the margin.
+    #[key(flat)]
     pub margin: MarginThickness,
-    /// Whether it has two faces and a rim, and not one sheet that stands for both.
+    /// Whether the blade has two faces and a rim, for pictures from close by, and not one sheet
+    /// that stands for both.
+    #[key("closed")]
     pub closed: bool,
     /// Longest edge of the mesh, mm, 0.001 to 10000.
     pub max_edge_mm: f64,
@@ -123,39 +139,27 @@ impl BladeForm {
         veins.iter().filter(is_major).copied().collect()
     }
 
+    /// The keys of `blade`; edges of the mesh lie within `edges`.
+    pub(crate) fn keys(&mut self, keys: &mut Keys<'_>, edges: Limits) {
+        self.declare(keys);
+        let about = "Longest edge of the mesh.";
+        keys.key("max_edge_mm", &mut self.max_edge_mm, Number(edges), about);
+        let limits = Number(Limits::closed(1e-4, 1e3));
+        let about = "Veins at least this wide are edges of the mesh and have relief.";
+        let radius = &mut self.meshed_vein_radius_mm;
+        keys.key("meshed_vein_radius_mm", radius, limits, about);
+    }
+
     /// Checks every field.
     ///
     /// # Errors
     ///
-    /// [`BladeError::OutOfRange`] for the first field outside its range.
+    /// [`BladeError::Range`] for the first field outside its range.
     pub fn validate(&self) -> Result<(), BladeError> {
-        let fields = [
-            ("fold", self.fold, -1.4..=1.4, "-1.4 to 1.4 (radians)"),
-            ("curl", self.curl, -6.2..=6.2, "-6.2 to 6.2 (radians)"),
-            ("ruffle", self.ruffle, 0.0..=0.5, "0 to 0.5"),
-            ("ruffle_waves", self.ruffle_waves, 0.0..=100.0, "0 to 100"),
-            ("pleat", self.pleat, 0.0..=1.0, "0 to 1 (radians)"),
-            ("relief", self.relief, 0.0..=5.0, "0 to 5"),
-            (
-                "thickness_mm",
-                self.thickness_mm,
-                1e-3..=10.0,
-                "0.001 to 10 (millimetres)",
-            ),
-            (
-                "max_edge_mm",
-                self.max_edge_mm,
-                1e-3..=1e4,
-                "0.001 to 10000 (millimetres)",
-            ),
-            (
-                "meshed_vein_radius_mm",
-                self.meshed_vein_radius_mm,
-                1e-4..=1e3,
-                "0.0001 to 1000 (millimetres)",
-            ),
-        ];
-        BladeError::unless_within(fields.into_iter().chain(self.margin.fields()))
+        let mut own = *self;
+        // How fine a mesh may be depends on the leaf; a file knows its length.
+        let errors = Keys::check(|keys| own.keys(keys, Limits::closed(1e-3, 1e4)));
+        Ok(errors.into_iter().next().map_or(Ok(()), Err)?)
     }
 }
 

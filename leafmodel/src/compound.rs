@@ -37,6 +37,8 @@ use thiserror::Error;
 pub use self::flat::FlatLeaf;
 pub use self::form::{Arrangement, CompoundForm, Feather};
 pub use self::whole::{Placement, WholeLeaf, joined_stalks, leaflet_plans};
+use crate::document::keys::Keys;
+use crate::document::ranges::RangeError;
 use crate::leaf::outline_plan::Contour;
 use crate::leaf::{LeafError, LeafPlan};
 use crate::shape::outline::Outline;
@@ -98,18 +100,20 @@ pub struct CompoundLeaf {
     pub stalks: Vec<Stalk>,
 }
 
+/// Greatest angle by which the curl may turn the end of an axis. The stalks have pieces enough for it.
+const MOST_CURL_DEG: f64 = 720.0;
+
 /// Why no compound leaf can be made.
 #[derive(Debug, Error)]
 pub enum CompoundError {
     /// A number out of its range.
-    #[error("{key} is {value}, outside {range}")]
-    OutOfRange {
-        /// Which parameter.
-        key: &'static str,
-        /// What it was.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
+    #[error(transparent)]
+    Range(#[from] RangeError),
+    /// More leaflets than a leaf may have.
+    #[error("leaflets in all is {leaflets}, outside 1 to 2000")]
+    TooMany {
+        /// How many.
+        leaflets: usize,
     },
     /// Two leaflets overlap.
     #[error("leaflets {first} and {second} overlap")]
@@ -124,6 +128,12 @@ pub enum CompoundError {
     OnStalk {
         /// Number of the leaflet, from 0.
         leaflet: usize,
+    },
+    /// The curl of the axes continues along the pinnae, and would roll the leaf up.
+    #[error("the curl turns the end of an axis by {degrees:.0}°, more than 720°")]
+    RolledUp {
+        /// By how much, degrees.
+        degrees: f64,
     },
     /// The leaflet's outline cannot be grown.
     #[error("leaflet: {0}")]
@@ -186,6 +196,14 @@ impl CompoundForm {
             };
             let mut errors = overlap::find(&leaf, outlines, most);
             if errors.is_empty() {
+                let places = leaf.stalks.iter().flat_map(|stalk| &stalk.points);
+                let reach = places.fold(0.0_f64, |reach, place| reach.max(place.y.abs()));
+                let degrees = (self.curvature(leaflet.length_mm) * reach)
+                    .abs()
+                    .to_degrees();
+                if degrees > MOST_CURL_DEG && !leaflet.stance.on_ground {
+                    return Err(CompoundError::RolledUp { degrees });
+                }
                 return Ok(leaf);
             }
             if !stray.calm(&errors) {
@@ -194,85 +212,51 @@ impl CompoundForm {
         }
     }
 
+    /// Curvature of the plane of a leaf whose largest leaflet has this length, 1/mm: the curl over the
+    /// length of the main axis.
+    fn curvature(&self, unit: f64) -> f64 {
+        let rachis = match &self.arrangement {
+            Arrangement::Pinnate(feather) => feather.rachis,
+            Arrangement::Palmate { .. } => 0.0,
+            Arrangement::Bipinnate {
+                pinnae, leaflets, ..
+            } => pinnae.rachis * leaflets.rachis,
+        };
+        let length = (self.petiole + rachis) * unit;
+        if length > 0.0 {
+            self.curl / length
+        } else {
+            0.0
+        }
+    }
+
     /// Checks every number.
     ///
     /// # Errors
     ///
-    /// [`CompoundError::OutOfRange`].
+    /// [`CompoundError::Range`], [`CompoundError::TooMany`].
     pub fn validate(&self) -> Result<(), CompoundError> {
-        in_range("petiole", self.petiole, [0.0, 100.0], "0 to 100")?;
-        in_range("petiolule", self.petiolule, [0.0, 10.0], "0 to 10")?;
-        let radius = self.stalk_radius_mm;
-        in_range("stalk_radius_mm", radius, [1e-3, 100.0], "0.001 to 100")?;
-        in_range("variants", f64::from(self.variants), [1.0, 50.0], "1 to 50")?;
-        in_range("curl", self.curl, [-6.2, 6.2], "-6.2 to 6.2 (radians)")?;
-        in_range("fold", self.fold, [-1.4, 1.4], "-1.4 to 1.4 (radians)")?;
-        in_range("tilt", self.tilt, [0.0, 1.0], "0 to 1 (radians)")?;
-        in_range("irregularity", self.irregularity, [0.0, 0.25], "0 to 0.25")?;
+        let mut own = self.clone();
+        if let Some(error) = Keys::check(|keys| own.keys(keys)).into_iter().next() {
+            return Err(error.into());
+        }
         let leaflets = match &self.arrangement {
-            Arrangement::Pinnate(feather) => {
-                feather.validate()?;
-                feather.count()
-            }
-            Arrangement::Palmate {
-                leaflets,
-                spread,
-                sizes,
-            } => {
-                in_range("leaflets", f64::from(*leaflets), [2.0, 100.0], "2 to 100")?;
-                in_range("spread", *spread, [0.05, 6.2], "0.05 to 6.2 (radians)")?;
-                for size in sizes {
-                    in_range("sizes", *size, [0.01, 1.0], "0.01 to 1")?;
-                }
-                *leaflets as usize
-            }
+            Arrangement::Pinnate(feather) => feather.count(),
+            Arrangement::Palmate { leaflets, .. } => *leaflets as usize,
             Arrangement::Bipinnate {
-                pinnae,
-                leaflets,
-                stalk,
-            } => {
-                in_range("stalk", *stalk, [0.01, 100.0], "0.01 to 100")?;
-                pinnae.validate()?;
-                leaflets.validate()?;
-                pinnae.count() * leaflets.count()
-            }
+                pinnae, leaflets, ..
+            } => pinnae.count() * leaflets.count(),
         };
-        let most = [1.0, MOST_LEAFLETS as f64];
-        in_range("leaflets in all", leaflets as f64, most, "1 to 2000")
+        if leaflets > MOST_LEAFLETS {
+            return Err(CompoundError::TooMany { leaflets });
+        }
+        Ok(())
     }
 }
 
 impl Feather {
     fn count(&self) -> usize {
         2 * self.pairs as usize + usize::from(self.terminal)
-    }
-
-    fn validate(&self) -> Result<(), CompoundError> {
-        in_range("pairs", f64::from(self.pairs), [1.0, 200.0], "1 to 200")?;
-        in_range("rachis", self.rachis, [0.01, 100.0], "0.01 to 100")?;
-        in_range("alternation", self.alternation, [0.0, 0.9], "0 to 0.9")?;
-        in_range("turn", self.turn, [-2.0, 2.0], "-2 to 2 (radians)")?;
-        for angle in self.angles {
-            in_range("angles", angle, [0.05, 3.0], "0.05 to 3 (radians)")?;
-        }
-        for size in self.sizes {
-            in_range("sizes", size, [0.01, 1.0], "0.01 to 1")?;
-        }
-        Ok(())
-    }
-}
-
-/// Refuses a `value` outside a range; NaN is outside every range.
-fn in_range(
-    key: &'static str,
-    value: f64,
-    [low, high]: [f64; 2],
-    range: &'static str,
-) -> Result<(), CompoundError> {
-    if (low..=high).contains(&value) {
-        Ok(())
-    } else {
-        Err(CompoundError::OutOfRange { key, value, range })
     }
 }
 

@@ -14,8 +14,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-#[cfg(test)]
-mod combinations;
 pub mod damage;
 mod fields;
 mod holders;
@@ -29,7 +27,7 @@ pub mod venation_plan;
 
 use thiserror::Error;
 
-use self::damage::{Damage, DamageError};
+use self::damage::Damage;
 pub use self::fields::Fields;
 pub use self::lamina::Lamina;
 pub use self::memory::LeafMemory;
@@ -47,11 +45,13 @@ use crate::blade::senescence::Senescence;
 use crate::blade::stalk::StalkMesh;
 use crate::blade::stance::Stance;
 use crate::blade::surface::{SurfaceMap, SurfacePlan};
-use crate::blade::tissue::{Tissue, TissueError};
+use crate::blade::tissue::Tissue;
 use crate::blade::unevenness::Unevenness;
 use crate::blade::vein_field::VeinField;
 use crate::compound::form::CompoundForm;
 use crate::development::DevelopmentError;
+use crate::document::declared::Declared;
+use crate::document::ranges::RangeError;
 use crate::mosaic::pattern::{MosaicPattern, PatternError};
 use crate::optics::Pigments;
 use crate::transport::TransportError;
@@ -154,7 +154,7 @@ pub enum LeafError {
     NoRevenue,
     /// Damage.
     #[error("damage: {0}")]
-    Damage(#[from] DamageError),
+    Damage(#[source] RangeError),
     /// The blade.
     #[error("blade: {0}")]
     Blade(#[from] BladeError),
@@ -163,7 +163,7 @@ pub enum LeafError {
     Mosaic(#[from] PatternError),
     /// The tissue.
     #[error("tissue: {0}")]
-    Tissue(#[from] TissueError),
+    Tissue(#[from] RangeError),
 }
 
 impl LeafPlan {
@@ -191,7 +191,7 @@ impl LeafPlan {
     fn validate_tissue(&self) -> Result<(), LeafError> {
         self.tissue.validate()?;
         if let Some(unevenness) = &self.unevenness {
-            unevenness.validate()?;
+            unevenness.in_range()?;
         }
         self.layers.iter().try_for_each(Layer::validate)?;
         if let Some(mosaic) = &self.mosaic {
@@ -212,7 +212,7 @@ impl LeafPlan {
         let Some(senescence) = &self.senescence else {
             return Ok(());
         };
-        senescence.validate()?;
+        senescence.in_range()?;
         if !senescence.needs_cells() {
             return Ok(());
         }
@@ -242,7 +242,7 @@ impl Leaf {
         plan.validate_tissue()?;
         plan.form.validate()?;
         plan.stance.validate()?;
-        plan.hairs.iter().try_for_each(HairPlan::validate)?;
+        plan.hairs.iter().try_for_each(HairPlan::in_range)?;
         if let Some(petiole) = &plan.petiole {
             petiole.validate()?;
         }

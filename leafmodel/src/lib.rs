@@ -68,7 +68,11 @@
 //! `leafmodel/examples` has whole programs: a leaf within one's own margin, a sweep of two
 //! parameters, a network as CSV, a spectrum.
 
+// Derived code names this crate as others do.
+extern crate self as leafmodel;
+
 pub mod blade;
+mod buckets;
 pub mod compound;
 pub mod development;
 pub mod document;
@@ -79,9 +83,12 @@ pub mod leaf;
 pub mod measure;
 pub mod memory;
 pub mod mosaic;
+mod numeric;
 pub mod optics;
 pub mod plan_file;
+mod plane;
 pub mod plant;
+mod random;
 pub mod rest;
 mod rotation;
 pub mod shape;

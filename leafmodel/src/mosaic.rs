@@ -44,8 +44,6 @@
 //! ```
 
 pub mod atlas;
-#[cfg(test)]
-mod claims;
 pub mod control;
 mod division;
 mod error;
@@ -59,10 +57,11 @@ pub mod plan;
 mod relaxation;
 pub mod shapes;
 mod simulation;
-pub mod statistics;
 pub mod surface;
 #[cfg(test)]
 mod testing;
+#[cfg(test)]
+mod tests;
 pub mod voronoi;
 mod walk;
 

@@ -29,6 +29,7 @@ pub mod absorption;
 pub mod betalains;
 pub mod constituent;
 pub mod contents;
+pub mod contents_keys;
 pub mod dust;
 pub mod faces;
 pub mod fast;

@@ -25,13 +25,9 @@
 //!   scene.
 
 mod compound;
-mod contents;
 mod control;
-mod damage;
 mod development;
 mod growth_form;
-mod hairs;
-mod layers;
 mod leaf;
 mod mosaic;
 mod one_leaf;
@@ -39,32 +35,27 @@ mod outline;
 mod pigments;
 mod plant;
 mod presets;
-mod rates;
-mod senescence;
 mod solid;
 mod specimen;
-mod stance;
-mod surface;
 #[cfg(test)]
 mod tests;
-mod unevenness;
 mod venation;
 
 use std::path::Path;
 
-pub use self::contents::{changed_contents, contents};
 pub use self::leaf::{leaf, usual_leaf};
 pub use self::one_leaf::{LeafFile, LeafNotChosen, load_one_leaf};
 pub use self::pigments::pigments;
 pub use self::plant::{plant, plant_preset, usual_plant};
 pub use self::presets::{colour_preset, leaf_preset};
-pub use self::senescence::DAYS;
 pub use self::solid::{held_contents, solid, usual_solid};
+use crate::blade::senescence::Senescence;
 use crate::document::assets::Assets;
 use crate::document::context::Context;
 use crate::document::coverage::require_coverage;
 use crate::document::error::DocumentError;
 use crate::document::keys::{Keys, NamedList};
+use crate::document::limits::Limits;
 use crate::document::names::Named;
 use crate::document::opened::Opened;
 use crate::document::reader::Block;
@@ -77,11 +68,15 @@ use crate::document::values::integer_at;
 use crate::document::write::to_toml;
 use crate::document::written::{Extent, Written};
 use crate::leaf::LeafPlan;
+pub use crate::optics::contents_keys::{changed_contents, contents};
 use crate::plant::PlantPlan;
 use crate::species;
 
 /// Where PROSPECT-D's table has figures, nm.
 const PROSPECT_NM: [f64; 2] = [400.0, 2500.0];
+
+/// Days for which a leaf may have aged.
+pub const DAYS: Limits = Senescence::DAYS;
 
 /// Keys of a leaf's block that belong to a scene: how it scatters light.
 const SURFACE: [&str; 6] = [

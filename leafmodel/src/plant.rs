@@ -39,11 +39,14 @@ use glam::{DAffine3, DVec3};
 use thiserror::Error;
 
 pub use self::bark::BarkRelief;
+use self::check::{phyllotaxis, rising, towards_light};
 pub use self::climbing::{Climbing, Wall};
 pub use self::flower::FlowerPlan;
 pub use self::foot::{Foot, NotBorne};
 pub use self::pot::{Crumb, PotPlan};
 use crate::blade::stalk::{StalkError, StalkMesh};
+use crate::document::declared::Declared;
+use crate::document::ranges::RangeError;
 
 /// Most leaves of a plant.
 pub const MOST_LEAVES: usize = 100_000;
@@ -51,46 +54,65 @@ pub const MOST_LEAVES: usize = 100_000;
 pub const MOST_VERTICES: usize = 1 << 23;
 
 /// The numbers of a plant. Angles are radians.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct PlantPlan {
     /// Same plan and seed, same plant.
+    #[key("seed")]
     pub seed: u64,
-    /// Number of different leaves of each kind, 1 to 1000; neighbours differ from 2 on.
+    /// Different leaves of each kind that are grown; neighbours differ from 2 on.
+    #[key("individuals", 1..=1000)]
     pub individuals: u32,
     /// The main axis.
+    #[key(flat)]
     pub axis: AxisPlan,
-    /// Its branches; none if every leaf's axil holds a bud.
+    /// Branches in the axils of leaves.
+    #[key("branches", block, default = Branching::USUAL)]
     pub branching: Option<Branching>,
-    /// How leaves stand.
+    /// How leaves stand on their axis.
+    #[key("posture", block)]
     pub posture: Posture,
-    /// How many other turns a leaf tries that would cut another or an axis, 0 to 1000. What climbs
-    /// tries none.
+    /// Other turns about its foot that a leaf tries whose blade would cut another one or an axis; it
+    /// takes the first that cuts nothing, or the one that cuts least. Compound leaves and plants
+    /// that climb try none.
+    #[key("evasions", 0..=1000)]
     pub evasions: u32,
-    /// The buds; none if none are seen.
+    /// Buds in the axils of leaves and at the tips.
+    #[key("buds", block, default = Buds { length_mm: 4.0, radius_mm: 1.2 })]
     pub buds: Option<Buds>,
     /// The stems that rise from its foot.
+    #[key("stems", block)]
     pub stems: Stems,
-    /// Whether axes are green and soft instead of bark.
+    /// Whether its axes are green and soft instead of bark.
+    #[key("green")]
     pub is_green: bool,
-    /// The relief of its axes; none if they are smooth.
+    /// The relief of its axes; left out, they are smooth.
+    #[key("relief", block, default = BarkRelief::USUAL)]
     pub relief: Option<BarkRelief>,
-    /// The flower at the tip of each stem.
+    /// A flower at the tip of each stem.
+    #[key("flower", block, default = FlowerPlan::USUAL)]
     pub flower: Option<FlowerPlan>,
-    /// How it climbs; none if its axes stand free.
+    /// How it climbs on a wall; left out, its axes stand free.
+    #[key("climbing", block, default = Climbing::USUAL)]
     pub climbing: Option<Climbing>,
-    /// The pot in which it stands.
+    /// A pot with soil, in which it stands.
+    #[key("pot", block, default = PotPlan::USUAL)]
     pub pot: Option<PotPlan>,
 }
 
 /// The stems that rise from the foot of a plant. The first is the main axis, the others are
 /// shorter.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Stems {
-    /// How many, 1 to 100.
+    /// How many; the first is the main axis, the others are shorter.
+    #[key("count", 1..=100)]
     pub count: u32,
-    /// Radius of the disc within which they rise; along a wall, half the width. mm, 0 to 10000.
+    /// Radius of the disc within which they rise; along a wall, half the width.
+    #[key("spread_mm", 0.0..=1e4)]
     pub spread_mm: f64,
-    /// Angle by which the outermost lean outwards, 0 to 1.4.
+    /// Angle by which the outermost lean outwards.
+    ///
+    /// Radians.
+    #[key("fan_deg", degrees(0.0..=80.0))]
     pub fan: f64,
 }
 
@@ -136,75 +158,116 @@ impl Phyllotaxis {
 }
 
 /// An axis with its nodes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct AxisPlan {
-    /// Length, mm, 1 to 100000.
+    /// Length of the main axis.
+    #[key("length_mm", 1.0..=1e5)]
     pub length_mm: f64,
-    /// Nodes, 1 to 1000; the last is at the tip.
+    /// Nodes of the main axis, the last one at its tip.
+    #[key("nodes", 1..=1000)]
     pub nodes: u32,
-    /// Share of the length below the first node, 0 to 0.99.
+    /// Share of an axis below its first node.
+    #[key("bare", 0.0..=0.99)]
     pub bare: f64,
-    /// Length of each internode over that of the one before, 0.5 to 1.5.
+    /// Length of each internode over that of the one before.
+    #[key("shortening", 0.5..=1.5)]
     pub shortening: f64,
-    /// Radius at the foot and at the tip, mm, 0.05 to 1000.
+    /// Radius at the foot and at the tip.
+    #[key("radius_mm", 0.05..=1000.0)]
     pub radius_mm: [f64; 2],
-    /// How much thicker nodes are, over the radius, 0 to 1.
+    /// How much thicker nodes are, over the radius.
+    #[key("swelling", 0.0..=1.0)]
     pub swelling: f64,
     /// How leaves follow one another.
+    #[key(with = phyllotaxis)]
     pub phyllotaxis: Phyllotaxis,
-    /// Angle by which the axis bends away from the leaf at each node of one leaf, 0 to 0.6.
+    /// Angle by which the axis bends away from the leaf at each node of one leaf.
+    ///
+    /// Radians.
+    #[key("zigzag_deg", degrees(0.0..=34.0))]
     pub zigzag: f64,
-    /// Angle of its foot from upright, towards +y, 0 to π.
+    /// Angle of its foot from upright, towards +y.
+    ///
+    /// Radians.
+    #[key("inclination_deg", degrees(0.0..=180.0))]
     pub inclination: f64,
-    /// Angle by which it would turn upwards from foot to tip if it were level all the way, −3 to 3;
-    /// below 0 it droops.
+    /// Angle by which a level axis would turn upwards from foot to tip; below 0 it droops.
+    ///
+    /// Radians.
+    #[key("upward_deg", degrees(-170.0..=170.0))]
     pub upward: f64,
-    /// Standard deviation of the bend of each internode, 0 to 0.5.
+    /// Standard deviation of the bend of each internode.
+    ///
+    /// Radians.
+    #[key("stray_deg", degrees(0.0..=28.0))]
     pub stray: f64,
 }
 
 /// Branches in the axils of leaves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
+#[key(last = rising)]
 pub struct Branching {
-    /// 1: the main axis has branches; 2: these have too; up to 4.
+    /// 1: the main axis has branches; 2: these have branches too; and so on.
+    #[key("order", 1..=4)]
     pub order: u32,
-    /// The nodes with branches: from and up to these shares of the axis, 0 to 1.
+    /// The nodes with branches: from and up to these shares of their axis.
+    #[key("between", 0.0..=1.0)]
     pub between: [f64; 2],
-    /// Length over that of the parent at either end of that range, 0.02 to 1.
+    /// Their lengths at both ends of that, over that of the axis that bears them.
+    #[key("length", 0.02..=1.0)]
     pub length: [f64; 2],
-    /// Angle from the parent, 0.1 to 2.
+    /// Angle from the axis that bears them.
+    ///
+    /// Radians.
+    #[key("angle_deg", degrees(6.0..=114.0))]
     pub angle: f64,
-    /// Radius of its foot over that of the parent there, 0.1 to 1.
+    /// Radius of a branch's foot over that of its axis there.
+    #[key("thickness", 0.1..=1.0)]
     pub thickness: f64,
-    /// Share of the axils there that have one, 0 to 1.
+    /// Share of the axils there that have one; the others bear leaves.
+    #[key("share", 0.0..=1.0)]
     pub share: f64,
 }
 
 /// How leaves stand on their axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
+#[key(last = towards_light)]
 pub struct Posture {
-    /// Angle of the petiole's foot from the axis at its foot and at its tip, 0.05 to 3.
+    /// Angle of the petiole's foot from the axis, at the axis' foot and at its tip.
+    ///
+    /// Radians.
+    #[key("angle_deg", degrees(3.0..=170.0))]
     pub angle: [f64; 2],
-    /// Factor on the leaves' size at the axis' foot, in its middle and at its tip, 0.02 to 2.
+    /// Factor on the leaves at the axis' foot, in its middle and at its tip.
+    #[key("size", 0.02..=2.0)]
     pub size: [f64; 3],
-    /// Share of the turn to the light that petioles make, 0 to 1.
+    /// Share of the turn to the light that petioles make.
+    #[key("to_light", 0.0..=1.0)]
     pub to_light: f64,
-    /// Unit vector towards the light.
+    /// Where the light comes from, in the plant's frame; any length but 0.
+    #[key("light", -1e6..=1e6)]
     pub light: DVec3,
-    /// Standard deviation of the turns of each leaf, 0 to 0.7.
+    /// Standard deviation of the turns of each leaf.
+    ///
+    /// Radians.
+    #[key("stray_deg", degrees(0.0..=40.0))]
     pub stray: f64,
-    /// Leaves of each short shoot, 1 to 12; with 1 there are none.
+    /// Leaves of each short shoot; with 1 there are no short shoots.
+    #[key("cluster", 1..=12)]
     pub cluster: u32,
-    /// Length of a short shoot, mm, 0.5 to 200.
+    /// Length of a short shoot.
+    #[key("spur_mm", 0.5..=200.0)]
     pub spur_mm: f64,
 }
 
 /// The buds in the axils of leaves and at the tips.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Buds {
-    /// Length, mm, 0.2 to 50.
+    /// Length.
+    #[key("length_mm", 0.2..=50.0)]
     pub length_mm: f64,
-    /// Greatest radius, mm, 0.1 to 20.
+    /// Greatest radius.
+    #[key("radius_mm", 0.1..=20.0)]
     pub radius_mm: f64,
 }
 
@@ -258,15 +321,8 @@ pub struct Plant {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum PlantError {
     /// A number is out of its range.
-    #[error("{field} is {value}, it must be {range}")]
-    OutOfRange {
-        /// Which, by its key.
-        field: &'static str,
-        /// What it is.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Range(#[from] RangeError),
     /// Nodes have no room.
     #[error(
         "an internode of an axis of {length:.3} mm with {nodes} nodes is {internode:.3} mm long, \

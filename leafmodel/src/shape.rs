@@ -12,19 +12,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub(crate) mod chance;
 pub mod contour_curve;
-pub(crate) mod crossing;
 pub(crate) mod cubic;
 pub mod cubic_margin;
 pub(crate) mod drawing;
 pub mod growth;
 pub mod growth_form;
-mod interior_grid;
 pub(crate) mod outer_boundary;
 pub mod outline;
-pub(crate) mod segments;
-mod slabs;
+pub(crate) mod rates;
 pub mod specimen;
 pub mod svg_path;
 pub mod teeth;

@@ -1,15 +1,20 @@
 //! Presets: leaf plans by name, each with the source of its numbers.
 //!
+//! A preset is a file, `leafmodel/species/NAME.toml`: what a list says of it, where its numbers are
+//! from, and in the block `leaf` the keys of a plan ([`crate::plan_file`]). It may inherit from another
+//! one (`base`), and do without some of what that has (`without`). Code has no table of species.
+//!
 //! - **In**: a name, as in `lamina grow poplar`.
-//! - **Out**: a [`LeafPlan`] with every number in it.
+//! - **Out**: a [`LeafPlan`] with every number in it, and what is known of it.
+//! - **Always true**: a file is parsed when its preset is asked for, once.
 //! - **Left out**: no number is hidden. A preset is a plan like any other, which can be written out
-//!   and changed.
+//!   and changed. What the keys of `leaf` mean belongs to [`crate::plan_file`], which makes the plan.
 //!
 //! ```
 //! use leafmodel::species::{self, PRESETS};
 //!
 //! for preset in PRESETS {
-//!     println!("{:24}{}", preset.name, preset.about);
+//!     println!("{:24}{}", preset.name, preset.about());
 //! }
 //! let maple = species::find("maple").ok_or("the maple is a preset")?;
 //! let plan = maple.plan();
@@ -22,87 +27,89 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod architectures;
-mod arcuate;
-mod as_grown;
-mod beyond;
 #[cfg(test)]
 mod claims;
-pub mod colours;
-mod compound_leaves;
-mod contours;
-mod developed;
 pub mod diagnosis;
-mod extended;
+mod file;
 #[cfg(test)]
 pub(crate) mod grown_once;
 mod individuals;
-pub mod leaf_traits;
-mod list;
-pub mod maple;
-mod peltate;
-mod runions;
-mod specimens;
-mod stances;
-pub mod surfaces;
-pub mod table_1;
-mod trees;
-mod trees_contours;
-mod xia;
-pub mod young;
+#[cfg(test)]
+mod tests;
+pub mod traits;
 
-use crate::blade::BladeForm;
-use crate::blade::stance::Stance;
-use crate::blade::tissue::Tissue;
+use std::sync::OnceLock;
+
+use self::file::Heading;
+pub(crate) use self::file::{BLOCKS, read};
+use self::traits::{Counts, Traits};
+use crate::document::opened::Opened;
 use crate::leaf::LeafPlan;
-use crate::leaf::outline_plan::OutlinePlan;
-use crate::optics::Constituent::{
-    Anthocyanins, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
-};
-use crate::optics::{Contents, Pigments, VeinFactors};
-use crate::venation::plan::AuxinPlan;
-
-use self::colours::ColouredLeaf;
-pub use self::list::PRESETS;
-use self::table_1::Row;
-use self::young::Form;
 
 /// A named leaf plan.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Preset {
     /// Its name: lower-case words joined by `-`.
     pub name: &'static str,
-    /// What it shows, and what the caption of its figure claims.
-    pub about: &'static str,
-    /// The source of its numbers, and how they depart from it.
-    pub source: &'static str,
-    /// The row of Table 1 of Runions et al. 2005 that it stands for, if any.
-    pub row: Option<&'static Row>,
-    /// Makes the plan.
-    plan: PlanOf,
-}
-
-/// How a preset's plan is made.
-#[derive(Clone, Copy, Debug)]
-enum PlanOf {
-    /// By a function of its own.
-    Function(fn() -> LeafPlan),
-    /// From the parameters of a figure.
-    Form(&'static Form),
-    /// From the table of a leaf that is not green.
-    Coloured(&'static ColouredLeaf),
+    text: &'static str,
+    heading: OnceLock<Heading>,
+    known: OnceLock<(Option<Traits>, Counts)>,
+    /// Its plan, once it was asked for.
+    pub(crate) plan: OnceLock<LeafPlan>,
 }
 
 impl Preset {
-    /// The whole plan of the leaf.
-    pub fn plan(&self) -> LeafPlan {
-        let mut plan = match self.plan {
-            PlanOf::Function(plan) => plan(),
-            PlanOf::Form(form) => form.plan(),
-            PlanOf::Coloured(leaf) => leaf.plan(),
-        };
-        stances::apply(self.name, &mut plan);
-        plan
+    const fn new(name: &'static str, text: &'static str) -> Self {
+        Self {
+            name,
+            text,
+            heading: OnceLock::new(),
+            known: OnceLock::new(),
+            plan: OnceLock::new(),
+        }
+    }
+
+    /// What it shows, and what the caption of its figure claims.
+    pub fn about(&self) -> &str {
+        &self.heading().about
+    }
+
+    /// The source of its numbers, and how they depart from it.
+    pub fn source(&self) -> &str {
+        &self.heading().source
+    }
+
+    /// GGX roughness of the adaxial coat, if it is not the default.
+    pub fn adaxial_roughness(&self) -> Option<f64> {
+        self.heading().adaxial_roughness
+    }
+
+    /// Where the numbers of its species are from, if it stands for one.
+    pub fn traits(&self) -> Option<&Traits> {
+        self.known().0.as_ref()
+    }
+
+    /// Whether the leaf has another colour than summer's green.
+    pub fn is_coloured(&self) -> bool {
+        self.traits().is_some_and(Traits::is_coloured)
+    }
+
+    /// What floras count on its species.
+    pub(crate) fn counts(&self) -> &Counts {
+        &self.known().1
+    }
+
+    /// Its file with all that it inherits.
+    pub(crate) fn opened(&self) -> Opened {
+        file::opened(self)
+    }
+
+    fn heading(&self) -> &Heading {
+        self.heading.get_or_init(|| Heading::of(self))
+    }
+
+    fn known(&self) -> &(Option<Traits>, Counts) {
+        self.known.get_or_init(|| traits::read(self.opened()))
     }
 }
 
@@ -111,81 +118,46 @@ pub fn find(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|preset| preset.name == name)
 }
 
-/// A flat green leaf: contents of a mature broad leaf, veins paler than the blade. It serves leaves
-/// without [`leaf_traits`] of a species; its numbers lie in the middle of the usual range
-/// (`docs/src/theory/tissue.md`).
-fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPlan) -> LeafPlan {
-    let veinlet = venation.veinlet_radius_mm;
-    LeafPlan {
-        length_mm,
-        seed,
-        outline,
-        venation: venation.into(),
-        tissue: Tissue {
-            lamina: Contents::of(&[
-                (Structure, 1.5),
-                (Chlorophyll, 38.0),
-                (Carotenoids, 9.0),
-                (Anthocyanins, 0.5),
-                (Water, 0.01),
-                (DryMatter, 0.005),
-            ]),
-            vein_factors: VeinFactors::default(),
-            vein_body: None,
-            full_vein_radius_mm: (4.0 * veinlet).clamp(0.001, 0.2),
-            sheath_width_mm: (5.0 * veinlet).clamp(0.001, 0.15),
-            mottle: 0.1,
-            mottle_scale_mm: 1.5,
-        },
-        unevenness: None,
-        layers: Vec::new(),
-        mosaic: None,
-        senescence: None,
-        form: BladeForm {
-            fold: 8.0_f64.to_radians(),
-            curl: 20.0_f64.to_radians(),
-            ruffle: 0.01,
-            ruffle_waves: 2.5,
-            pleat: 0.0,
-            relief: 0.6,
-            thickness_mm: 0.2,
-            margin: crate::blade::MarginThickness::EVEN,
-            closed: false,
-            max_edge_mm: length_mm / 80.0,
-            meshed_vein_radius_mm: 0.12,
-        },
-        stance: Stance::default(),
-        surface: None,
-        hairs: Vec::new(),
-        petiole: None,
-        compound: None,
-        damage: None,
-        pigments: Pigments::default(),
-        map_size: 1600,
-    }
+/// A list of the files of these names.
+macro_rules! files {
+    ($list:ident: $($name:literal)*) => {
+        static $list: [Preset; [$($name),*].len()] =
+            [$(Preset::new($name, include_str!(concat!("../species/", $name, ".toml")))),*];
+    };
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+// What presets share and what is none itself.
+files! { BASES: "bases/green-leaf" "bases/species-leaf" "bases/tree" }
 
-    #[test]
-    fn every_preset_is_found_by_its_name_and_can_be_carried_out() {
-        for preset in PRESETS {
-            let allowed = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'-';
-            assert!(preset.name.bytes().all(allowed), "{}", preset.name);
-            let found = find(preset.name).expect("it is in the list");
-            assert!(
-                std::ptr::eq(found, preset),
-                "{} is there twice",
-                preset.name
-            );
-            let plan = preset.plan();
-            assert_eq!(plan.tissue.validate(), Ok(()));
-            plan.form.validate().expect("a good form");
-            plan.check_senescence().expect("a good old age");
-            plan.check_lamina().expect("a good outline and venation");
-        }
-        assert!(find("popplar").is_none());
-    }
+/// All presets, in the order in which a list shows them: the figures of Runions et al. 2005 in their
+/// order, extensions of that paper, trees and shrubs, leaves in other colours, splines, the examples
+/// of Xia 2007, leaves that develop from their margin, extensions of Young 2010, compound leaves, then
+/// the figures of Young 2010.
+pub static PRESETS: &[Preset] = &LISTED;
+
+files! { LISTED:
+    "runions-9a" "runions-9b" "runions-9c" "runions-9d" "runions-9e" "runions-9f" "runions-9g"
+    "runions-9h" "runions-9i" "ginkgo" "alchemilla" "sweetgum" "toothed" "tertiary" "orchid"
+    "reticulate" "cherry" "grass" "poplar" "poplar-urquhart" "poplar-fine" "poplar-x10"
+    "developmental" "trillium"
+    "brochidodromous" "free-endings" "cupped"
+    "maple" "white-oak" "red-oak" "cottonwood" "aspen" "birch" "willow" "ivy" "magnolia" "croton"
+    "ginkgo-leaf" "alchemilla-leaf" "sweetgum-leaf" "cherry-leaf" "orchid-leaf" "grass-blade"
+    "trillium-petal" "trillium-bract" "trillium-sepal" "nasturtium"
+    "ginkgo-autumn" "birch-autumn" "poplar-autumn" "sugar-maple-autumn" "red-maple-autumn"
+    "sweetgum-autumn" "oak-litter" "cotinus" "acer-variegated" "ivy-variegated" "iron-chlorosis"
+    "croton-variegated" "amaranth"
+    "arcuate-default" "pinnate" "pinnate-to-arcuate-1" "pinnate-to-arcuate-2"
+    "pinnate-to-arcuate-3" "arcuate" "palmate-splines"
+    "xia-1" "xia-2" "xia-3" "xia-4" "xia-5" "xia-5a" "xia-5b" "xia-5c" "xia-5d" "xia-5e" "xia-5f"
+    "xia-autumn" "maple-transport"
+    "maple-development" "white-oak-development" "red-oak-development" "cottonwood-development"
+    "birch-development" "willow-development" "ivy-development" "magnolia-development" "linden"
+    "hawthorn" "arabidopsis" "cardamine" "tomato" "horse-chestnut-development" "plantain"
+    "maple-palmate" "begonia" "dogwood"
+    "ash" "rose" "horse-chestnut" "mimosa" "clover"
+    "young-3a" "young-3b" "young-3c" "young-3d" "young-4a" "young-4b" "young-4c" "young-4d"
+    "young-5a" "young-5b" "young-5c" "young-5d" "young-6a" "young-6b" "young-6c" "young-6d"
+    "young-7a" "young-7b" "young-7c" "young-7d" "young-8a" "young-8b" "young-8c" "young-8d"
+    "young-9a" "young-9b" "young-9c" "young-9d"
 }

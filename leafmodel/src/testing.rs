@@ -2,6 +2,8 @@
 
 use proptest::test_runner::{Config, RngSeed};
 
+use crate::random::{bits_of, share};
+
 /// Properties are tried on the same cases on every run, on `LAMINA_CASES` times as many where that is set.
 pub(crate) fn fixed(cases: u32) -> Config {
     let factor = std::env::var("LAMINA_CASES")
@@ -13,4 +15,9 @@ pub(crate) fn fixed(cases: u32) -> Config {
         failure_persistence: None,
         ..Config::default()
     }
+}
+
+/// A uniform number in [0, 1) for a use that only a test has.
+pub(crate) fn uniform(seed: u64, purpose: u64, counter: u64) -> f64 {
+    share(bits_of(seed, purpose, counter))
 }

@@ -54,7 +54,6 @@ mod tree;
 mod vein_network;
 mod vein_style;
 mod walls;
-mod year;
 
 pub use self::cells::Cell;
 pub use self::cost::TransportSystem;
@@ -65,4 +64,3 @@ pub use self::leaf::{Stage, TransportLeaf};
 pub use self::plan::{Ladder, TransportError, TransportPlan};
 pub use self::secondaries::Secondary;
 pub use self::vein_style::VeinStyle;
-pub use self::year::Year;

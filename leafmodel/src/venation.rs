@@ -35,10 +35,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-#[cfg(test)]
-mod agreement;
-#[cfg(test)]
-mod all_pairs;
 mod arches;
 pub mod architecture;
 pub mod arcuate;
@@ -46,7 +42,6 @@ pub mod areole;
 mod auxin;
 mod bipolar;
 mod carrying_out;
-pub(crate) mod chance;
 mod closed;
 pub mod conformal_map;
 mod fresh_nodes;
@@ -71,6 +66,8 @@ mod sources;
 mod tension;
 #[cfg(test)]
 pub(crate) mod testing;
+#[cfg(test)]
+mod tests;
 pub(crate) mod topology;
 mod urquhart;
 mod veins;

@@ -21,8 +21,6 @@
 //! assert!((weight.mean() - 0.6).abs() < 1e-5);
 //! ```
 
-use std::f32::consts::FRAC_1_PI;
-
 use glam::{Vec2, Vec3};
 
 use crate::spectrum::Lanes;
@@ -30,6 +28,7 @@ use crate::spectrum::Lanes;
 pub mod coat;
 pub mod coat_table;
 pub mod dielectric;
+pub mod diffuse;
 pub mod directional_albedo;
 pub mod dust;
 pub mod fluorescence;
@@ -41,27 +40,16 @@ pub mod leaf_face;
 pub mod leaf_tissue;
 pub mod metallic_roughness;
 pub mod relief;
+pub mod sample;
 
-use crate::sampling::warp;
-use dielectric::Dielectric;
-use fluorescence::FluorescenceView;
-use leaf::{LeafBsdf, LeafView};
-use leaf_face::FaceView;
-use metallic_roughness::{MetallicRoughness, MetallicView};
-use relief::{ReliefBsdf, ReliefFace, ReliefView};
-
-/// A sampled direction, with the weight of light from it.
-#[derive(Clone, Copy, Debug)]
-pub struct BsdfSample<const N: usize> {
-    /// Direction of the light, local.
-    pub wi: Vec3,
-    /// `f · |cos| / pdf`.
-    pub weight: Lanes<N>,
-    /// Density over solid angle; meaningless for a mirror direction.
-    pub pdf: f32,
-    /// Whether the direction is one of finitely many (no light sample can match it).
-    pub specular: bool,
-}
+use self::dielectric::Dielectric;
+use self::diffuse::DiffuseView;
+use self::fluorescence::FluorescenceView;
+use self::leaf::{LeafBsdf, LeafView};
+use self::leaf_face::FaceView;
+use self::metallic_roughness::{MetallicRoughness, MetallicView};
+use self::relief::{ReliefBsdf, ReliefFace, ReliefView};
+pub use self::sample::{BsdfSample, Scattered};
 
 /// The ways of scattering, with parameters taken from the material at a hit.
 #[derive(Clone, Debug)]
@@ -76,23 +64,6 @@ pub enum Bsdf<'a, const N: usize> {
     Relief(ReliefBsdf<'a, N>),
     /// A surface between paint and metal.
     Metallic(MetallicRoughness<'a, N>),
-}
-
-/// The value of a BSDF for a pair of directions, with its sampling density.
-#[derive(Clone, Copy, Debug)]
-pub struct Scattered<const N: usize> {
-    /// `f(wo, wi)`, sr⁻¹, without the cosine; zero for specular parts.
-    pub f: Lanes<N>,
-    /// Density with which [`View::sample`] draws the direction, sr⁻¹; zero for specular parts.
-    pub pdf: f32,
-}
-
-impl<const N: usize> Scattered<N> {
-    /// No scattering, and density 0.
-    pub const NOTHING: Self = Self {
-        f: Lanes::ZERO,
-        pdf: 0.0,
-    };
 }
 
 /// A [`Bsdf`] for one direction `wo`: everything that depends on `wo` alone is computed once.
@@ -119,33 +90,17 @@ pub enum View<'a, const N: usize> {
     Face(&'a FaceView<N>),
 }
 
-/// Lambertian reflection on both sides, seen from one direction.
-#[derive(Clone, Debug)]
-pub struct DiffuseView<const N: usize> {
-    reflectance: Lanes<N>,
-    /// The outgoing direction, local.
-    wo: Vec3,
-}
-
 impl<const N: usize> View<'_, N> {
     /// The BSDF's value for light from `wi`, and the density with which `wi` is sampled.
     #[inline]
     pub fn scatter(&self, wi: Vec3) -> Scattered<N> {
         match self {
-            Self::Diffuse(DiffuseView { reflectance, wo }) => {
-                if wo.z * wi.z > 0.0 {
-                    Scattered {
-                        f: *reflectance * FRAC_1_PI,
-                        pdf: wi.z.abs() * FRAC_1_PI,
-                    }
-                } else {
-                    Scattered::NOTHING
-                }
+            Self::Diffuse(surface) => surface.scatter(wi),
+            Self::Dielectric { wo, dielectric } => {
+                let (f, pdf) = dielectric.scatter(*wo, wi);
+                let f = Lanes::splat(f);
+                Scattered { f, pdf }
             }
-            Self::Dielectric { wo, dielectric } => Scattered {
-                f: Lanes::splat(dielectric.eval(*wo, wi)),
-                pdf: dielectric.pdf(*wo, wi),
-            },
             Self::Leaf(leaf) => leaf.scatter(wi),
             Self::Relief(relief) => relief.scatter(wi),
             Self::Metallic(surface) => surface.scatter(wi),
@@ -158,24 +113,8 @@ impl<const N: usize> View<'_, N> {
     #[inline]
     pub fn sample(&self, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
         match self {
-            Self::Diffuse(DiffuseView { reflectance, wo }) => {
-                let up = warp::cosine_hemisphere(u);
-                let wi = Vec3::new(up.x, up.y, up.z.copysign(wo.z));
-                (up.z > 0.0).then_some(BsdfSample {
-                    wi,
-                    weight: *reflectance,
-                    pdf: up.z * FRAC_1_PI,
-                    specular: false,
-                })
-            }
-            Self::Dielectric { wo, dielectric } => {
-                dielectric.sample(*wo, lobe, u).map(|sample| BsdfSample {
-                    wi: sample.wi,
-                    weight: Lanes::splat(sample.weight),
-                    pdf: sample.pdf,
-                    specular: sample.specular,
-                })
-            }
+            Self::Diffuse(surface) => surface.sample(u),
+            Self::Dielectric { wo, dielectric } => dielectric.sample(*wo, lobe, u),
             Self::Leaf(leaf) => leaf.sample(lobe, u),
             Self::Relief(relief) => relief.sample(lobe, u),
             Self::Metallic(surface) => surface.sample(lobe, u),

@@ -7,16 +7,14 @@
 //!   another format or a damaged one is an error, which no content can turn into a panic.
 //! - **Left out**: when to write one, which the command line decides.
 //!
-//! A file is a magic line and sections: length, CRC-32 and bytes of each. First comes the heading,
+//! A file is a magic line and sections (`codec`). First comes the heading,
 //! then a section for each row of blocks ([`Film::packed_row`]), then counts of rejected samples,
 //! clamped values and cut paths, then what is known of the noise.
 
-mod bytes;
 mod heading;
 mod merge;
 #[cfg(test)]
 mod tests;
-mod view;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
@@ -28,16 +26,20 @@ use thiserror::Error;
 pub use heading::{Heading, PROGRAM};
 pub use merge::{MergeError, merge};
 
-use self::bytes::{Out, Rest};
 use self::heading::Progress;
+use crate::codec::{self, SectionHead, write_section};
 use crate::film::{BLOCK_SIDE, DamagedRow, Film, FilmError};
 use crate::image::{ImageError, atomic};
 use crate::integrator::layers::Layout;
+use crate::integrator::noise::NoiseWatch;
 use crate::integrator::render::{Begun, Job};
 use crate::spectrum::WavelengthSampler;
 
 /// The first bytes of a file.
-const MAGIC: [u8; 16] = *b"lamina sums 10\n\n";
+const MAGIC: [u8; 16] = *b"lamina sums 11\n\n";
+
+/// The first bytes of files of older programs, and the versions that wrote them.
+const OLDER: [([u8; 16], &str); 1] = [(*b"lamina sums 10\n\n", "0.1.0")];
 
 /// Why a checkpoint cannot be read.
 #[derive(Debug, Error)]
@@ -55,6 +57,14 @@ pub enum CheckpointError {
     Foreign {
         /// The file.
         path: PathBuf,
+    },
+    /// An older program has written it.
+    #[error("{} was written by Lamina {version}: continue it, or merge it, with that version", .path.display())]
+    Older {
+        /// The file.
+        path: PathBuf,
+        /// The version.
+        version: &'static str,
     },
     /// It begins as one.
     #[error("{} is damaged: {what}", .path.display())]
@@ -90,7 +100,7 @@ fn write_sections(
 ) -> io::Result<()> {
     let film = &begun.film;
     file.write_all(&MAGIC)?;
-    section(file, &heading.to_bytes(&Progress::of(begun)))?;
+    write_section(file, &heading.to_bytes(&Progress::of(begun)))?;
     // Rows are packed on all threads, some at a time, so that few are in memory.
     let batch = 4 * rayon::current_num_threads();
     for first in (0..film.rows()).step_by(batch) {
@@ -100,28 +110,12 @@ fn write_sections(
             .map(|row| film.packed_row(row))
             .collect();
         for row in packed {
-            section(file, &row)?;
+            write_section(file, &row)?;
         }
     }
-    let mut faults = Out::default();
-    for count in film.fault_counts() {
-        faults.long(count);
-    }
-    section(file, &faults.0)?;
-    let mut noise = Out::default();
-    if let Some(watch) = &begun.watch {
-        for word in watch.words() {
-            noise.word(word);
-        }
-    }
-    section(file, &noise.0)
-}
-
-fn section(file: &mut BufWriter<&mut File>, bytes: &[u8]) -> io::Result<()> {
-    let length = u32::try_from(bytes.len()).map_err(io::Error::other)?;
-    file.write_all(&length.to_le_bytes())?;
-    file.write_all(&crc32fast::hash(bytes).to_le_bytes())?;
-    file.write_all(bytes)
+    write_section(file, &codec::to_bytes(&film.fault_counts()))?;
+    let noise = begun.watch.as_ref().map(NoiseWatch::words);
+    write_section(file, &codec::to_bytes(&noise))
 }
 
 /// Reads the state of a render; sums are added up on the current thread pool.
@@ -143,8 +137,8 @@ struct Opened {
     path: PathBuf,
     heading: Heading,
     progress: Progress,
-    /// Place, length and checksum of each section behind the heading.
-    sections: Vec<(u64, u32, u32)>,
+    /// Places of the sections behind the heading, and what stands before each.
+    sections: Vec<(u64, SectionHead)>,
 }
 
 impl Opened {
@@ -173,25 +167,28 @@ impl Opened {
         }
         file.read_exact(&mut magic).map_err(refuse)?;
         if magic != MAGIC {
-            return Err(foreign());
+            let older = OLDER.into_iter().find(|(older, _)| magic == *older);
+            return Err(
+                older.map_or_else(foreign, |(_, version)| CheckpointError::Older {
+                    path: path.to_owned(),
+                    version,
+                }),
+            );
         }
         let mut at = MAGIC.len() as u64;
         let mut sections = Vec::new();
         while at < size {
-            let mut head = [0; 8];
-            if size - at < 8 {
+            if size - at < SectionHead::LENGTH {
                 return Err(damaged("its end is missing"));
             }
             file.seek(SeekFrom::Start(at)).map_err(refuse)?;
-            file.read_exact(&mut head).map_err(refuse)?;
-            let mut head = Rest(&head);
-            let (length, sum) = head.word().zip(head.word()).unwrap_or_default();
-            at += 8;
-            if size - at < u64::from(length) {
+            let head = SectionHead::read(&mut file).map_err(refuse)?;
+            at += SectionHead::LENGTH;
+            if size - at < head.length {
                 return Err(damaged("its end is missing"));
             }
-            sections.push((at, length, sum));
-            at += u64::from(length);
+            sections.push((at, head));
+            at += head.length;
         }
         if sections.is_empty() {
             return Err(damaged("its end is missing"));
@@ -229,7 +226,7 @@ impl Opened {
         self.sections.len() == rows + 2
             && self.sections[..rows]
                 .iter()
-                .all(|&(_, length, _)| u64::from(length) >= least)
+                .all(|(_, head)| head.length >= least)
     }
 
     /// The sums of several files of one render, this one among them, with the first of their
@@ -268,41 +265,33 @@ impl Opened {
         }
         begun.first = self.progress.first;
         if let Some(watch) = begun.watch.take() {
-            let bytes = self.section(rows + 1)?;
-            let words = bytes.chunks(4).map(|word| Rest(word).word());
-            let words: Option<Vec<u32>> = words.collect();
-            let watch = words.and_then(|words| watch.restored(&words));
+            let words: Option<Option<Vec<u32>>> = codec::from_bytes(&self.section(rows + 1)?);
+            let watch = words.flatten().and_then(|words| watch.restored(&words));
             begun.watch = Some(watch.ok_or_else(|| self.damaged("its noise is impossible"))?);
         }
         Ok(begun)
     }
 
     fn add_faults(&self, film: &mut Film, section: usize) -> Result<(), CheckpointError> {
-        let bytes = self.section(section)?;
-        let counts = bytes.chunks(8).map(|count| Rest(count).long());
-        let counts: Option<Vec<u64>> = counts.collect();
+        let counts: Option<Vec<u64>> = codec::from_bytes(&self.section(section)?);
         let added = counts.and_then(|counts| film.add_fault_counts(&counts).ok());
         added.ok_or_else(|| self.damaged("its counts of rejected samples are impossible"))
     }
 }
 
 /// The bytes of a section, if its checksum is right.
-fn section_of(path: &Path, (at, length, sum): (u64, u32, u32)) -> Result<Vec<u8>, CheckpointError> {
-    let refuse = |source| CheckpointError::File {
-        path: path.to_owned(),
+fn section_of(path: &Path, (at, head): (u64, SectionHead)) -> Result<Vec<u8>, CheckpointError> {
+    let read = File::open(path).and_then(|mut file| {
+        file.seek(SeekFrom::Start(at))?;
+        head.bytes(&mut file)
+    });
+    let path = || path.to_owned();
+    let bytes = read.map_err(|source| CheckpointError::File {
+        path: path(),
         source,
-    };
-    let mut file = File::open(path).map_err(refuse)?;
-    file.seek(SeekFrom::Start(at)).map_err(refuse)?;
-    let mut bytes = Vec::with_capacity(length as usize);
-    file.take(u64::from(length))
-        .read_to_end(&mut bytes)
-        .map_err(refuse)?;
-    if bytes.len() < length as usize || crc32fast::hash(&bytes) != sum {
-        return Err(CheckpointError::Damaged {
-            path: path.to_owned(),
-            what: "a checksum is wrong",
-        });
-    }
-    Ok(bytes)
+    })?;
+    bytes.ok_or_else(|| CheckpointError::Damaged {
+        path: path(),
+        what: "a checksum is wrong",
+    })
 }

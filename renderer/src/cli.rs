@@ -31,7 +31,6 @@ macro_rules! eprintln {
 pub mod arguments;
 mod check;
 mod check_bsdf;
-mod columns;
 mod compare_networks;
 mod example;
 mod export;
@@ -69,6 +68,7 @@ use clap::{CommandFactory, FromArgMatches};
 
 use crate::scene::load::{self, Loaded};
 use arguments::{Arguments, Command, ExportCommand, GREETING, SceneArguments};
+use leafmodel::document::nearest::nearest;
 use leafmodel::document::path;
 use leafmodel::document::report::{DocumentErrors, SHOWN, Warning};
 use leafmodel::document::source::printable;
@@ -258,6 +258,21 @@ fn output_failure() -> Option<Failure> {
     let mut first = OUTPUT_ERROR.lock().unwrap_or_else(PoisonError::into_inner);
     let told = |error| Failure::system(format!("the results cannot be printed: {error}"));
     first.take().map(told)
+}
+
+/// Does work on so many threads; without a number on one for each processor.
+fn on_threads<T: Send>(
+    threads: Option<u16>,
+    work: impl FnOnce() -> Result<T, Failure> + Send,
+) -> Result<T, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from));
+    pool.build().map_err(Failure::system)?.install(work)
+}
+
+/// Words about the known name that is nearest to a wrong one; nothing if none is near.
+fn did_you_mean<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    let near = nearest(wrong, known);
+    near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
 }
 
 /// Loads a scene and prints its warnings.

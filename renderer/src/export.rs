@@ -41,8 +41,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub(crate) mod blade;
 pub mod caption;
+pub(crate) mod daylight;
 pub mod drawing;
 mod element;
 pub mod mitsuba;
 pub mod overlay;
+pub(crate) mod sheet;

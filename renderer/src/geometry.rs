@@ -38,7 +38,6 @@ mod error;
 mod hilbert;
 mod hit;
 mod median;
-mod scramble;
 mod slab;
 mod triangle;
 mod wide_tree;

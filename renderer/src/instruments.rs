@@ -57,7 +57,9 @@ mod canopy;
 mod constituents;
 mod depth;
 mod detector;
+mod error;
 mod fluorescence;
+mod flux;
 mod gonio;
 mod lamp;
 mod ledger;
@@ -67,157 +69,16 @@ mod spectral;
 mod sphere;
 mod spot;
 mod stage;
-mod walk;
-
-use thiserror::Error;
 
 pub use self::batches::{Budget, Effort, FEWEST_RAYS, Target, Watch};
+pub use self::error::{InstrumentError, Problem};
+use self::flux::LANES;
 pub use self::period::MOST_TURNS;
-pub use self::row::{Direction, Row, ViewAngles};
+pub use self::row::{Direction, Reading, Row, ViewAngles};
 pub use self::stage::CutPaths;
-use crate::geometry::GeometryError;
 use crate::scene::description::{Description, InstrumentKind};
 use crate::scene::world::World;
 use crate::spectrum::WavelengthSampler;
-
-/// Number of wavelengths that a path carries.
-const LANES: usize = 8;
-
-/// Why an instrument cannot measure; each begins with where its block stands.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum InstrumentError {
-    /// The middle of a spot is not on its object.
-    #[error("{at}: the spot is off the object `{object}`: {place} is no point of its surface")]
-    OffTheObject {
-        /// Where the block stands.
-        at: String,
-        /// The object.
-        object: String,
-        /// The key with its value.
-        place: String,
-    },
-    /// A part of a spot is beside its object.
-    #[error(
-        "{at}: {share:.1} % of the spot is not covered by the object `{object}`: use a smaller \
-         `diameter_mm` or another place"
-    )]
-    NotCovered {
-        /// Where the block stands.
-        at: String,
-        /// The object.
-        object: String,
-        /// Share of the spot where there is nothing, percent.
-        share: f64,
-    },
-    /// No ray met the object.
-    #[error("{at}: no light meets the object `{object}`: is it seen from this side?")]
-    NothingLit {
-        /// Where the block stands.
-        at: String,
-        /// The object.
-        object: String,
-    },
-    /// A canopy without anything but soil.
-    #[error(
-        "{at}: nothing stands in `within_m` besides the soil: move the box, or add leaves to the \
-         scene"
-    )]
-    NoLeaves {
-        /// Where the block stands.
-        at: String,
-    },
-    /// What stands in a box that repeats itself is too high for its width.
-    #[error(
-        "{at}: what stands in `within_m` reaches from z = {:.4e} to {:.4e} m, more than {most} times the \
-         smaller side of the box ({side} m); the tallest is of the object `{object}`: widen the box, \
-         or leave that object out of the scene", heights[0], heights[1]
-    )]
-    TooHigh {
-        /// Where the block stands.
-        at: String,
-        /// Least and greatest height, m.
-        heights: [f64; 2],
-        /// Smaller side of the box, m.
-        side: f64,
-        /// The most times that.
-        most: f64,
-        /// The object of the tallest part.
-        object: String,
-    },
-    /// Soil that does not fill the box.
-    #[error(
-        "{at}: the soil `{object}` does not reach over the whole of `within_m`: widen it or \
-         narrow the box"
-    )]
-    SoilTooSmall {
-        /// Where the block stands.
-        at: String,
-        /// The object.
-        object: String,
-    },
-    /// An object whose inside scatters or absorbs what a figure does not count.
-    #[error("{at}: the object `{object}` {problem}")]
-    Inside {
-        /// Where the block stands.
-        at: String,
-        /// The object.
-        object: String,
-        /// What is not counted, and what to write.
-        problem: &'static str,
-    },
-    /// A port that looks at its own object, as one within a closed body does.
-    #[error(
-        "{at}: the abaxial face of the object `{object}` cannot be lit through a port: the port \
-         faces another part of the object, as within a closed body: write `faces = \"adaxial\"`"
-    )]
-    PortInside {
-        /// Where the block stands.
-        at: String,
-        /// The object.
-        object: String,
-    },
-    /// An object without known contents.
-    #[error("{at}: the object `{object}` {problem}")]
-    NoContents {
-        /// Where the block stands.
-        at: String,
-        /// The object.
-        object: String,
-        /// What is wrong.
-        problem: String,
-    },
-    /// More figures than there is memory for.
-    #[error(
-        "{at}: `instances` asks for {figures} figures of sets of eight wavelengths, more than \
-         {most}: use fewer wavelengths, lights or leaves"
-    )]
-    TooManyInstances {
-        /// Where the block stands.
-        at: String,
-        /// How many there would be.
-        figures: usize,
-        /// How many there may be.
-        most: usize,
-    },
-    /// Copies of a canopy's parts cannot be placed.
-    #[error("{at}: {source}")]
-    Geometry {
-        /// Where the block stands.
-        at: String,
-        /// Why.
-        source: GeometryError,
-    },
-}
-
-/// What an instrument reads.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Reading {
-    /// Its figures.
-    pub rows: Vec<Row>,
-    /// Paths that were cut; what they carried counts as absorbed, or is missing from the figures of a
-    /// canopy.
-    pub cut: CutPaths,
-}
 
 /// The wavelengths of all instruments of a scene, and the first set of each; `None` if there are no
 /// instruments.

@@ -44,16 +44,12 @@
 //! ```
 
 pub mod caption;
-pub mod cone;
 pub mod develop;
 pub mod effort;
-pub mod encounter;
-pub mod facet;
 pub mod features;
 mod fluorescence;
 mod job;
 pub mod layers;
-pub mod leaf_walk;
 pub mod mis;
 pub mod noise;
 pub mod path;

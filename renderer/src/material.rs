@@ -69,13 +69,6 @@ pub struct Tissue<'m> {
     pub held: Option<&'m Held>,
 }
 
-/// Wavelengths across a range, nm, at which a coat is compared with the whole.
-fn coarse(range_nm: [f64; 2]) -> impl Iterator<Item = f64> {
-    const STEPS: u32 = 200;
-    let [first, last] = range_nm;
-    (0..=STEPS).map(move |i| first + (last - first) * f64::from(i) / f64::from(STEPS))
-}
-
 /// A coat that alone reflects more than the whole should.
 #[derive(Clone, Copy, Debug)]
 pub struct ExceedingCoat {
@@ -166,56 +159,42 @@ impl Material {
         }
     }
 
-    /// The leaf that it is, if that fluoresces.
-    pub fn fluorescing(&self) -> Option<&LeafMaterial> {
+    /// The leaf that it is.
+    #[inline]
+    fn leaf(&self) -> Option<&LeafMaterial> {
         match self {
             Self::Diffuse(_)
             | Self::Dielectric(_)
             | Self::Plastic(_)
             | Self::Model(_)
             | Self::Solid(_) => None,
-            Self::Leaf(leaf) => leaf.fluoresces().then_some(&**leaf),
+            Self::Leaf(leaf) => Some(leaf),
         }
+    }
+
+    /// The leaf that it is, if that fluoresces.
+    pub fn fluorescing(&self) -> Option<&LeafMaterial> {
+        self.leaf().filter(|leaf| leaf.fluoresces())
     }
 
     /// Its relief, if it has one.
     #[inline]
     pub fn relief(&self) -> Option<&Relief> {
-        match self {
-            Self::Diffuse(_)
-            | Self::Dielectric(_)
-            | Self::Plastic(_)
-            | Self::Model(_)
-            | Self::Solid(_) => None,
-            Self::Leaf(leaf) => leaf.relief.as_ref(),
-        }
+        self.leaf()?.relief.as_ref()
     }
 
     /// Its inside, if light is to be followed through it.
     #[inline]
     pub fn inside(&self) -> Option<Inside<'_>> {
-        match self {
-            Self::Diffuse(_)
-            | Self::Dielectric(_)
-            | Self::Plastic(_)
-            | Self::Model(_)
-            | Self::Solid(_) => None,
-            Self::Leaf(leaf) => leaf.inside(),
-        }
+        self.leaf()?.inside()
     }
 
     /// Where it is looked up at texture coordinates `uv`; what a leaf holds there is on its way from
     /// memory.
     #[inline]
     pub fn site<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Site<N> {
-        match self {
-            Self::Diffuse(_)
-            | Self::Dielectric(_)
-            | Self::Plastic(_)
-            | Self::Model(_)
-            | Self::Solid(_) => Site::of(uv),
-            Self::Leaf(leaf) => leaf.site(uv, wavelengths),
-        }
+        self.leaf()
+            .map_or_else(|| Site::of(uv), |leaf| leaf.site(uv, wavelengths))
     }
 
     /// The BSDF at texture coordinates `uv`, at a path's wavelengths.

@@ -17,6 +17,8 @@
 //! ```
 
 pub mod beta;
+pub mod dimensions;
 pub mod distribution;
+pub(crate) mod mixer;
 pub mod stream;
 pub mod warp;

@@ -23,6 +23,7 @@
     reason = "intrinsics; a token of a level exists only where its instructions do"
 )]
 
+mod eight;
 #[cfg(target_arch = "aarch64")]
 mod neon;
 mod scalar;
@@ -32,50 +33,11 @@ mod wide;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use scalar::Scalar;
-pub(crate) use stack::Stack;
-pub(crate) use whole::whole;
-pub(crate) use wide::{Sixteen, WIDE, WideRow};
-
-/// Number of lanes of a row.
-pub(crate) const LANES: usize = 8;
-
-/// A row of numbers, aligned for the widest unit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(32))]
-pub(crate) struct Row(pub(crate) [f32; LANES]);
-
-/// The operations on rows, by the instructions of one level.
-///
-/// A value of an implementing type proves that the machine has these instructions. Methods are
-/// inlined into the function of [`Level::run`] that is compiled for them.
-pub(crate) trait Eight: Copy {
-    /// Eight numbers in registers.
-    type F: Copy;
-
-    /// The same number in every lane.
-    fn splat(self, value: f32) -> Self::F;
-    /// A row from memory.
-    fn load(self, row: &Row) -> Self::F;
-    /// The row in memory.
-    fn store(self, row: Self::F) -> Row;
-    /// `a + b`.
-    fn add(self, a: Self::F, b: Self::F) -> Self::F;
-    /// `a − b`.
-    fn sub(self, a: Self::F, b: Self::F) -> Self::F;
-    /// `a · b`.
-    fn mul(self, a: Self::F, b: Self::F) -> Self::F;
-    /// `a / b`.
-    fn div(self, a: Self::F, b: Self::F) -> Self::F;
-    /// `a` where it is less, else `b`; so `b` where either is NaN.
-    fn less(self, a: Self::F, b: Self::F) -> Self::F;
-    /// `a` where it is greater, else `b`; so `b` where either is NaN.
-    fn greater(self, a: Self::F, b: Self::F) -> Self::F;
-    /// Bit `i` is set where `a ≤ b` in lane `i`.
-    fn at_most(self, a: Self::F, b: Self::F) -> u32;
-    /// Bit `i` is set where `a < b` in lane `i`.
-    fn below(self, a: Self::F, b: Self::F) -> u32;
-}
+pub(crate) use self::eight::{Eight, LANES, Row};
+use self::scalar::Scalar;
+pub(crate) use self::stack::Stack;
+pub(crate) use self::whole::whole;
+pub(crate) use self::wide::{Sixteen, Task, WIDE, WideRow};
 
 /// Prefetches the memory of an element; places outside the slice do no harm. Only x86-64 has it in
 /// stable Rust.
@@ -87,16 +49,6 @@ pub(crate) trait Eight: Copy {
 pub(crate) fn prefetch<T>(slice: &[T], place: usize) {
     #[cfg(target_arch = "x86_64")]
     x86::prefetch(slice, place);
-}
-
-/// A computation that can be run at any level.
-pub(crate) trait Task {
-    /// Its result.
-    type Output;
-
-    /// Runs it. Implementations must be `#[inline(always)]`, and so must all functions that they
-    /// call with `eight`.
-    fn run<E: Sixteen>(self, eight: E) -> Self::Output;
 }
 
 /// A set of vector instructions that this machine has.

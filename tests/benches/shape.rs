@@ -9,8 +9,7 @@ use std::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
 use leafmodel::measure;
 use leafmodel::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
-use leafmodel::species::maple::maple;
-use leafmodel::species::young::FORMS;
+use leafmodel::species::find;
 
 /// Unlike halves with veins that bend.
 fn oblique() -> GrowthForm {
@@ -32,15 +31,18 @@ fn oblique() -> GrowthForm {
     })
 }
 
+/// The growth form of a preset.
+fn grown(name: &str) -> GrowthForm {
+    let plan = find(name).expect("a preset").plan();
+    plan.outline.growth_form().expect("it grows").clone()
+}
+
 fn outlines(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("outline");
     group.measurement_time(Duration::from_secs(3));
-    for form in FORMS
-        .iter()
-        .filter(|form| ["young-3b", "young-8d"].contains(&form.name))
-    {
-        let shape = form.shape();
-        group.bench_function(form.name, |bencher| {
+    for name in ["young-3b", "young-8d"] {
+        let shape = grown(name);
+        group.bench_function(name, |bencher| {
             bencher.iter(|| black_box(&shape).grow(80.0));
         });
     }
@@ -48,7 +50,7 @@ fn outlines(criterion: &mut Criterion) {
     group.bench_function("curved veins", |bencher| {
         bencher.iter(|| black_box(&form).grow(80.0));
     });
-    let palm = maple();
+    let palm = grown("maple-palmate");
     group.bench_function("maple", |bencher| {
         bencher.iter(|| black_box(&palm).grow(80.0));
     });

@@ -89,7 +89,7 @@ fn rays(geometry: &Geometry, count: u32) -> [Vec<Ray>; 2] {
         let Some(hit) = geometry.intersect(&ray) else {
             continue;
         };
-        let surface = geometry.surface(&ray, &hit);
+        let surface = geometry.surface(&hit);
         let frame = renderer::geometry::frame::Frame::from_normal(surface.geometric_normal);
         let up = cosine_hemisphere(Vec2::new(p, q));
         let down = if side < 0.5 { -1.0 } else { 1.0 };

@@ -1,6 +1,6 @@
 //! Fluxes of canopies that repeat themselves.
 
-use renderer::instruments::{Direction, InstrumentError, notes};
+use renderer::instruments::{Direction, Problem, notes};
 
 use super::{NORMAL, built, figures, figures_of, of, rays};
 
@@ -213,7 +213,7 @@ fn a_canopy_without_leaves_and_soil_that_is_too_small_are_refused() {
     // Light meets the ground, which is not the soil, where the leaf is not.
     let found = figures(&bare, &rays(1024));
     assert!(
-        matches!(found, Err(InstrumentError::SoilTooSmall { .. })),
+        matches!(&found, Err(error) if matches!(error.problem, Problem::SoilTooSmall { .. })),
         "{found:?}"
     );
     let only_soil = "[meshes.ground.rectangle]\nwidth_m = 4\nheight_m = 4\n\

@@ -1,7 +1,7 @@
 //! Slabs and half-spaces of media against the table of anchors, by the paths of instruments through
 //! real bodies.
 
-use renderer::instruments::{Budget, Direction, InstrumentError};
+use renderer::instruments::{Budget, Direction, Problem};
 
 use super::{NORMAL, figures, of, rays};
 
@@ -243,5 +243,5 @@ fn layers_of_a_canopy_cannot_tell_what_a_medium_absorbs() {
     };
     let text = format!("{}layers_m = [0, 0.2]\n", scene(&[anchor]));
     let error = figures(&text, &rays(1 << 10)).expect_err("it is refused");
-    assert!(matches!(error, InstrumentError::Inside { .. }), "{error}");
+    assert!(matches!(error.problem, Problem::Inside { .. }), "{error}");
 }

@@ -2,7 +2,7 @@
 
 use leafmodel::optics::layers::{Face, Incidence, LayeredLeaf, Ordinates, Resolution};
 use leafmodel::optics::{Constituent, Contents, ProspectD};
-use renderer::instruments::{Direction, InstrumentError, Row};
+use renderer::instruments::{Direction, Problem, Row};
 
 use super::canopy::discs;
 use super::{NORMAL, figures, of, rays};
@@ -368,7 +368,7 @@ fn paper_has_no_depth_and_many_leaves_are_too_many() {
     );
     let error = figures(&paper, &rays(1024)).expect_err("paper holds nothing");
     assert!(
-        matches!(error, InstrumentError::NoContents { .. }),
+        matches!(error.problem, Problem::NoContents { .. }),
         "{error}"
     );
     let many = format!(
@@ -378,7 +378,7 @@ fn paper_has_no_depth_and_many_leaves_are_too_many() {
     );
     let error = figures(&many, &rays(1024)).expect_err("there are 3000 of them");
     assert!(
-        matches!(error, InstrumentError::TooManyInstances { .. }),
+        matches!(error.problem, Problem::TooManyInstances { .. }),
         "{error}"
     );
 }

@@ -1,6 +1,6 @@
 //! The integrating sphere.
 
-use renderer::instruments::InstrumentError;
+use renderer::instruments::Problem;
 
 use super::{NORMAL, figures, of, rays};
 
@@ -199,7 +199,7 @@ fn spots_off_the_leaf_are_refused_with_their_place() {
     );
     assert!(refused("{ at_uv = [0.5, 1.1], diameter_mm = 1 }").contains("`at_uv = [0.5, 1.1]`"));
     let partly = figures(&text("{ at_mm = [50, 0], diameter_mm = 4 }"), &rays(1024));
-    let Err(InstrumentError::NotCovered { share, .. }) = partly else {
+    let Some(Problem::NotCovered { share, .. }) = partly.err().map(|error| error.problem) else {
         panic!("half of it is off");
     };
     assert!((share - 50.0).abs() < 5.0, "{share} %");
@@ -215,8 +215,8 @@ fn a_spot_by_texture_coordinates_is_the_one_at_their_place() {
              [objects.paper]\nmesh = \"strip\"\nmaterial = \"paper\"\n\
              [instruments.ball.sphere]\nobject = \"paper\"\nwavelengths_nm = [550]\nspot = {spot}\n"
         );
-        match figures(&text, &rays(1024)) {
-            Err(InstrumentError::NotCovered { share, .. }) => share,
+        match figures(&text, &rays(1024)).map_err(|error| error.problem) {
+            Err(Problem::NotCovered { share, .. }) => share,
             found => panic!("a part of it is off: {found:?}"),
         }
     };
@@ -251,7 +251,7 @@ fn a_spot_on_a_ball_is_lit_from_outside_alone() {
     for faces in ["both", "abaxial"] {
         let error = figures(&spot_on_a_ball(faces), &rays(1024)).expect_err("it is inside");
         assert!(
-            matches!(error, InstrumentError::PortInside { .. }),
+            matches!(error.problem, Problem::PortInside { .. }),
             "{error}"
         );
     }

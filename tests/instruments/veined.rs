@@ -68,7 +68,7 @@ fn mean_of_tissues(scene: &Description, world: &World, spot: Spot) -> Vec<[f64; 
             .geometry
             .intersect(&ray)
             .expect("the spot is on the leaf");
-        let surface = world.geometry.surface(&ray, &hit);
+        let surface = world.geometry.surface(&hit);
         let tissue = world.material_of(hit.instance).tissue();
         let tissue = tissue.expect("a leaf is tissue");
         let texel = tissue.held.expect("it has contents").at(surface.uv);

@@ -98,14 +98,16 @@ pub(super) fn checkpoints() -> Vec<Vec<u8>> {
 pub(super) fn mend_checkpoint(bytes: &mut [u8]) {
     const MAGIC: usize = 16;
     let mut at = MAGIC;
-    while let Some(head) = bytes.get(at..at + 8) {
-        let length = u32::from_le_bytes([head[0], head[1], head[2], head[3]]) as usize;
-        let Some(section) = bytes.get(at + 8..at + 8 + length) else {
+    // Length, checksum, bytes.
+    while let Some(length) = bytes.get(at..).and_then(|rest| rest.first_chunk()) {
+        let end = usize::try_from(u64::from_le_bytes(*length));
+        let end = end.ok().and_then(|length| length.checked_add(at + 12));
+        let Some(section) = end.and_then(|end| bytes.get(at + 12..end)) else {
             return;
         };
-        let sum = crc32fast::hash(section).to_le_bytes();
-        bytes[at + 4..at + 8].copy_from_slice(&sum);
-        at += 8 + length;
+        let (length, sum) = (section.len(), crc32fast::hash(section).to_le_bytes());
+        bytes[at + 8..at + 12].copy_from_slice(&sum);
+        at += 12 + length;
     }
 }
 

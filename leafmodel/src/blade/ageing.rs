@@ -7,11 +7,11 @@
 
 use glam::DVec2;
 
-use super::distances::Distances;
 use super::frame::UvFrame;
-use super::tissue::TissueError;
 use super::weathering::Weathering;
+use crate::document::declared::Declared;
 use crate::optics::{Constituent, Contents};
+use crate::plane::distances::Distances;
 use crate::venation::network::VeinSegment;
 
 /// Chlorophyll, µg cm⁻², below which leaves make anthocyanin in autumn (\[lee2003\], abstract: nine
@@ -20,26 +20,37 @@ pub const ANTHOCYANIN_BELOW: f64 = 20.0;
 
 /// Number of days by which something begins later at a place than at the first place: the sum of
 /// all terms, each ≥ 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Delay {
-    /// Delay of tissue at veins after tissue far from them, days, −1000 to 1000; negative values
-    /// mean before.
-    pub veins_days: f64,
-    /// Distance over which that delay falls to 1/e, mm, 0.01 to 1000.
-    pub veins_reach_mm: f64,
-    /// Highest order of veins that count, 1 to 20.
+    /// Highest order of veins that count.
+    #[key("veins_order", 1..=20)]
     pub veins_order: u8,
-    /// Delay of the inside after the margin, days, 0 to 1000.
+    /// Days by which tissue at veins comes later.
+    ///
+    /// Delay of tissue at veins after tissue far from them; negative values mean before.
+    #[key("veins_days", -1e3..=1e3)]
+    pub veins_days: f64,
+    /// Distance over which that falls to 1/e.
+    #[key("veins_reach_mm", 0.01..=1e3)]
+    pub veins_reach_mm: f64,
+    /// Days by which the inside comes after the margin.
+    #[key("margin_days", 0.0..=1e3)]
     pub margin_days: f64,
-    /// Distance over which that delay rises to 1 − 1/e of its value, mm, 0.01 to 1000.
+    /// Distance over which that rises to 1 − 1/e.
+    #[key("margin_reach_mm", 0.01..=1e3)]
     pub margin_reach_mm: f64,
-    /// Delay of the base after the apex, days, −1000 to 1000; negative values mean before.
+    /// The base comes later than the apex; negative: earlier.
+    #[key("tip_days", -1e3..=1e3)]
     pub tip_days: f64,
-    /// Greatest difference between patches, days, 0 to 1000.
+    /// Days by which patches differ at most.
+    #[key("noise_days", 0.0..=1e3)]
     pub noise_days: f64,
-    /// Size of those patches, mm, 0.01 to 1000.
+    /// Size of those patches.
+    #[key("noise_scale_mm", 0.01..=1e3)]
     pub noise_scale_mm: f64,
-    /// Delay of the last-dying cell of a transport leaf after the first-dying one, days, 0 to 1000.
+    /// Cells of a transport leaf come in the order in which they would die for lack of revenue;
+    /// needs one.
+    #[key("deaths_days", 0.0..=1e3)]
     pub deaths_days: f64,
 }
 
@@ -65,143 +76,67 @@ impl Delay {
             + self.noise_days
             + self.deaths_days
     }
-
-    fn validate(&self) -> Result<(), TissueError> {
-        let days = "from 0 to 1000";
-        for (field, value, least) in [
-            ("veins_days", self.veins_days, -1000.0),
-            ("margin_days", self.margin_days, 0.0),
-            ("tip_days", self.tip_days, -1000.0),
-            ("noise_days", self.noise_days, 0.0),
-            ("deaths_days", self.deaths_days, 0.0),
-        ] {
-            let range = if least < 0.0 {
-                "from -1000 to 1000"
-            } else {
-                days
-            };
-            TissueError::unless((least..=1000.0).contains(&value), field, value, range)?;
-        }
-        for (field, value) in [
-            ("veins_reach_mm", self.veins_reach_mm),
-            ("margin_reach_mm", self.margin_reach_mm),
-            ("noise_scale_mm", self.noise_scale_mm),
-        ] {
-            let valid = (0.01..=1000.0).contains(&value);
-            TissueError::unless(valid, field, value, "from 0.01 to 1000")?;
-        }
-        let valid = (1..=20).contains(&self.veins_order);
-        let order = f64::from(self.veins_order);
-        TissueError::unless(valid, "veins_order", order, "from 1 to 20")
-    }
 }
 
 /// How contents change with the days since tissue began to age.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Course {
-    /// Where tissue begins to age first.
-    pub onset: Delay,
-    /// Half-life of chlorophyll, days, 0.1 to 1000.
+    /// After which half of the chlorophyll is gone.
+    #[key("half_days", 0.1..=1e3)]
     pub half_days: f64,
-    /// Steepness of that loss, 0.1 to 50: the exponent of the logistic at `half_days`. Small values
-    /// give nearly first-order decay.
+    /// How abruptly; small is nearly first-order decay.
+    ///
+    /// Steepness of that loss: the exponent of the logistic at `half_days`. Small values give
+    /// nearly first-order decay.
+    #[key("steepness", 0.1..=50.0)]
     pub steepness: f64,
-    /// Chlorophyll that stays, µg cm⁻², 0 to 1000; less if there was less.
+    /// Chlorophyll that stays.
+    #[key("chlorophyll_rest_ug_per_cm2", 0.0..=1e3)]
     pub chlorophyll_rest: f64,
-    /// Share of carotenoids that decays with chlorophyll (violaxanthin and other xanthophylls), 0
-    /// to 1.
+    /// Share of carotenoids that goes with chlorophyll.
+    #[key("labile_carotenoids", 0.0..=1.0)]
     pub labile_carotenoids: f64,
-    /// Half-life of the other carotenoids over that of chlorophyll, 1 to 100.
+    /// How many times longer the others last.
+    #[key("persistence", 1.0..=100.0)]
     pub persistence: f64,
-    /// Final anthocyanin content where it was lower before, µg cm⁻², 0 to 1000.
+    /// Made where less than 20 µg cm⁻² of chlorophyll is left.
+    #[key("anthocyanins_ug_per_cm2", 0.0..=1e3)]
     pub anthocyanins: f64,
-    /// Time constant of the synthesis, days, 0.1 to 1000: after it all but 1/e is made. It starts
-    /// once chlorophyll has fallen below [`ANTHOCYANIN_BELOW`].
+    /// In which all but 1/e of them is made.
+    ///
+    /// Time constant of the synthesis: after it all but 1/e is made. It starts once chlorophyll has
+    /// fallen below [`ANTHOCYANIN_BELOW`].
+    #[key("anthocyanin_days", 0.1..=1e3)]
     pub anthocyanin_days: f64,
-    /// Brown pigments of living tissue whose chlorophyll is gone, 0 to 100.
+    /// Brown pigments of tissue without chlorophyll that is still alive.
+    #[key("brown", 0.0..=100.0)]
     pub brown: f64,
-    /// Factor on structure, 1 to 10, on water, 0 to 1, and on dry matter, 0 to 1, where chlorophyll
-    /// is gone.
+    /// What structure is multiplied by in the end.
+    ///
+    /// Factor on structure, on water, and on dry matter, where chlorophyll is gone.
+    #[key("structure_factor", 1.0..=10.0)]
     pub structure_factor: f64,
-    /// See `structure_factor`.
+    /// What water is multiplied by in the end.
+    #[key("water_factor", 0.0..=1.0)]
     pub water_factor: f64,
-    /// See `structure_factor`.
+    /// What dry matter is multiplied by in the end.
+    #[key("dry_matter_factor", 0.0..=1.0)]
     pub dry_matter_factor: f64,
-    /// Day on which the first tissue dies, 0 to 10000.
+    /// When the first tissue dies.
+    #[key("death_day", 0.0..=1e4)]
     pub death_day: f64,
-    /// Where it dies first.
+    /// When tissue begins to age: days by which places differ.
+    #[key("onset", block)]
+    pub onset: Delay,
+    /// When tissue dies: days by which places differ.
+    #[key("death", block)]
     pub death: Delay,
-    /// How dead tissue differs from leaf to leaf and from place to place; `None`: not at all.
+    /// How dead tissue differs from leaf to leaf and from place to place; left out, it does not.
+    #[key("weathering", block, default = Weathering::LITTER)]
     pub weathering: Option<Weathering>,
 }
 
 impl Course {
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`TissueError`] for the first that is out of range, by name.
-    pub fn validate(&self) -> Result<(), TissueError> {
-        self.onset.validate()?;
-        self.death.validate()?;
-        if let Some(weathering) = &self.weathering {
-            weathering.validate()?;
-        }
-        for (field, value, least, most, range) in [
-            ("half_days", self.half_days, 0.1, 1e3, "from 0.1 to 1000"),
-            ("steepness", self.steepness, 0.1, 50.0, "from 0.1 to 50"),
-            (
-                "chlorophyll_rest",
-                self.chlorophyll_rest,
-                0.0,
-                1e3,
-                "from 0 to 1000",
-            ),
-            (
-                "labile_carotenoids",
-                self.labile_carotenoids,
-                0.0,
-                1.0,
-                "from 0 to 1",
-            ),
-            ("persistence", self.persistence, 1.0, 100.0, "from 1 to 100"),
-            (
-                "anthocyanins",
-                self.anthocyanins,
-                0.0,
-                1e3,
-                "from 0 to 1000",
-            ),
-            (
-                "anthocyanin_days",
-                self.anthocyanin_days,
-                0.1,
-                1e3,
-                "from 0.1 to 1000",
-            ),
-            ("brown", self.brown, 0.0, 100.0, "from 0 to 100"),
-            (
-                "structure_factor",
-                self.structure_factor,
-                1.0,
-                10.0,
-                "from 1 to 10",
-            ),
-            ("water_factor", self.water_factor, 0.0, 1.0, "from 0 to 1"),
-            (
-                "dry_matter_factor",
-                self.dry_matter_factor,
-                0.0,
-                1.0,
-                "from 0 to 1",
-            ),
-            ("death_day", self.death_day, 0.0, 1e4, "from 0 to 10000"),
-        ] {
-            TissueError::unless((least..=most).contains(&value), field, value, range)?;
-        }
-        Ok(())
-    }
-
     /// Days after which chlorophyll has fallen from `start` to [`ANTHOCYANIN_BELOW`]; infinite if
     /// it never does.
     fn days_to_anthocyanin(&self, start: f64, decay: Decay) -> f64 {
@@ -299,9 +234,7 @@ pub struct Place<'a> {
 impl Place<'_> {
     /// Distances to the margin.
     pub(super) fn margin_distances(&self) -> Distances {
-        let next = self.margin.iter().cycle().skip(1);
-        let sides = self.margin.iter().zip(next).map(|(&a, &b)| [a, b]);
-        Distances::new(sides.collect())
+        Distances::around(self.margin)
     }
 
     /// Distances to the axes of veins of some orders.

@@ -9,9 +9,10 @@ use super::frame::UvFrame;
 use super::layers::{Layer, LayerFields};
 use super::mottle::Mottle;
 use super::senescence::Withering;
-use super::tissue::{Tissue, TissueError};
+use super::tissue::Tissue;
 use super::vein_field::VeinField;
 use super::vein_light::VeinLight;
+use crate::document::ranges::RangeError;
 use crate::memory;
 use crate::mosaic::pattern::LaminaPattern;
 use crate::optics::{Constituent, Texel};
@@ -36,14 +37,14 @@ impl ContentsMap {
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for a tissue, vein, frame or map size out of range, by name.
+    /// [`RangeError`] for a tissue, vein, frame or map size out of range, by name.
     pub fn paint(
         frame: &UvFrame,
         veins: &[VeinSegment],
         tissue: &Tissue,
         map_size: u32,
         seed: u64,
-    ) -> Result<Self, TissueError> {
+    ) -> Result<Self, RangeError> {
         let place = Place {
             frame,
             margin: &[],
@@ -73,18 +74,18 @@ impl ContentsMap {
         withering: Option<&Withering>,
         map_size: u32,
         seed: u64,
-    ) -> Result<Self, TissueError> {
+    ) -> Result<Self, RangeError> {
         let (frame, veins) = (place.frame, place.veins);
         layers.iter().try_for_each(Layer::validate)?;
         let valid = (16..=8192).contains(&map_size);
-        TissueError::unless(valid, "map_size", f64::from(map_size), "from 16 to 8192")?;
+        RangeError::unless(valid, "map_size", f64::from(map_size), "from 16 to 8192")?;
         for value in frame.min.to_array() {
             let valid = value.abs() <= 1e5;
-            TissueError::unless(valid, "corner of the frame", value, "within ±100000 mm")?;
+            RangeError::unless(valid, "corner of the frame", value, "within ±100000 mm")?;
         }
         for value in frame.size.to_array() {
             let valid = (1e-3..=1e5).contains(&value);
-            TissueError::unless(valid, "side of the frame", value, "from 0.001 to 100000 mm")?;
+            RangeError::unless(valid, "side of the frame", value, "from 0.001 to 100000 mm")?;
         }
         let longer = frame.size.max_element();
         let texels_along = |side: f64| (f64::from(map_size) * (side / longer)).ceil() as u32;
@@ -327,7 +328,7 @@ mod tests {
         let refused = |frame: &UvFrame, map_size| {
             ContentsMap::paint(frame, &[], &GREEN, map_size, 0)
                 .expect_err("out of range")
-                .field
+                .path
         };
         assert_eq!(refused(&FRAME, 15), "map_size");
         assert_eq!(refused(&FRAME, 8193), "map_size");
@@ -352,14 +353,16 @@ mod tests {
         #[test]
         fn contents_are_finite_and_in_range_everywhere(
             factors in of_each(0.0..100.0),
-            lamina in of_each(0.0..1000.0),
-            structure in 1.0..100.0,
+            shares in of_each(0.0..1.0),
             ends in prop::collection::vec(([-4.0..4.0, -1.0..11.0], [-4.0..4.0, -1.0..11.0], 0.001..20.0), 1..8),
             mottle in 0.0..=1.0,
             full_vein_radius_mm in 0.001..1.0,
         ) {
             let tissue = Tissue {
-                lamina: Contents(lamina).with(&[(Constituent::Structure, structure)]),
+                lamina: Contents(PerConstituent::from_fn(|constituent| {
+                    let [least, most] = constituent.range();
+                    least + shares[constituent] * (most - least)
+                })),
                 vein_factors: VeinFactors(factors),
                 full_vein_radius_mm,
                 mottle,

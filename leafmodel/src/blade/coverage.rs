@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::frame::UvFrame;
+use crate::plane::polygon;
 
 /// Number of texels beyond the margin that are painted too, so that interpolation at the margin
 /// uses the leaf's own contents.
@@ -26,9 +27,8 @@ impl Coverage {
         // In texels: the centre of the first is at ½.
         let scale = DVec2::new(width as f64, height as f64) / frame.size;
         let places: Vec<DVec2> = margin.iter().map(|p| (*p - frame.min) * scale).collect();
-        let sides = || places.iter().zip(places.iter().cycle().skip(1));
         let mut crossings = vec![Vec::new(); height];
-        for (&from, &to) in sides() {
+        for (from, to) in polygon::sides(&places) {
             coverage.border(from, to, height);
             // Rows whose centres lie from the lower end to below the upper.
             let (low, high) = if from.y <= to.y {

@@ -2,19 +2,14 @@
 
 use thiserror::Error;
 
+use crate::document::ranges::RangeError;
+
 /// Why there is no blade.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum BladeError {
     /// A number is outside its range.
-    #[error("{field} is {value}, it must be {range}")]
-    OutOfRange {
-        /// Which field of [`super::BladeForm`].
-        field: &'static str,
-        /// What it was.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Range(#[from] RangeError),
     /// The mesh would be too large.
     #[error(
         "the blade would take more than {limit} triangles: raise max_edge_mm or meshed_vein_radius_mm"
@@ -31,32 +26,4 @@ pub enum BladeError {
         /// How many triangles face the wrong way.
         faces: usize,
     },
-}
-
-/// A field with its value, the values that it may have, and how a message tells them.
-pub(super) type Field = (
-    &'static str,
-    f64,
-    std::ops::RangeInclusive<f64>,
-    &'static str,
-);
-
-impl BladeError {
-    /// Checks that each field lies within its range.
-    ///
-    /// # Errors
-    ///
-    /// [`BladeError::OutOfRange`] for the first that does not.
-    pub(super) fn unless_within(fields: impl IntoIterator<Item = Field>) -> Result<(), BladeError> {
-        for (field, value, allowed, range) in fields {
-            if !allowed.contains(&value) {
-                return Err(BladeError::OutOfRange {
-                    field,
-                    value,
-                    range,
-                });
-            }
-        }
-        Ok(())
-    }
 }

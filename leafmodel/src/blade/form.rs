@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 
 use super::BladeForm;
 use super::pleats::Pleats;
+use crate::plane::polygon;
 use crate::shape::outline::Outline;
 use crate::venation::conformal_map::ConformalMap;
 
@@ -43,8 +44,7 @@ impl BladeForm {
                 let y = low.y + step * row as f64;
                 let mut reach = [f64::INFINITY, f64::NEG_INFINITY];
                 let mut take = |x: f64| reach = [reach[0].min(x), reach[1].max(x)];
-                for (i, &a) in points.iter().enumerate() {
-                    let b = points[(i + 1) % points.len()];
+                for (a, b) in polygon::sides(points) {
                     if (a.y - y).abs() <= 0.5 * step {
                         take(a.x);
                     }
@@ -250,8 +250,7 @@ impl Ruffle {
 fn half_widths(outline: &Outline, low: f64, bin: f64, sigma: f64) -> Vec<f64> {
     let mut raw = vec![0.0_f64; WIDTH_BINS];
     let points = outline.points();
-    for (i, &a) in points.iter().enumerate() {
-        let b = points[(i + 1) % points.len()];
+    for (a, b) in polygon::sides(points) {
         let (a, b) = (a - outline.base(), b - outline.base());
         let pieces = ((b.y - a.y).abs() / bin).ceil().max(1.0);
         for piece in 0..=pieces as usize {

@@ -15,10 +15,13 @@ use glam::{DVec2, DVec3};
 pub use self::tube::HairMesh;
 
 use super::mesh::BladeMesh;
-use super::tissue::TissueError;
 use super::vein_grid::VeinGrid;
-use crate::optics::Contents;
-use crate::venation::chance::{Use, uniform};
+use crate::document::declared::{Declared, Words};
+use crate::document::keys::{Keys, NamedList};
+use crate::document::ranges::RangeError;
+use crate::optics::contents_keys::changed_contents;
+use crate::optics::{Constituent, Contents};
+use crate::random::{Use, uniform};
 use crate::venation::network::VeinSegment;
 
 /// Greatest number of hairs of one kind on a blade.
@@ -29,7 +32,7 @@ const NUMBERS: u64 = 8;
 const ON_VEIN: f64 = 1.5;
 
 /// Where on a face hairs stand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Words)]
 pub enum HairPlace {
     /// Everywhere.
     All,
@@ -40,118 +43,96 @@ pub enum HairPlace {
 }
 
 /// One kind of hair on a leaf. Angles are radians.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct HairPlan {
     /// Its name in the file.
     pub name: String,
-    /// Hairs per mm² of the adaxial face, 0 to 1000.
+    /// Hairs per mm² of the adaxial face. A blade has at most 400 000 of one kind.
+    #[key("adaxial_per_mm2", 0.0..=1000.0)]
     pub adaxial_per_mm2: f64,
-    /// Hairs per mm² of the abaxial face, 0 to 1000.
+    /// Hairs per mm² of the abaxial face.
+    #[key("abaxial_per_mm2", 0.0..=1000.0)]
     pub abaxial_per_mm2: f64,
-    /// Hairs per mm of the margin, 0 to 1000.
+    /// Hairs per mm of the margin, which point outwards.
+    #[key("fringe_per_mm", 0.0..=1000.0)]
     pub fringe_per_mm: f64,
-    /// Where on the faces.
+    /// Where on the faces: everywhere, on the veins that the mesh has, or between them.
+    #[key("place", word)]
     pub place: HairPlace,
-    /// Mean length, mm, 0.005 to 50.
+    /// Mean length.
+    #[key("hair_mm", 0.005..=50.0)]
     pub length_mm: f64,
-    /// Share by which lengths vary to either side, 0 to 1.
+    /// Share by which lengths vary to either side.
+    #[key("length_spread", 0.0..=1.0)]
     pub length_spread: f64,
-    /// Diameter at the foot, µm, 1 to 500.
+    /// Diameter at the foot; hairs taper to a point.
+    #[key("diameter_um", 1.0..=500.0)]
     pub diameter_um: f64,
-    /// Angle at the foot from upright, or from straight outwards at the margin, towards the apex:
-    /// 0 to 89°.
+    /// Angle at the foot from upright (at the margin, from straight outwards) towards the apex.
+    ///
+    /// Radians.
+    #[key("lean_deg", degrees(0.0..=89.0))]
     pub lean: f64,
-    /// Angle through which a hair bends further from foot to tip, 0 to 120°.
+    /// Angle through which a hair bends further; it never bends into the face.
+    ///
+    /// Radians.
+    #[key("bend_deg", degrees(0.0..=120.0))]
     pub bend: f64,
-    /// How far the direction of lean strays from that to the apex, 0 to 180°.
+    /// How far the direction of lean strays from that to the apex: 180 is any.
+    ///
+    /// Radians.
+    #[key("stray_deg", degrees(0.0..=180.0))]
     pub stray: f64,
-    /// Contents of its wall per area.
+    /// What the wall of a hair holds; left out, nothing: dry hairs are white.
+    #[key("contents", block, with = changed_contents)]
     pub contents: Contents,
 }
 
 impl HairPlan {
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`TissueError`] for the first field out of range, by name.
-    pub fn validate(&self) -> Result<(), TissueError> {
-        let degrees = |angle: f64| angle.to_degrees();
-        let fields = [
-            (
-                "adaxial_per_mm2",
-                self.adaxial_per_mm2,
-                [0.0, 1e3],
-                "from 0 to 1000",
-            ),
-            (
-                "abaxial_per_mm2",
-                self.abaxial_per_mm2,
-                [0.0, 1e3],
-                "from 0 to 1000",
-            ),
-            (
-                "fringe_per_mm",
-                self.fringe_per_mm,
-                [0.0, 1e3],
-                "from 0 to 1000",
-            ),
-            (
-                "length_mm of hairs",
-                self.length_mm,
-                [0.005, 50.0],
-                "from 0.005 to 50",
-            ),
-            (
-                "length_spread",
-                self.length_spread,
-                [0.0, 1.0],
-                "from 0 to 1",
-            ),
-            (
-                "diameter_um",
-                self.diameter_um,
-                [1.0, 500.0],
-                "from 1 to 500",
-            ),
-            (
-                "lean_deg",
-                degrees(self.lean),
-                [0.0, 89.001],
-                "from 0 to 89",
-            ),
-            (
-                "bend_deg",
-                degrees(self.bend),
-                [0.0, 120.001],
-                "from 0 to 120",
-            ),
-            (
-                "stray_deg",
-                degrees(self.stray),
-                [0.0, 180.001],
-                "from 0 to 180",
-            ),
-        ];
-        for (field, value, [least, most], range) in fields {
-            TissueError::unless((least..=most).contains(&value), field, value, range)?;
+    /// Hairs of which nothing is said: there are none.
+    pub(crate) fn usual(name: &str) -> Self {
+        // The wall of a dry hair, which is filled with air: white.
+        let dry = Contents::NOTHING.with(&[(Constituent::Structure, 1.5)]);
+        Self {
+            name: name.to_owned(),
+            adaxial_per_mm2: 0.0,
+            abaxial_per_mm2: 0.0,
+            fringe_per_mm: 0.0,
+            place: HairPlace::All,
+            length_mm: 0.5,
+            length_spread: 0.3,
+            diameter_um: 15.0,
+            lean: 45_f64.to_radians(),
+            bend: 20_f64.to_radians(),
+            stray: 30_f64.to_radians(),
+            contents: dry,
         }
-        Ok(())
+    }
+
+    /// All kinds of hair of a leaf.
+    pub(crate) fn kinds(hairs: &mut Vec<Self>, keys: &mut Keys<'_>) {
+        let list = NamedList {
+            required: false,
+            new: &Self::usual,
+            name_of: |hair: &Self| &hair.name,
+        };
+        let about = "Hairs of one kind.";
+        keys.named("hairs", hairs, &list, about, Self::declare);
     }
 
     /// The hairs of a blade.
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for a plan out of range, and for more than [`MOST_HAIRS`] hairs.
+    /// [`RangeError`] for a plan out of range, and for more than [`MOST_HAIRS`] hairs.
     pub fn grow(
         &self,
         blade: &BladeMesh,
         veins: &[VeinSegment],
         least_vein_mm: f64,
         seed: u64,
-    ) -> Result<HairMesh, TissueError> {
-        self.validate()?;
+    ) -> Result<HairMesh, RangeError> {
+        self.in_range()?;
         let rooted = Rooted {
             plan: self,
             blade,
@@ -197,7 +178,7 @@ struct Rooted<'a> {
 }
 
 impl Rooted<'_> {
-    fn roots(&self) -> Result<Vec<Root>, TissueError> {
+    fn roots(&self) -> Result<Vec<Root>, RangeError> {
         let mut roots = Vec::new();
         let mut counter = 0;
         let plan = self.plan;
@@ -335,8 +316,8 @@ impl Rooted<'_> {
     }
 }
 
-fn checked(count: usize) -> Result<(), TissueError> {
-    TissueError::unless(
+fn checked(count: usize) -> Result<(), RangeError> {
+    RangeError::unless(
         count <= MOST_HAIRS,
         "number of hairs",
         count as f64,

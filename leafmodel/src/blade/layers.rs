@@ -4,6 +4,8 @@
 //! the contents `C` below it become `C + (C′ − C) w`. Layers set the contents of the living lamina
 //! between veins. Ageing, veins and the mottle apply afterwards, in this order.
 
+mod keys;
+
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -11,9 +13,10 @@ use glam::DVec2;
 use super::ageing::Place;
 use super::frame::UvFrame;
 use super::masks::{Mask, MaskField, Picture};
-use super::tissue::TissueError;
+use crate::document::declared::Declared;
+use crate::document::ranges::RangeError;
 use crate::optics::{Constituent, Contents, PerConstituent};
-use crate::venation::chance::{self, Use};
+use crate::random::{self, Use};
 
 /// A layer of contents.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,24 +61,10 @@ impl Layer {
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for the first that is out of range, by name.
-    pub fn validate(&self) -> Result<(), TissueError> {
-        self.mask.validate()?;
-        let valid = (0.0..=1.0).contains(&self.share);
-        TissueError::unless(valid, "layers.share", self.share, "from 0 to 1")?;
-        if let Change::Values { mode, values } = &self.change {
-            for (constituent, value) in *values {
-                let Some(value) = value else { continue };
-                let (least, range) = match mode {
-                    Mode::Add => (-1000.0, "from -1000 to 1000"),
-                    Mode::Replace if constituent.least() > 0.0 => (1.0, "from 1 to 1000"),
-                    Mode::Replace | Mode::Multiply => (0.0, "from 0 to 1000"),
-                };
-                let valid = (least..=1000.0).contains(&value);
-                TissueError::unless(valid, constituent.name(), value, range)?;
-            }
-        }
-        Ok(())
+    /// [`RangeError`] for the first that is out of range.
+    pub fn validate(&self) -> Result<(), RangeError> {
+        self.in_range()?;
+        self.mask.validate()
     }
 }
 
@@ -89,7 +78,7 @@ pub(super) struct LayerFields<'a> {
 impl<'a> LayerFields<'a> {
     pub(super) fn new(layers: &'a [Layer], place: &Place<'a>, seed: u64) -> Self {
         let ready = layers.iter().enumerate().map(|(number, layer)| {
-            let seed = chance::bits(seed, Use::Layer, number as u64);
+            let seed = random::bits(seed, Use::Layer, number as u64);
             (layer, MaskField::new(&layer.mask, place, seed))
         });
         Self {
@@ -223,10 +212,11 @@ mod tests {
 
     #[test]
     fn numbers_out_of_range_are_refused_by_name() {
-        let field = |layer: Layer| layer.validate().expect_err("out of range").field;
-        assert_eq!(field(layer(Mode::Replace, -1.0, 1.0)), "chlorophyll");
-        assert_eq!(field(layer(Mode::Multiply, f64::NAN, 1.0)), "chlorophyll");
-        assert_eq!(field(layer(Mode::Add, 1.0, 1.1)), "layers.share");
+        let field = |layer: Layer| layer.validate().expect_err("out of range").path;
+        let key = "contents.chlorophyll_ug_per_cm2";
+        assert_eq!(field(layer(Mode::Replace, -1.0, 1.0)), key);
+        assert_eq!(field(layer(Mode::Multiply, f64::NAN, 1.0)), key);
+        assert_eq!(field(layer(Mode::Add, 1.0, 1.1)), "share");
         assert_eq!(layer(Mode::Add, -1.0, 1.0).validate(), Ok(()));
     }
 }

@@ -8,18 +8,21 @@
 use glam::DVec2;
 
 use super::contents_map::ContentsMap;
-use super::error::Field;
 use super::frame::UvFrame;
-use super::relief::smooth_step;
+use crate::document::declared::Declared;
+use crate::numeric::smooth_step;
 use crate::optics::Constituent;
+use crate::plane::polygon;
 use crate::shape::outline::Outline;
 
 /// How thick the margin is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct MarginThickness {
-    /// Thickness at the margin over that of the blade, 0.05 to 1 (no thinner).
+    /// Thickness at the margin over that between veins; contents per area fall with it.
+    #[key("margin_thickness", 0.05..=1.0)]
     pub share: f64,
-    /// Distance from the margin within which the thickness falls, mm, 0.01 to 100.
+    /// Distance from the margin within which the thickness falls to that.
+    #[key("margin_width_mm", 0.01..=100.0)]
     pub width_mm: f64,
 }
 
@@ -29,18 +32,6 @@ impl MarginThickness {
         share: 1.0,
         width_mm: 1.0,
     };
-
-    pub(super) fn fields(&self) -> [Field; 2] {
-        [
-            ("margin_thickness", self.share, 0.05..=1.0, "0.05 to 1"),
-            (
-                "margin_width_mm",
-                self.width_mm,
-                0.01..=100.0,
-                "0.01 to 100 (millimetres)",
-            ),
-        ]
-    }
 
     /// Whether no place is thinner than another.
     pub(super) fn is_even(&self) -> bool {
@@ -63,8 +54,7 @@ impl MarginThickness {
         let reach = self.width_mm + 2.0 * texel.max_element();
         let mut near = vec![false; map.texels.len()];
         let points = outline.points();
-        for (i, &a) in points.iter().enumerate() {
-            let b = points[(i + 1) % points.len()];
+        for (a, b) in polygon::sides(points) {
             let pieces = (a.distance(b) / reach).ceil().max(1.0) as usize;
             for piece in 0..pieces {
                 let [from, to] = [piece, piece + 1].map(|i| a.lerp(b, i as f64 / pieces as f64));

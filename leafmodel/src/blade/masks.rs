@@ -8,10 +8,11 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::ageing::{Along, Place};
-use super::distances::Distances;
 use super::frame::UvFrame;
 use super::mottle::Mottle;
-use super::tissue::TissueError;
+use crate::document::ranges::RangeError;
+use crate::numeric::smooth_step;
+use crate::plane::distances::Distances;
 
 /// A picture over the box of a leaf, decoded.
 ///
@@ -56,11 +57,11 @@ impl<const N: usize> Picture<N> {
         })
     }
 
-    fn validate(&self) -> Result<(), TissueError> {
+    fn validate(&self) -> Result<(), RangeError> {
         let whole = self.width > 0 && !self.texels.is_empty();
         let whole = whole && self.texels.len().is_multiple_of(self.width);
         let texels = self.texels.len() as f64;
-        TissueError::unless(
+        RangeError::unless(
             whole,
             "texels of a picture",
             texels,
@@ -138,81 +139,23 @@ pub enum RimWidth {
 }
 
 impl Mask {
-    pub(super) fn validate(&self) -> Result<(), TissueError> {
-        let soft = |mm: f64| {
-            let valid = (0.001..=1000.0).contains(&mm);
-            TissueError::unless(valid, "softness_mm", mm, "from 0.001 to 1000")
-        };
-        let wide = |mm: f64| {
-            let valid = (0.0..=1000.0).contains(&mm);
-            TissueError::unless(valid, "width_mm", mm, "from 0 to 1000")
-        };
-        let scale = |field, mm: f64| {
-            let valid = (0.01..=1000.0).contains(&mm);
-            TissueError::unless(valid, field, mm, "from 0.01 to 1000")
-        };
+    /// Checks what the ranges of its keys leave open.
+    pub(super) fn validate(&self) -> Result<(), RangeError> {
         match self {
-            Self::Everywhere => Ok(()),
-            Self::Margin {
-                width,
-                softness_mm,
-                wander,
-                wander_scale_mm,
-            } => {
-                match *width {
-                    RimWidth::Mm(mm) => wide(mm)?,
-                    RimWidth::HalfWidths(share) => {
-                        let valid = (0.0..=2.0).contains(&share);
-                        TissueError::unless(valid, "width_share", share, "from 0 to 2")?;
-                    }
-                }
-                soft(*softness_mm)?;
-                let valid = (0.0..=1.0).contains(wander);
-                TissueError::unless(valid, "wander", *wander, "from 0 to 1")?;
-                scale("wander_scale_mm", *wander_scale_mm)
+            Self::BaseToTip { from, to } => {
+                RangeError::unless(from != to, "to", *to, "other than `from`")
             }
             Self::Veins {
                 orders: [first, last],
-                width_mm,
-                softness_mm,
                 ..
             } => {
-                let valid = 1 <= *first && first <= last && *last <= 20;
-                let range = "rising, from 1 to 20";
-                TissueError::unless(valid, "orders", f64::from(*last), range)?;
-                wide(*width_mm)?;
-                soft(*softness_mm)
-            }
-            Self::Midrib {
-                width_mm,
-                softness_mm,
-            } => {
-                wide(*width_mm)?;
-                soft(*softness_mm)
-            }
-            Self::BaseToTip { from, to } => {
-                for (field, value) in [("from", *from), ("to", *to)] {
-                    let valid = (0.0..=1.0).contains(&value);
-                    TissueError::unless(valid, field, value, "from 0 to 1")?;
-                }
-                TissueError::unless(from != to, "to", *to, "other than `from`")
-            }
-            Self::Noise {
-                scale_mm,
-                threshold,
-                softness,
-                repeat_cells,
-            } => {
-                let cells = repeat_cells.unwrap_or(1);
-                let valid = (1..=65536).contains(&cells);
-                TissueError::unless(valid, "repeat_cells", f64::from(cells), "from 1 to 65536")?;
-                scale("scale_mm", *scale_mm)?;
-                let valid = (-1.0..=1.0).contains(threshold);
-                TissueError::unless(valid, "threshold", *threshold, "from -1 to 1")?;
-                let valid = (0.001..=2.0).contains(softness);
-                TissueError::unless(valid, "softness", *softness, "from 0.001 to 2")
+                let limits = "rising, from 1 to 20";
+                RangeError::unless(first <= last, "orders", f64::from(*last), limits)
             }
             Self::Picture(picture) => picture.validate(),
+            Self::Everywhere | Self::Margin { .. } | Self::Midrib { .. } | Self::Noise { .. } => {
+                Ok(())
+            }
         }
     }
 }
@@ -313,6 +256,5 @@ impl<'a> MaskField<'a> {
 
 /// 0 up to −½, 1 from ½ on, smooth between.
 fn step(x: f64) -> f64 {
-    let t = (x + 0.5).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
+    smooth_step(x + 0.5)
 }

@@ -1,9 +1,9 @@
 //! The blade as triangles.
 
-mod defects;
 mod smoothing;
+#[cfg(test)]
+mod testing;
 
-pub use self::defects::MeshDefect;
 pub use super::error::BladeError;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -15,8 +15,8 @@ use super::size_field::SizeField;
 use super::skeleton::Skeleton;
 use super::stance::{Posture, Settled};
 use super::triangulate::{Triangulation, triangulate};
+use crate::plane::{polygon, segment};
 use crate::shape::outline::Outline;
-use crate::venation::conformal_map::ConformalMap;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 
 /// Greatest number of triangles of one blade.
@@ -114,40 +114,6 @@ impl BladeMesh {
         )
     }
 
-    /// As [`BladeMesh::build`], from pieces of vein in a map of the blade. Pieces are connected
-    /// where their ends have the same bits.
-    ///
-    /// # Errors
-    ///
-    /// As [`BladeMesh::build`].
-    pub fn from_veins(
-        outline: &Outline,
-        veins: &[VeinSegment],
-        map: ConformalMap,
-        form: &BladeForm,
-    ) -> Result<Self, BladeError> {
-        let displaced = Displacement::NONE;
-        Self::from_veins_displaced(outline, veins, map, form, displaced)
-    }
-
-    /// As [`BladeMesh::from_veins`], `displaced`.
-    ///
-    /// # Errors
-    ///
-    /// As [`BladeMesh::build`].
-    pub fn from_veins_displaced(
-        outline: &Outline,
-        veins: &[VeinSegment],
-        map: ConformalMap,
-        form: &BladeForm,
-        displaced: Displacement<'_>,
-    ) -> Result<Self, BladeError> {
-        let frame = UvFrame::around(outline.points());
-        let posture = Posture::new(form, outline, (map, veins), None);
-        let cut = (outline, &[][..], &frame);
-        Self::within(cut, veins, form, &posture, false, displaced)
-    }
-
     fn within(
         (outline, holes, frame): (&Outline, &[Vec<DVec2>], &UvFrame),
         veins: &[VeinSegment],
@@ -232,26 +198,14 @@ impl BladeMesh {
             .iter()
             .all(|&v| normal.dot(self.normals[v as usize]) > 0.0)
     }
-
-    /// Area of a triangle on the flat lamina, mm², > 0 if counter-clockwise.
-    pub(super) fn flat_area(&self, triangle: &[u32; 3]) -> f64 {
-        let [a, b, c] = triangle.map(|v| self.lamina[v as usize]);
-        0.5 * (b - a).perp_dot(c - a)
-    }
 }
 
 /// Veins that keep clear of holes, so that the mesh has no slivers there.
 fn clear_of(holes: &[Vec<DVec2>], veins: &[VeinSegment], size: &SizeField) -> Vec<VeinSegment> {
     let is_clear = |p: DVec2| {
         let near = 0.8 * size.at(p);
-        holes.iter().all(|hole| {
-            let sides = hole.iter().zip(hole.iter().cycle().skip(1));
-            sides.into_iter().all(|(&a, &b)| {
-                let way = b - a;
-                let along = ((p - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-                (a + way * along).distance(p) > near
-            })
-        })
+        let mut sides = holes.iter().flat_map(|hole| polygon::sides(hole));
+        sides.all(|(a, b)| segment::distance(a, b, p) > near)
     };
     let veins = veins.iter().copied();
     veins

@@ -2,6 +2,8 @@
 
 use glam::DVec2;
 
+use crate::random::hashed;
+
 /// Gradient noise of two octaves with values in [−1, 1], mean 0, continuous with its second
 /// derivative.
 ///
@@ -51,7 +53,7 @@ impl Mottle {
     #[must_use]
     pub fn new(seed: u64, scale_mm: f64) -> Self {
         Self {
-            octaves: [0, 1].map(|octave| mixed(seed, octave)),
+            octaves: [0, 1].map(|octave| hashed(seed, octave)),
             scale_mm,
             repeat: None,
         }
@@ -90,9 +92,9 @@ fn octave(state: u64, place: DVec2, repeat: Option<i64>) -> f64 {
     let (column, row) = (corner.x as i64, corner.y as i64);
     let lattice = |number: i64| repeat.map_or(number, |cells| number.rem_euclid(cells)) as u64;
     let pulls = |i: i64| {
-        let state = mixed(state, lattice(column.wrapping_add(i)));
+        let state = hashed(state, lattice(column.wrapping_add(i)));
         [0, 1].map(|j: i64| {
-            let bits = mixed(state, lattice(row.wrapping_add(j)));
+            let bits = hashed(state, lattice(row.wrapping_add(j)));
             let gradient = DIRECTIONS[(bits >> 60) as usize];
             gradient.dot(inside - DVec2::new(i as f64, j as f64))
         })
@@ -104,15 +106,6 @@ fn octave(state: u64, place: DVec2, repeat: Option<i64>) -> f64 {
     let high = high_left + x * (high_right - high_left);
     // With unit gradients the bound is √½, reached in the middle of a cell.
     std::f64::consts::SQRT_2 * (low + y * (high - low))
-}
-
-/// 64 well mixed bits for a corner come from its octave, column and row, one after the other: the
-/// finaliser of `SplitMix64` (Steele et al. 2014) over each.
-fn mixed(state: u64, number: u64) -> u64 {
-    let mut z = (state ^ number).wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

@@ -18,9 +18,11 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::BladeForm;
 use super::error::BladeError;
-use super::relief::{Relief, smooth_step};
+use super::relief::Relief;
 use super::stalk::StalkMesh;
 use super::stance::{Posture, Settled};
+use crate::document::declared::Declared;
+use crate::numeric::smooth_step;
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 pub use course::Course;
@@ -59,18 +61,24 @@ const PIECE_ANGLE: f64 = 0.06;
 const MOST_PIECES: f64 = 240.0;
 
 /// The parameters of a petiole.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct PetiolePlan {
-    /// Length over the leaf's, 0 to 10.
+    /// Length over the leaf's.
+    #[key("length", required, 0.0..=10.0)]
     pub length: f64,
-    /// Radius, mm, 0.001 to 100; `None` means that of the midrib at its base.
+    /// Radius between its ends.
+    ///
+    /// Radius; `None` means that of the midrib at its base.
+    #[key("radius_mm", 0.001..=100.0)]
     pub radius_mm: Option<f64>,
-    /// Angle through which it bends towards the abaxial side from the base to its foot, radians, −3
-    /// to 3, evenly along it; 0 is straight.
+    /// Angle by which it has bent towards the abaxial side at its foot.
+    #[key("curl_deg", degrees(-170.0..=170.0))]
     pub curl: f64,
     /// How its axis runs beside that.
+    #[key(flat)]
     pub course: Course,
     /// Its form between both ends.
+    #[key(flat)]
     pub section: Section,
 }
 
@@ -102,50 +110,27 @@ fn swelling(back: f64) -> f64 {
     smooth_step(back / 0.8) * (1.0 - smooth_step((back - 1.2) / 1.3))
 }
 
+impl Default for PetiolePlan {
+    /// A petiole of which nothing is said.
+    fn default() -> Self {
+        Self {
+            length: 0.0,
+            radius_mm: None,
+            curl: 0.0,
+            course: Course::STRAIGHT,
+            section: Section::default(),
+        }
+    }
+}
+
 impl PetiolePlan {
     /// Checks every field.
     ///
     /// # Errors
     ///
-    /// [`BladeError::OutOfRange`] for the first field outside its range.
+    /// [`BladeError::Range`] for the first field outside its range.
     pub fn validate(&self) -> Result<(), BladeError> {
-        let radius = self.radius_mm.unwrap_or(1.0);
-        let course = self.course;
-        BladeError::unless_within([
-            ("petiole.length", self.length, 0.0..=10.0, "0 to 10"),
-            (
-                "petiole.radius_mm",
-                radius,
-                1e-3..=100.0,
-                "0.001 to 100 (millimetres)",
-            ),
-            ("petiole.curl", self.curl, -3.0..=3.0, "-3 to 3 (radians)"),
-            ("petiole.sag", course.sag, -3.0..=3.0, "-3 to 3 (radians)"),
-            ("petiole.neck", course.neck, -2.0..=2.0, "-2 to 2 (radians)"),
-            (
-                "petiole.neck_length",
-                course.neck_length,
-                0.02..=1.0,
-                "0.02 to 1",
-            ),
-            ("petiole.sway", course.sway, -3.0..=3.0, "-3 to 3 (radians)"),
-            (
-                "petiole.twist",
-                course.twist,
-                -3.0..=3.0,
-                "-3 to 3 (radians)",
-            ),
-            ("petiole.stray", course.stray, 0.0..=1.0, "0 to 1 (radians)"),
-            ("petiole.groove", self.section.groove, 0.0..=0.8, "0 to 0.8"),
-            (
-                "petiole.flatness",
-                self.section.flatness,
-                0.0..=0.7,
-                "0 to 0.7",
-            ),
-            ("petiole.foot", self.section.foot, 0.0..=2.0, "0 to 2"),
-            ("petiole.head", self.section.head, 0.0..=2.0, "0 to 2"),
-        ])
+        Ok(self.in_range()?)
     }
 
     /// Its radius on a leaf with these veins, mm.

@@ -10,6 +10,7 @@ use glam::DVec2;
 
 use super::BladeForm;
 use super::vein_grid::VeinGrid;
+use crate::numeric::smooth_step;
 use crate::venation::network::VeinSegment;
 
 /// Half-width of the mound in radii of the vein: the bundle sheath reaches beyond the vein itself.
@@ -65,12 +66,6 @@ impl Relief {
 /// radius is `least`.
 pub(super) fn developed(radius: f64, least: f64) -> f64 {
     smooth_step((radius / least - 1.0) / (FULL_AT - 1.0))
-}
-
-/// 0 below 0, 1 above 1, `3x² − 2x³` between.
-pub(super) fn smooth_step(x: f64) -> f64 {
-    let x = x.clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
 }
 
 #[cfg(test)]

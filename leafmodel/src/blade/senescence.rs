@@ -3,8 +3,14 @@
 use glam::DVec2;
 
 use super::ageing::{AgeingLeaf, Course, Place};
-use super::tissue::TissueError;
+use super::ageing_courses::{COURSES, LITTER, YELLOW};
+use crate::document::declared::Declared;
+use crate::document::keys::Keys;
+use crate::document::limits::Limits;
+use crate::document::value_kind::{Number, Word};
+use crate::numeric::smooth_step;
 use crate::optics::Contents;
+use crate::optics::contents_keys::contents;
 use crate::transport::DeathField;
 
 /// How far a leaf has aged, and the contents of its dead tissue.
@@ -45,40 +51,8 @@ pub enum AgeSource {
 impl Senescence {
     /// Latest day that a leaf may have.
     pub const LATEST_DAY: f64 = 1e4;
-
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`TissueError`] for the first that is out of range, by name.
-    pub fn validate(&self) -> Result<(), TissueError> {
-        let (most, range) = match self.source {
-            AgeSource::Revenue { share } => {
-                let valid = (0.0..=1.0).contains(&share);
-                TissueError::unless(valid, "senescence.revenue_share", share, "from 0 to 1")?;
-                (1.0, "from 0.001 to 1")
-            }
-            AgeSource::Day { day, course } => {
-                let valid = (0.0..=Self::LATEST_DAY).contains(&day);
-                TissueError::unless(valid, "senescence.day", day, "from 0 to 10000")?;
-                course.validate()?;
-                (1000.0, "from 0.001 to 1000")
-            }
-        };
-        let valid = (0.001..=most).contains(&self.blend);
-        TissueError::unless(valid, "senescence.blend", self.blend, range)?;
-        for (constituent, value) in *self.contents {
-            let least = constituent.least();
-            let valid = (least..=1000.0).contains(&value);
-            let range = if least > 0.0 {
-                "from 1 to 1000"
-            } else {
-                "from 0 to 1000"
-            };
-            TissueError::unless(valid, "senescence.contents", value, range)?;
-        }
-        Ok(())
-    }
+    /// Days for which a leaf may have aged.
+    pub const DAYS: Limits = Limits::closed(0.0, Self::LATEST_DAY);
 }
 
 impl Senescence {
@@ -114,6 +88,102 @@ impl Senescence {
             }
         }
     }
+}
+
+/// Width of the transition from living to dead where nothing is said.
+const BLEND: f64 = 0.08;
+/// Days from living to dead where nothing is said.
+const BLEND_DAYS: f64 = 4.0;
+
+impl Default for Senescence {
+    /// Ageing of which nothing is said.
+    fn default() -> Self {
+        Self {
+            source: AgeSource::Day {
+                day: 0.0,
+                course: YELLOW,
+            },
+            blend: BLEND_DAYS,
+            contents: LITTER,
+        }
+    }
+}
+
+impl Declared for Senescence {
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        let current = match self.source {
+            AgeSource::Day { .. } => "day",
+            AgeSource::Revenue { .. } => "revenue_share",
+        };
+        let has_base = keys.base().is_some();
+        let chosen = keys.one_of(&["day", "revenue_share"], Some(current));
+        // With none, or both, the other keys may still be wrong.
+        let chosen = match (chosen.is_empty(), has_base) {
+            (false, _) => chosen,
+            (true, true) => vec![current],
+            (true, false) => vec![""],
+        };
+        for name in chosen {
+            if name == "revenue_share" {
+                by_revenue(self, keys);
+            } else {
+                by_days(self, keys, name == "day");
+            }
+        }
+    }
+}
+
+fn by_revenue(value: &mut Senescence, keys: &mut Keys<'_>) {
+    let mut share = match value.source {
+        AgeSource::Revenue { share } => share,
+        AgeSource::Day { .. } => {
+            value.blend = BLEND;
+            1.0
+        }
+    };
+    let limits = Number(Limits::closed(0.0, 1.0));
+    let about = "What cells earn now as a share of what they earned when full-grown: 1 is \
+        summer, 0 all are dead. Cells whose supply no longer pays die, tips first. Needs \
+        `outline.transport` or `venation.transport`; with both, the cells of the venation \
+        decide.";
+    keys.required("revenue_share", &mut share, limits, about);
+    let limits = Number(Limits::closed(0.001, 1.0));
+    let about = "Width of the transition from living to dead in that share.";
+    keys.key("blend", &mut value.blend, limits, about);
+    let held = &mut value.contents;
+    let about = "What dead tissue holds.";
+    keys.required_block("contents", about, &[], |keys| contents(held, keys));
+    value.source = AgeSource::Revenue { share };
+}
+
+fn by_days(value: &mut Senescence, keys: &mut Keys<'_>, has_day: bool) {
+    let (mut day, mut course) = match value.source {
+        AgeSource::Day { day, course } => (day, course),
+        AgeSource::Revenue { .. } => {
+            value.blend = BLEND_DAYS;
+            value.contents = LITTER;
+            (0.0, YELLOW)
+        }
+    };
+    if has_day {
+        let limits = Number(Senescence::DAYS);
+        let about = "Since the leaf began to age where it does first; at 0 it has not.";
+        keys.required("day", &mut day, limits, about);
+    }
+    let limits = Number(Limits::closed(0.001, 1e3));
+    let about = "From living to dead.";
+    keys.key("blend_days", &mut value.blend, limits, about);
+    let mut named = None;
+    let about = "Whence the numbers below are taken where they are left out; the defaults here \
+        are those of yellow.";
+    keys.optional("course", &mut named, Word(&COURSES), about);
+    course = named.unwrap_or(course);
+    course.declare(keys);
+    let mut held = (value.contents != LITTER).then_some(value.contents);
+    let about = "What dead tissue holds; left out, litter.";
+    keys.optional_block("contents", &mut held, || LITTER, about, contents);
+    value.contents = held.unwrap_or(LITTER);
+    value.source = AgeSource::Day { day, course };
 }
 
 /// The ageing of a leaf at each of its places.
@@ -184,10 +254,7 @@ impl Withering {
                 threshold,
                 blend,
                 ..
-            } => {
-                let t = ((field.at(point) - threshold) / blend).clamp(0.0, 1.0);
-                t * t * (3.0 - 2.0 * t)
-            }
+            } => smooth_step((field.at(point) - threshold) / blend),
             Way::Day(leaf) => leaf.dead_share(point),
         }
     }
@@ -270,23 +337,14 @@ mod tests {
             blend: 0.1,
             contents: DEAD,
         };
-        assert_eq!(good.validate(), Ok(()));
-        let field = |bad: Senescence| bad.validate().expect_err("out of range").field;
+        assert_eq!(good.in_range(), Ok(()));
+        let field = |bad: Senescence| bad.in_range().expect_err("out of range").path;
         let source = AgeSource::Revenue { share: 1.1 };
-        assert_eq!(
-            field(Senescence { source, ..good }),
-            "senescence.revenue_share"
-        );
+        assert_eq!(field(Senescence { source, ..good }), "revenue_share");
         let source = AgeSource::Revenue { share: f64::NAN };
-        assert_eq!(
-            field(Senescence { source, ..good }),
-            "senescence.revenue_share"
-        );
-        assert_eq!(field(Senescence { blend: 0.0, ..good }), "senescence.blend");
+        assert_eq!(field(Senescence { source, ..good }), "revenue_share");
+        assert_eq!(field(Senescence { blend: 0.0, ..good }), "blend");
         let contents = DEAD.with(&[(Constituent::Structure, 0.5)]);
-        assert_eq!(
-            field(Senescence { contents, ..good }),
-            "senescence.contents"
-        );
+        assert_eq!(field(Senescence { contents, ..good }), "contents.structure");
     }
 }

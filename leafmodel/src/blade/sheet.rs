@@ -14,7 +14,7 @@ use crate::shape::outline::Outline;
 ///
 /// # Errors
 ///
-/// [`BladeError::OutOfRange`] for an edge outside 0.001 to 10000 mm, [`BladeError::TooFine`] for a
+/// [`BladeError::Range`] for an edge outside 0.001 to 10000 mm, [`BladeError::TooFine`] for a
 /// sheet of too many triangles.
 pub(crate) fn even_sheet(
     outline: &Outline,

@@ -61,7 +61,7 @@ impl SizeField {
     pub(super) fn at(&self, p: DVec2) -> f64 {
         let shortest = SHORTEST * self.longest;
         let mut target = self.longest;
-        for (least, number) in self.veins.members(p) {
+        for &(least, number) in self.veins.members(p) {
             if target <= shortest.max(least) {
                 break;
             }

@@ -19,46 +19,64 @@ pub(super) use posture::Posture;
 pub use settled::Settled;
 
 use super::error::BladeError;
+use crate::document::declared::Declared;
+use crate::document::keys::Keys;
+use crate::document::value_kind::Word;
 
 /// What has happened to a blade since it was as its form says.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, Default, PartialEq)]
+#[key(last = held_or_on_ground)]
 pub struct Stance {
-    /// Growth in excess at the margin.
-    pub margin_growth: Option<MarginGrowth>,
-    /// Loss of water after death.
-    pub drying: Option<Drying>,
-    /// Loss of turgor.
-    pub wilting: Option<Wilting>,
-    /// Whether the leaf lies on the ground, the plane z = 0, under its weight.
+    /// Whether the leaf is held by its stalk, or lies on the ground, z = 0, under its weight. A
+    /// compound leaf lies on three points, its axes straight whatever its own `curl_deg`,
+    /// `fold_deg` and `tilt_deg`.
+    #[key("rest", Word(&[("held", false), ("ground", true)]))]
     pub on_ground: bool,
+    /// Growth in excess at the margin, which then undulates.
+    #[key("margin_growth", block, default = MarginGrowth { excess: 0.1, width: 0.05 })]
+    pub margin_growth: Option<MarginGrowth>,
+    /// Dead tissue that has lost its water: it shrinks, curls and crumples.
+    #[key("drying", block, default = Drying::USUAL)]
+    pub drying: Option<Drying>,
+    /// A leaf without turgor, which its weight bends.
+    #[key("wilting", block, default = Wilting { share: 1.0, pitch: 0.0 })]
+    pub wilting: Option<Wilting>,
 }
 
 /// Growth that exceeds the rest of the blade's by `excess · exp(−d / width)` at the distance `d`
 /// from the margin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct MarginGrowth {
-    /// Linear excess at the margin, −0.3 to 1.
+    /// Excess of length at the margin; below 0 the blade becomes a bowl.
+    #[key("excess", required, -0.3..=1.0)]
     pub excess: f64,
-    /// Distance over which it falls to 1/e, as a share of the leaf's length, 0.005 to 1.
+    /// Distance over which it falls to 1/e, over the leaf's length.
+    #[key("width", 0.005..=1.0)]
     pub width: f64,
 }
 
 /// Shrinkage of dead tissue.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Drying {
-    /// How dry: 0 fresh, 1 air-dry.
+    /// 0 fresh, 1 air-dry.
+    #[key("share", required, 0.0..=1.0)]
     pub share: f64,
-    /// Linear shrinkage across veins of air-dry tissue, 0 to 0.4.
+    /// Linear shrinkage of air-dry tissue across veins.
+    #[key("shrinkage", 0.0..=0.4)]
     pub shrinkage: f64,
-    /// Shrinkage along veins over that across, 0 to 1.
+    /// Shrinkage along veins over that across.
+    #[key("along", 0.0..=1.0)]
     pub along: f64,
-    /// Shrinkage of the adaxial face less that of the abaxial one, −0.1 to 0.1; positive curls the
-    /// blade upwards.
+    /// Shrinkage of the adaxial face less that of the abaxial; above 0 the blade curls upwards.
+    #[key("faces", -0.1..=0.1)]
     pub faces: f64,
-    /// How much patches differ, 0 to 1.
+    /// How much patches differ.
+    #[key("unevenness", 0.0..=1.0)]
     pub unevenness: f64,
-    /// Angle through which the midrib bows from end to end, towards the adaxial side, radians, −3
-    /// to 3.
+    /// Angle through which drying bows the midrib, towards the adaxial side.
+    ///
+    /// Radians.
+    #[key("bow_deg", degrees(-170.0..=170.0))]
     pub bow: f64,
 }
 
@@ -78,12 +96,26 @@ impl Drying {
 }
 
 /// Loss of turgor in a leaf that is held by its stalk.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Wilting {
-    /// Share of the turgor that is lost, 0 to 1.
+    /// Share of turgor that is lost.
+    #[key("share", required, 0.0..=1.0)]
     pub share: f64,
-    /// Angle by which the leaf's axis rises above the horizontal, radians, −1.6 to 1.6.
+    /// Angle by which the leaf's axis rises above the horizontal.
+    ///
+    /// Radians.
+    #[key("pitch_deg", degrees(-90.0..=90.0))]
     pub pitch: f64,
+}
+
+/// Reports what only a leaf that is held by its stalk does.
+fn held_or_on_ground(stance: &Stance, keys: &Keys<'_>) {
+    if keys.is_sound() && stance.on_ground && stance.wilting.is_some_and(|w| w.pitch != 0.0) {
+        let problem = "it says how a leaf that is held by its stalk rises, and this one lies on \
+            the ground";
+        let help = "leave out `pitch_deg`, or `rest`";
+        keys.refuse(&["wilting", "pitch_deg"], problem.to_owned(), help);
+    }
 }
 
 impl Stance {
@@ -97,40 +129,8 @@ impl Stance {
     ///
     /// # Errors
     ///
-    /// [`BladeError::OutOfRange`] for the first field outside its range.
+    /// [`BladeError::Range`] for the first field outside its range.
     pub fn validate(&self) -> Result<(), BladeError> {
-        let mut fields = Vec::new();
-        if let Some(growth) = self.margin_growth {
-            fields.push((
-                "margin_growth.excess",
-                growth.excess,
-                -0.3..=1.0,
-                "-0.3 to 1",
-            ));
-            fields.push((
-                "margin_growth.width",
-                growth.width,
-                0.005..=1.0,
-                "0.005 to 1",
-            ));
-        }
-        if let Some(drying) = self.drying {
-            fields.push(("drying.share", drying.share, 0.0..=1.0, "0 to 1"));
-            fields.push(("drying.shrinkage", drying.shrinkage, 0.0..=0.4, "0 to 0.4"));
-            fields.push(("drying.along", drying.along, 0.0..=1.0, "0 to 1"));
-            fields.push(("drying.faces", drying.faces, -0.1..=0.1, "-0.1 to 0.1"));
-            fields.push(("drying.unevenness", drying.unevenness, 0.0..=1.0, "0 to 1"));
-            fields.push(("drying.bow", drying.bow, -3.0..=3.0, "-3 to 3 (radians)"));
-        }
-        if let Some(wilting) = self.wilting {
-            fields.push(("wilting.share", wilting.share, 0.0..=1.0, "0 to 1"));
-            fields.push((
-                "wilting.pitch",
-                wilting.pitch,
-                -1.6..=1.6,
-                "-1.6 to 1.6 (radians)",
-            ));
-        }
-        BladeError::unless_within(fields)
+        Ok(self.in_range()?)
     }
 }

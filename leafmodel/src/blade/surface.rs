@@ -36,12 +36,13 @@ use self::dust::{Gathering, optical_thicknesses};
 use self::mounds::Mounds;
 pub use self::plan::SurfacePlan;
 use super::coverage::Coverage;
-use super::distances::Distances;
 use super::frame::UvFrame;
 use super::mesh::BladeMesh;
 use super::senescence::Withering;
-use super::tissue::{Tissue, TissueError};
+use super::tissue::Tissue;
+use crate::document::ranges::RangeError;
 use crate::memory;
+use crate::plane::distances::Distances;
 use crate::venation::network::VeinSegment;
 
 /// Moments of the slopes of one face over a texel: `[mean ∂z/∂x, mean ∂z/∂y, mean (∂z/∂x)², mean
@@ -95,12 +96,12 @@ impl SurfaceMap {
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for a plan out of range.
+    /// [`RangeError`] for a plan out of range.
     pub fn of(
         plan: &SurfacePlan,
         blade: &SurfaceOf<'_>,
         [width, height]: [u32; 2],
-    ) -> Result<Self, TissueError> {
+    ) -> Result<Self, RangeError> {
         plan.validate()?;
         let frame = blade.frame;
         let size = [width as usize, height as usize];

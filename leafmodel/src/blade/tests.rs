@@ -187,8 +187,8 @@ fn the_same_leaf_has_the_same_bits() {
 fn each_number_out_of_range_is_refused_by_name() {
     type Spoil = fn(&mut BladeForm, f64);
     let spoils: [(&str, Spoil, f64); 8] = [
-        ("fold", |f, v| f.fold = v, 1.5),
-        ("curl", |f, v| f.curl = v, -6.3),
+        ("fold_deg", |f, v| f.fold = v, 1.5),
+        ("curl_deg", |f, v| f.curl = v, -6.3),
         ("ruffle", |f, v| f.ruffle = v, -0.01),
         ("ruffle_waves", |f, v| f.ruffle_waves = v, 101.0),
         ("relief", |f, v| f.relief = v, -0.1),
@@ -204,10 +204,10 @@ fn each_number_out_of_range_is_refused_by_name() {
         for bad in [bad, f64::NAN, f64::INFINITY] {
             let mut form = flat();
             spoil(&mut form, bad);
-            let Err(BladeError::OutOfRange { field, .. }) = form.validate() else {
+            let Err(BladeError::Range(error)) = form.validate() else {
                 panic!("{name} = {bad} was taken");
             };
-            assert_eq!(field, name);
+            assert_eq!(error.path, name);
         }
     }
 }
@@ -225,8 +225,8 @@ fn a_mesh_too_fine_is_refused_before_it_is_built() {
 #[test]
 fn a_blade_curled_into_itself_is_refused() {
     let form = BladeForm {
-        fold: -1.4,
-        curl: 6.2,
+        fold: -80_f64.to_radians(),
+        curl: 355_f64.to_radians(),
         max_edge_mm: 2.0,
         ..flat()
     };

@@ -1,12 +1,13 @@
 //! Contents of the tissue at every point of the lamina.
 
-use std::sync::LazyLock;
-
-use thiserror::Error;
-
 use super::vein_body::VeinBody;
 use super::vein_cover::VeinCover;
-use crate::optics::{Constituent, Contents, PerConstituent, VeinFactors};
+use crate::document::keys::Keys;
+use crate::document::limits::Limits;
+use crate::document::ranges::RangeError;
+use crate::document::value_kind::Number;
+use crate::optics::contents_keys::contents;
+use crate::optics::{Constituent, Contents, VeinFactors};
 
 /// Most that tissue may hold of anything, in the unit of its constituent.
 pub(crate) const MOST_HELD: f64 = 1000.0;
@@ -50,94 +51,95 @@ impl Tissue {
     }
 }
 
-/// A number of a tissue, or of anything painted on it, is outside the range in which the model
-/// holds.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("{field} is {value}, it must be {range}")]
-pub struct TissueError {
-    /// Which number.
-    pub field: &'static str,
-    /// What it was.
-    pub value: f64,
-    /// What it may be.
-    pub range: &'static str,
-}
-
-impl TissueError {
-    /// `Ok` if `valid`, which should be false for a NaN.
-    pub(super) fn unless(
-        valid: bool,
-        field: &'static str,
-        value: f64,
-        range: &'static str,
-    ) -> Result<(), Self> {
-        if valid {
-            Ok(())
-        } else {
-            Err(Self {
-                field,
-                value,
-                range,
-            })
-        }
-    }
-}
-
-/// `lamina.structure` and so on.
-static LAMINA: LazyLock<PerConstituent<String>> = LazyLock::new(|| fields_of("lamina"));
-
-/// `vein_factors.structure` and so on.
-static FACTORS: LazyLock<PerConstituent<String>> = LazyLock::new(|| fields_of("vein_factors"));
-
-fn fields_of(whole: &str) -> PerConstituent<String> {
-    PerConstituent::from_fn(|constituent| format!("{whole}.{}", constituent.name()))
-}
-
 /// What the mottle varies, and what makes tissue green.
 const GREENS: [Constituent; 2] = [Constituent::Chlorophyll, Constituent::Carotenoids];
 
 impl Tissue {
+    /// The keys of `veins` and `mottle`.
+    pub(crate) fn keys_of_veins(&mut self, keys: &mut Keys<'_>) {
+        let tissue = self;
+        let about = "Factors on the contents over the middle of a thick vein.";
+        keys.block("veins", about, |keys| {
+        let limits = Number(Limits::closed(0.0, VeinFactors::MOST));
+        for (constituent, factor) in tissue.vein_factors.iter_mut() {
+            let about = "Factor on this content over a fully developed vein.";
+            keys.key(constituent.name(), factor, limits, about);
+        }
+        let limits = Number(Limits::closed(0.001, 100.0));
+        let about = "Radius from which a vein has the whole factors; finer ones take part of \
+            them.";
+        keys.key(
+            "full_radius_mm",
+            &mut tissue.full_vein_radius_mm,
+            limits,
+            about,
+        );
+        let limits = Number(Limits::closed(0.001, 5.0));
+        let about = "Width over which a vein blends into the lamina.";
+        keys.key(
+            "sheath_width_mm",
+            &mut tissue.sheath_width_mm,
+            limits,
+            about,
+        );
+        let about = "What thick veins are made of: a vein thicker than the blade holds this for \
+            each thickness of the blade that it is thicker. Left out, the surplus follows from the \
+            factors.";
+        let body = &mut tissue.vein_body;
+        keys.optional_block(
+            "body",
+            body,
+            || VeinBody::USUAL,
+            about,
+            |body, keys| {
+                let limits = Number(Limits::closed(0.0, VeinBody::MOST));
+                for (constituent, share) in body.shares.iter_mut() {
+                    let about =
+                        "Share of what the blade between veins holds in the same thickness.";
+                    keys.key(constituent.name(), share, limits, about);
+                }
+            },
+        );
+    });
+        let mut mottle = (tissue.mottle != 0.0
+            || tissue.mottle_scale_mm != Tissue::MOTTLE_SCALE_MM)
+            .then_some((tissue.mottle, tissue.mottle_scale_mm));
+        let new = || (0.0, Tissue::MOTTLE_SCALE_MM);
+        let about = "Chlorophyll and carotenoids vary from patch to patch.";
+        keys.optional_block(
+            "mottle",
+            &mut mottle,
+            new,
+            about,
+            |(share, scale_mm), keys| {
+                let limits = Number(Limits::closed(0.0, 1.0));
+                keys.required("share", share, limits, "How far they vary.");
+                let limits = Number(Limits::closed(0.01, 1000.0));
+                keys.key("scale_mm", scale_mm, limits, "Size of patches.");
+            },
+        );
+        (tissue.mottle, tissue.mottle_scale_mm) = mottle.unwrap_or(new());
+    }
+
     /// Checks that every field is in its range. Upper limits are far above the values of leaves;
     /// they keep results finite in single precision and the search for veins local.
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for the first field out of range, by name.
-    pub fn validate(&self) -> Result<(), TissueError> {
-        for (constituent, value) in *self.lamina {
-            let field = LAMINA[constituent].as_str();
-            if constituent == Constituent::Structure {
-                let valid = (1.0..=100.0).contains(&value);
-                TissueError::unless(valid, field, value, "from 1 to 100")?;
-            } else {
-                let valid = (0.0..=MOST_HELD).contains(&value);
-                TissueError::unless(valid, field, value, "from 0 to 1000")?;
-            }
+    /// [`RangeError`] for the first field out of range.
+    pub fn validate(&self) -> Result<(), RangeError> {
+        let mut own = *self;
+        let errors = Keys::check(|keys| {
+            let held = &mut own.lamina;
+            keys.block("contents", "", |keys| contents(held, keys));
+            own.keys_of_veins(keys);
+        });
+        if let Some(error) = errors.into_iter().next() {
+            return Err(error);
         }
-        for (constituent, value) in *self.vein_factors {
-            let valid = (0.0..=VeinFactors::MOST).contains(&value);
-            let field = FACTORS[constituent].as_str();
-            TissueError::unless(valid, field, value, "from 0 to 100")?;
-        }
-        if let Some(body) = &self.vein_body {
-            let (thickness, valid) = (body.blade_mm, (0.001..=10.0).contains(&body.blade_mm));
-            TissueError::unless(valid, "vein_body.blade_mm", thickness, "from 0.001 to 10")?;
-            for (_, share) in body.shares {
-                let valid = (0.0..=VeinBody::MOST).contains(&share);
-                TissueError::unless(valid, "vein_body", share, "from 0 to 100")?;
-            }
-        }
-        let full = self.full_vein_radius_mm;
-        let valid = (0.001..=100.0).contains(&full);
-        TissueError::unless(valid, "full_vein_radius_mm", full, "from 0.001 to 100")?;
-        let sheath = self.sheath_width_mm;
-        let valid = (0.001..=5.0).contains(&sheath);
-        TissueError::unless(valid, "sheath_width_mm", sheath, "from 0.001 to 5")?;
-        let valid = (0.0..=1.0).contains(&self.mottle);
-        TissueError::unless(valid, "mottle", self.mottle, "from 0 to 1")?;
-        let scale = self.mottle_scale_mm;
-        let valid = (0.01..=1000.0).contains(&scale);
-        TissueError::unless(valid, "mottle_scale_mm", scale, "from 0.01 to 1000")
+        let blade_mm = self.vein_body.map_or(0.2, |body| body.blade_mm);
+        let valid = (0.001..=10.0).contains(&blade_mm);
+        RangeError::unless(valid, "vein_body.blade_mm", blade_mm, "0.001 to 10")
     }
 
     /// Contents where veins cover the lamina as `cover` says and the mottle has the value `mottle`,
@@ -219,18 +221,18 @@ pub(super) mod tests {
         type Set = fn(&mut Tissue, f64);
         let others: [(&str, Set, [f64; 2]); 4] = [
             (
-                "full_vein_radius_mm",
+                "veins.full_radius_mm",
                 |t, x| t.full_vein_radius_mm = x,
                 [0.0, 101.0],
             ),
             (
-                "sheath_width_mm",
+                "veins.sheath_width_mm",
                 |t, x| t.sheath_width_mm = x,
                 [0.0, 5.001],
             ),
-            ("mottle", |t, x| t.mottle = x, [-0.01, 1.01]),
+            ("mottle.share", |t, x| t.mottle = x, [-0.01, 1.01]),
             (
-                "mottle_scale_mm",
+                "mottle.scale_mm",
                 |t, x| t.mottle_scale_mm = x,
                 [0.0, 1001.0],
             ),
@@ -240,27 +242,23 @@ pub(super) mod tests {
             for bad in [low, high, f64::NAN, f64::INFINITY] {
                 let mut tissue = GREEN;
                 set(&mut tissue, bad);
-                broken.push((tissue, field, bad));
+                broken.push((tissue, field.to_owned()));
             }
         }
         for constituent in Constituent::ALL {
             for bad in [-0.001, 1001.0, f64::NAN, f64::INFINITY] {
                 let mut tissue = GREEN;
                 tissue.lamina[constituent] = bad;
-                broken.push((tissue, LAMINA[constituent].as_str(), bad));
+                broken.push((tissue, format!("contents.{}", constituent.key())));
                 let mut tissue = GREEN;
                 tissue.vein_factors[constituent] = bad;
-                broken.push((tissue, FACTORS[constituent].as_str(), bad));
+                broken.push((tissue, format!("veins.{}", constituent.name())));
             }
         }
         assert_eq!(GREEN.validate(), Ok(()));
-        for (tissue, field, bad) in broken {
+        for (tissue, field) in broken {
             let error = tissue.validate().expect_err("a field is out of range");
-            assert_eq!(
-                (error.field, error.value.to_bits()),
-                (field, bad.to_bits()),
-                "{error}"
-            );
+            assert_eq!(error.path, field, "{error}");
         }
     }
 
@@ -271,10 +269,7 @@ pub(super) mod tests {
             ..GREEN
         };
         let message = tissue.validate().expect_err("negative").to_string();
-        assert_eq!(
-            message,
-            "sheath_width_mm is -0.5, it must be from 0.001 to 5"
-        );
+        assert_eq!(message, "veins.sheath_width_mm is -0.5, outside 0.001 to 5");
     }
 
     #[test]

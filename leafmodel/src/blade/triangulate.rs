@@ -10,6 +10,7 @@ use super::error::BladeError;
 use super::refine::{FRAME, Refinement};
 use super::size_field::SizeField;
 use super::skeleton::Skeleton;
+use crate::plane::polygon;
 use crate::shape::outline::Outline;
 
 /// Neighbours on the margin closer than this share of the longest edge become one point: so short
@@ -81,7 +82,7 @@ fn pierced(whole: Triangulation, holes: &[Vec<DVec2>]) -> Triangulation {
     let is_left = |corners: &[u32; 3]| {
         let [a, b, c] = corners.map(|v| points[v as usize]);
         let middle = (a + b + c) / 3.0;
-        !holes.iter().any(|hole| is_within(hole, middle))
+        !holes.iter().any(|hole| polygon::contains(hole, middle))
     };
     let triangles: Vec<[u32; 3]> = triangles.into_iter().filter(is_left).collect();
     let mut used = vec![false; points.len()];
@@ -101,15 +102,6 @@ fn pierced(whole: Triangulation, holes: &[Vec<DVec2>]) -> Triangulation {
         triangles: triangles.into_iter().map(renumbered).collect(),
         points: kept,
     }
-}
-
-/// Whether a place lies within a polygon.
-fn is_within(polygon: &[DVec2], p: DVec2) -> bool {
-    let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
-    let crossings = sides.filter(|(a, b)| {
-        (a.y > p.y) != (b.y > p.y) && a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x
-    });
-    crossings.count() % 2 == 1
 }
 
 /// The faces inside the margin, found by walking from the outside without crossing it.

@@ -22,27 +22,32 @@ use rayon::prelude::*;
 use self::grid::Grid;
 use super::contents_map::ContentsMap;
 use super::coverage::{Coverage, extend};
-use super::distances::Distances;
 use super::frame::UvFrame;
 use super::mottle::Mottle;
-use super::tissue::TissueError;
+use crate::document::declared::Declared;
 use crate::optics::Constituent;
+use crate::plane::distances::Distances;
 use crate::shape::outline::Outline;
 use crate::venation::network::VeinSegment;
 
 /// By how much the greens of a blade differ from place to place.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Unevenness {
     /// Coefficient of variation of chlorophyll from field to field between veins of the first three
-    /// orders, 0 to 0.3.
+    /// orders.
+    #[key("fields", 0.0..=0.3)]
     pub fields: f64,
-    /// Coefficient of variation of chlorophyll from patch to patch, 0 to 0.3.
+    /// Coefficient of variation of chlorophyll from patch to patch.
+    #[key("patches", 0.0..=0.3)]
     pub patches: f64,
-    /// Size of the patches, mm, 0.5 to 500.
+    /// Size of the patches.
+    #[key("patch_mm", 0.5..=500.0)]
     pub patch_mm: f64,
-    /// Share of the chlorophyll that tissue at primaries lacks, 0 to 0.9.
+    /// Share of the chlorophyll that tissue at primaries lacks.
+    #[key("along_primaries", 0.0..=0.9)]
     pub along_primaries: f64,
-    /// Distance from their axes over which that falls to 1/e, mm, 0.05 to 100.
+    /// Distance from the axes of primaries over which that falls to 1/e.
+    #[key("reach_mm", 0.05..=100.0)]
     pub reach_mm: f64,
 }
 
@@ -65,30 +70,6 @@ const NOISE_DEVIATION: f64 = 0.36;
 const OTHER: [u64; 2] = [0x9a7c_5e11, 0x51e1_d5aa];
 
 impl Unevenness {
-    /// Checks every field.
-    ///
-    /// # Errors
-    ///
-    /// [`TissueError`] for the first field out of range, by name.
-    pub fn validate(&self) -> Result<(), TissueError> {
-        let fields = [
-            ("fields", self.fields, 0.0..=0.3, "from 0 to 0.3"),
-            ("patches", self.patches, 0.0..=0.3, "from 0 to 0.3"),
-            ("patch_mm", self.patch_mm, 0.5..=500.0, "from 0.5 to 500"),
-            (
-                "along_primaries",
-                self.along_primaries,
-                0.0..=0.9,
-                "from 0 to 0.9",
-            ),
-            ("reach_mm", self.reach_mm, 0.05..=100.0, "from 0.05 to 100"),
-        ];
-        for (field, value, range, text) in fields {
-            TissueError::unless(range.contains(&value), field, value, text)?;
-        }
-        Ok(())
-    }
-
     /// Changes the pigments of a map over `frame`.
     pub(crate) fn apply(
         &self,

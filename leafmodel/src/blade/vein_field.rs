@@ -2,9 +2,11 @@
 
 use glam::DVec2;
 
-use super::tissue::{Tissue, TissueError};
+use super::tissue::Tissue;
 use super::vein_cover::{Covers, Moments, VeinCover};
 use super::vein_profile::{Profile, Surplus, strength};
+use crate::buckets::Buckets;
+use crate::document::ranges::RangeError;
 use crate::venation::network::VeinSegment;
 
 /// The veins of a leaf in a uniform grid; each cell lists every segment within reach.
@@ -21,9 +23,8 @@ pub struct VeinField {
     cell: f64,
     columns: usize,
     rows: usize,
-    /// Cell `i` holds `entries[starts[i]..starts[i + 1]]`.
-    starts: Vec<u32>,
-    entries: Vec<u32>,
+    /// Numbers of the segments that reach into each cell.
+    entries: Buckets,
 }
 
 /// A vein segment prepared for many distance queries.
@@ -95,9 +96,9 @@ impl VeinField {
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for a vein that has a coordinate beyond 10⁵ mm or a radius not above 0 and up
+    /// [`RangeError`] for a vein that has a coordinate beyond 10⁵ mm or a radius not above 0 and up
     /// to 1000 mm.
-    pub(crate) fn check(veins: impl IntoIterator<Item = VeinSegment>) -> Result<(), TissueError> {
+    pub(crate) fn check(veins: impl IntoIterator<Item = VeinSegment>) -> Result<(), RangeError> {
         veins.into_iter().try_for_each(|vein| check(&vein))
     }
 
@@ -106,12 +107,12 @@ impl VeinField {
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for a tissue out of range, for a vein that has a coordinate beyond 10⁵ mm or
+    /// [`RangeError`] for a tissue out of range, for a vein that has a coordinate beyond 10⁵ mm or
     /// a radius not above 0 and up to 1000 mm, and for a texel below 0 or above 10⁵ mm.
-    pub fn new(veins: &[VeinSegment], tissue: &Tissue, texel_mm: f64) -> Result<Self, TissueError> {
+    pub fn new(veins: &[VeinSegment], tissue: &Tissue, texel_mm: f64) -> Result<Self, RangeError> {
         tissue.validate()?;
         let valid = (0.0..=1e5).contains(&texel_mm);
-        TissueError::unless(valid, "texel width", texel_mm, "from 0 to 100000 mm")?;
+        RangeError::unless(valid, "texel width", texel_mm, "from 0 to 100000 mm")?;
         Self::check(veins.iter().copied())?;
         let profile = Profile {
             sheath: tissue.sheath_width_mm,
@@ -156,42 +157,32 @@ impl VeinField {
             cell,
             columns: (size.x / cell) as usize + 1,
             rows: (size.y / cell) as usize + 1,
-            starts: Vec::new(),
-            entries: Vec::new(),
+            entries: Buckets::default(),
         };
-        let mut starts = vec![0_u32; field.columns * field.rows + 1];
-        field.each_cell_in_reach(|_, cell| starts[cell + 1] += 1);
-        for cell in 1..starts.len() {
-            starts[cell] += starts[cell - 1];
-        }
-        let mut free = starts.clone();
-        let mut entries = vec![0; starts.last().map_or(0, |&count| count as usize)];
-        field.each_cell_in_reach(|segment, cell| {
-            entries[free[cell] as usize] = segment;
-            free[cell] += 1;
-        });
-        (field.starts, field.entries) = (starts, entries);
+        let entries = Buckets::new(field.columns * field.rows, field.reached());
+        field.entries = entries;
         field
     }
 
-    /// Calls `visit` with each segment's index and each cell that comes within the segment's reach.
-    fn each_cell_in_reach(&self, mut visit: impl FnMut(u32, usize)) {
+    /// Each cell that comes within a segment's reach, with the segment's number.
+    fn reached(&self) -> impl Iterator<Item = (usize, u32)> + Clone + '_ {
         // From a cell's centre to its corner, and a little for rounding.
         let corner = self.cell * std::f64::consts::FRAC_1_SQRT_2 * (1.0 + 1e-9);
-        for (index, segment) in self.segments.iter().enumerate() {
-            let (low, high) = bounds(segment);
-            let (first, last) = (self.cell_of(low), self.cell_of(high));
-            let limit = segment.reach + corner;
-            for row in first.1..=last.1 {
-                for column in first.0..=last.0 {
-                    let centre =
-                        self.origin + self.cell * DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
-                    if segment.nearest(centre).0 <= limit * limit {
-                        visit(index as u32, row * self.columns + column);
-                    }
-                }
-            }
-        }
+        (0..)
+            .zip(&self.segments)
+            .flat_map(move |(number, segment)| {
+                let (low, high) = bounds(segment);
+                let (first, last) = (self.cell_of(low), self.cell_of(high));
+                let limit = segment.reach + corner;
+                let cells = (first.1..=last.1)
+                    .flat_map(move |row| (first.0..=last.0).map(move |column| (row, column)));
+                cells.filter_map(move |(row, column)| {
+                    let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+                    let centre = self.origin + self.cell * place;
+                    (segment.nearest(centre).0 <= limit * limit)
+                        .then_some((row * self.columns + column, number))
+                })
+            })
     }
 
     /// Column and row of the cell that holds a point; the nearest cell for points outside the grid.
@@ -211,9 +202,8 @@ impl VeinField {
         // No vein reaches points outside the grid; the segments of the nearest cell give 0 there.
         let (column, row) = self.cell_of(point);
         let cell = row * self.columns + column;
-        let (start, end) = (self.starts[cell] as usize, self.starts[cell + 1] as usize);
         let mut covers = Covers::default();
-        for &index in &self.entries[start..end] {
+        for &index in self.entries.list(cell) {
             self.segments[index as usize].add_to(&mut covers, point, self);
         }
         covers.all()
@@ -229,14 +219,14 @@ fn bounds(segment: &Segment) -> (DVec2, DVec2) {
     )
 }
 
-fn check(vein: &VeinSegment) -> Result<(), TissueError> {
+fn check(vein: &VeinSegment) -> Result<(), RangeError> {
     for value in [vein.from.x, vein.from.y, vein.to.x, vein.to.y] {
         let valid = value.abs() <= 1e5;
-        TissueError::unless(valid, "vein coordinate", value, "within ±100000 mm")?;
+        RangeError::unless(valid, "vein coordinate", value, "within ±100000 mm")?;
     }
     for value in [vein.radius_from, vein.radius_to] {
         let valid = value > 0.0 && value <= 1000.0;
-        TissueError::unless(valid, "vein radius", value, "above 0, to 1000 mm")?;
+        RangeError::unless(valid, "vein radius", value, "above 0, to 1000 mm")?;
     }
     Ok(())
 }
@@ -339,7 +329,7 @@ mod tests {
             ),
         ] {
             let error = VeinField::new(&[bad], &GREEN, 0.0).expect_err("out of range");
-            assert_eq!(error.field, field);
+            assert_eq!(error.path, field);
         }
         assert!(VeinField::new(&[], &GREEN, f64::NAN).is_err());
     }

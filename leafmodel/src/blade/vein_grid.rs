@@ -1,10 +1,11 @@
 //! The veins that matter at a point: a grid of cells, each with the segments that reach into it.
 
 use std::f64::consts::FRAC_1_SQRT_2;
-use std::ops::Range;
 
 use glam::DVec2;
 
+use crate::buckets::Buckets;
+use crate::plane::segment;
 use crate::venation::network::VeinSegment;
 
 /// Segments sorted into square cells by how far each of them reaches.
@@ -14,9 +15,7 @@ pub(super) struct VeinGrid {
     cell: f64,
     columns: usize,
     rows: usize,
-    /// Where each cell's list begins in `members`; one more than there are cells.
-    starts: Vec<u32>,
-    members: Vec<u32>,
+    members: Buckets,
     segments: Vec<VeinSegment>,
 }
 
@@ -66,44 +65,31 @@ impl VeinGrid {
             cell,
             columns: cells(high.x - low.x),
             rows: cells(high.y - low.y),
-            starts: Vec::new(),
-            members: Vec::new(),
+            members: Buckets::default(),
             segments,
         };
-        grid.sort(&reaches);
+        let reached = (0..).zip(&grid.segments).zip(&reaches);
+        let reached = reached.flat_map(|((number, segment), &reach)| {
+            let cells = grid.cells_of(segment, reach);
+            cells.map(move |cell| (cell, number))
+        });
+        grid.members = Buckets::new(grid.columns * grid.rows, reached);
         grid
     }
 
-    /// Counting sort of the segments into their cells.
-    fn sort(&mut self, reaches: &[f64]) {
-        let mut starts = vec![0_u32; self.columns * self.rows + 1];
-        for (segment, &reach) in self.segments.iter().zip(reaches) {
-            self.cells_of(segment, reach, |cell| starts[cell + 1] += 1);
-        }
-        for cell in 1..starts.len() {
-            starts[cell] += starts[cell - 1];
-        }
-        let mut free = starts.clone();
-        let mut members = vec![0; starts[starts.len() - 1] as usize];
-        for (index, (segment, &reach)) in self.segments.iter().zip(reaches).enumerate() {
-            self.cells_of(segment, reach, |cell| {
-                members[free[cell] as usize] = index as u32;
-                free[cell] += 1;
-            });
-        }
-        self.starts = starts;
-        self.members = members;
-    }
-
-    fn cells_of(&self, segment: &VeinSegment, reach: f64, mut visit: impl FnMut(usize)) {
+    /// The cells that a segment reaches.
+    fn cells_of(
+        &self,
+        segment: &VeinSegment,
+        reach: f64,
+    ) -> impl Iterator<Item = usize> + Clone + use<> {
         let index = |p: DVec2| ((p - self.origin) / self.cell).floor().max(DVec2::ZERO);
         let low = index(segment.from.min(segment.to) - reach);
         let high = index(segment.from.max(segment.to) + reach);
-        for row in low.y as usize..=(high.y as usize).min(self.rows - 1) {
-            for column in low.x as usize..=(high.x as usize).min(self.columns - 1) {
-                visit(row * self.columns + column);
-            }
-        }
+        let columns = self.columns;
+        let across = low.x as usize..=(high.x as usize).min(columns - 1);
+        (low.y as usize..=(high.y as usize).min(self.rows - 1))
+            .flat_map(move |row| across.clone().map(move |column| row * columns + column))
     }
 
     /// The nearest points of the veins that may reach a point, in the order of the segments.
@@ -114,47 +100,34 @@ impl VeinGrid {
 
     /// The numbers of the veins that may reach a point, ascending unless they were ordered.
     pub(super) fn members(&self, p: DVec2) -> &[u32] {
-        &self.members[self.places(p)]
+        self.cell(p).map_or(&[], |cell| self.members.list(cell))
     }
 
-    /// Where the veins that may reach a point stand in the list of all members.
-    fn places(&self, p: DVec2) -> Range<usize> {
+    /// The cell in which a point lies.
+    fn cell(&self, p: DVec2) -> Option<usize> {
         let place = ((p - self.origin) / self.cell).floor();
         let inside = place.cmpge(DVec2::ZERO).all()
             && place.x < self.columns as f64
             && place.y < self.rows as f64;
-        if inside {
-            let cell = place.y as usize * self.columns + place.x as usize;
-            self.starts[cell] as usize..self.starts[cell + 1] as usize
-        } else {
-            0..0
-        }
+        inside.then(|| place.y as usize * self.columns + place.x as usize)
     }
 
     /// Orders the members of each cell by a key: that of a vein's number for the cell with this
     /// middle and half diagonal.
-    pub(super) fn order_by(mut self, key: impl Fn(u32, DVec2, f64) -> f64) -> OrderedVeinGrid {
+    pub(super) fn order_by(self, key: impl Fn(u32, DVec2, f64) -> f64) -> OrderedVeinGrid {
         let half_diagonal = self.cell * FRAC_1_SQRT_2;
-        let mut keys = Vec::with_capacity(self.members.len());
-        let mut keyed = Vec::new();
-        for cell in 0..self.columns * self.rows {
+        let mut members = self.members.map(|cell, number| {
             let place = DVec2::new((cell % self.columns) as f64, (cell / self.columns) as f64);
             let middle = self.origin + (place + 0.5) * self.cell;
-            let members = self.starts[cell] as usize..self.starts[cell + 1] as usize;
-            let members = &mut self.members[members];
-            keyed.clear();
-            keyed.extend(
-                members
-                    .iter()
-                    .map(|&number| (key(number, middle, half_diagonal), number)),
-            );
-            keyed.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            for (member, &(key, number)) in members.iter_mut().zip(&keyed) {
-                *member = number;
-                keys.push(key);
-            }
+            (key(number, middle, half_diagonal), number)
+        });
+        members.sort_each(|list| {
+            list.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        });
+        OrderedVeinGrid {
+            veins: self,
+            members,
         }
-        OrderedVeinGrid { veins: self, keys }
     }
 
     /// The point of a vein that is nearest to `p`.
@@ -173,16 +146,15 @@ impl VeinGrid {
 #[derive(Debug)]
 pub(super) struct OrderedVeinGrid {
     veins: VeinGrid,
-    /// One for each member.
-    keys: Vec<f64>,
+    /// Keys and numbers of the veins of each cell.
+    members: Buckets<(f64, u32)>,
 }
 
 impl OrderedVeinGrid {
     /// Keys and numbers of the veins that may reach a point, by ascending key.
-    pub(super) fn members(&self, p: DVec2) -> impl Iterator<Item = (f64, u32)> + '_ {
-        let places = self.veins.places(p);
-        let keys = self.keys[places.clone()].iter().copied();
-        keys.zip(self.veins.members[places].iter().copied())
+    pub(super) fn members(&self, p: DVec2) -> &[(f64, u32)] {
+        let cell = self.veins.cell(p);
+        cell.map_or(&[], |cell| self.members.list(cell))
     }
 
     /// As [`VeinGrid::nearest`].
@@ -191,18 +163,12 @@ impl OrderedVeinGrid {
     }
 }
 
-fn nearest(segment: &VeinSegment, p: DVec2) -> NearVein {
-    let along = segment.to - segment.from;
-    let squared = along.length_squared();
-    let share = if squared > 0.0 {
-        ((p - segment.from).dot(along) / squared).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    let foot = segment.from + along * share;
+fn nearest(vein: &VeinSegment, p: DVec2) -> NearVein {
+    let share = segment::share(vein.from, vein.to, p);
+    let foot = vein.from + (vein.to - vein.from) * share;
     NearVein {
         distance: (foot - p).length(),
-        radius: segment.radius_from + (segment.radius_to - segment.radius_from) * share,
+        radius: vein.radius_from + (vein.radius_to - vein.radius_from) * share,
         foot,
     }
 }

@@ -2,6 +2,7 @@
 
 use super::tissue::Tissue;
 use super::vein_body::VeinBody;
+use crate::numeric::smooth_step;
 
 /// Strength of a vein of radius `r` over that of a fully developed one: `min(1, r / r_full)^½`, in
 /// [0, 1].
@@ -90,8 +91,7 @@ impl Profile {
 
     /// The profile itself, for `h = 0`.
     fn sharp(self, d: f64, r: f64) -> f64 {
-        let u = ((d - r) / self.sheath).clamp(0.0, 1.0);
-        1.0 - u * u * (3.0 - 2.0 * u)
+        1.0 - smooth_step((d - r) / self.sheath)
     }
 
     /// `∫₀^d ∫₀^x w(y) dy dx`, even in `d`: its second difference over `h` is the average under the

@@ -6,26 +6,35 @@
 use glam::DVec2;
 
 use super::mottle::Mottle;
-use super::tissue::TissueError;
+use crate::document::declared::Declared;
 use crate::optics::{Constituent, Contents};
-use crate::venation::chance::{self, Use};
+use crate::random::{self, Use};
 
 /// How dead tissue differs from leaf to leaf and from place to place.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Weathering {
-    /// How far leaves differ: the brown of a leaf is multiplied by `e^x`, with an even `x` within
-    /// ± this, 0 to 3, drawn by the seed.
+    /// Leaves hold up to e to the power of this more or less brown.
+    ///
+    /// How far leaves differ: the brown of a leaf is multiplied by `e^x`, with an even `x` within ±
+    /// this, drawn by the seed.
+    #[key("leaves", 0.0..=3.0)]
     pub leaves: f64,
-    /// The same for patches within a leaf, 0 to 3.
+    /// The same for patches within a leaf.
+    #[key("patches", 0.0..=3.0)]
     pub patches: f64,
-    /// Size of those patches and of bleached ones, mm, 0.01 to 1000.
+    /// Size of patches.
+    ///
+    /// Size of those patches and of bleached ones
+    #[key("patch_scale_mm", 0.01..=1e3)]
     pub patch_scale_mm: f64,
-    /// About the share of dead tissue that is bleached, 0 to 1; leaves differ by a factor of up to
-    /// two.
+    /// About the share of dead tissue that rain and sun have bleached.
+    #[key("bleached", 0.0..=1.0)]
     pub bleached: f64,
-    /// Dark spots per cm², 0 to 1000.
+    /// Dark spots of fungi.
+    #[key("spots_per_cm2", 0.0..=1e3)]
     pub spots_per_cm2: f64,
-    /// Their mean radius, mm, 0.01 to 100.
+    /// Their mean radius.
+    #[key("spot_radius_mm", 0.01..=100.0)]
     pub spot_radius_mm: f64,
 }
 
@@ -47,49 +56,6 @@ impl Weathering {
         spots_per_cm2: 1.0,
         spot_radius_mm: 0.5,
     };
-
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`TissueError`] for the first that is out of range, by name.
-    pub fn validate(&self) -> Result<(), TissueError> {
-        for (field, value, least, most, range) in [
-            ("weathering.leaves", self.leaves, 0.0, 3.0, "from 0 to 3"),
-            ("weathering.patches", self.patches, 0.0, 3.0, "from 0 to 3"),
-            (
-                "weathering.patch_scale_mm",
-                self.patch_scale_mm,
-                0.01,
-                1e3,
-                "from 0.01 to 1000",
-            ),
-            (
-                "weathering.bleached",
-                self.bleached,
-                0.0,
-                1.0,
-                "from 0 to 1",
-            ),
-            (
-                "weathering.spots_per_cm2",
-                self.spots_per_cm2,
-                0.0,
-                1e3,
-                "from 0 to 1000",
-            ),
-            (
-                "weathering.spot_radius_mm",
-                self.spot_radius_mm,
-                0.01,
-                100.0,
-                "from 0.01 to 100",
-            ),
-        ] {
-            TissueError::unless((least..=most).contains(&value), field, value, range)?;
-        }
-        Ok(())
-    }
 }
 
 /// The weathering of one leaf.
@@ -111,10 +77,10 @@ pub(super) struct Weathered {
 
 impl Weathered {
     pub(super) fn new(of: Weathering, seed: u64) -> Self {
-        let seed = chance::bits(seed, Use::Weathering, 0);
-        let even = |number| 2.0 * chance::uniform(seed, Use::Weathering, number) - 1.0;
+        let seed = random::bits(seed, Use::Weathering, 0);
+        let even = |number| 2.0 * random::uniform(seed, Use::Weathering, number) - 1.0;
         let noise =
-            |number, scale_mm| Mottle::new(chance::bits(seed, Use::Weathering, number), scale_mm);
+            |number, scale_mm| Mottle::new(random::bits(seed, Use::Weathering, number), scale_mm);
         let bleached = (of.bleached * libm::exp2(even(2))).min(1.0);
         Self {
             of,
@@ -155,7 +121,7 @@ impl Weathered {
             // Columns and rows below zero wrap, which serves as well.
             let number =
                 (((cell.x as i64 as u64) << 32) ^ (cell.y as i64 as u64 & 0xffff_ffff)) << 2;
-            let draw = |k| chance::uniform(self.seed, Use::WeatheringSpot, number | k);
+            let draw = |k| random::uniform(self.seed, Use::WeatheringSpot, number | k);
             let middle = (cell + DVec2::new(draw(0), draw(1))) * self.square;
             // Most spots are small: radii from 0.3 to 3 times the mean, few large.
             let radius = self.of.spot_radius_mm * 0.3 * libm::exp(2.3 * draw(2) * draw(2));
@@ -253,21 +219,21 @@ mod tests {
 
     #[test]
     fn numbers_out_of_range_are_refused_by_name() {
-        let field = |bad: Weathering| bad.validate().expect_err("out of range").field;
-        assert_eq!(Weathering::LITTER.validate(), Ok(()));
+        let field = |bad: Weathering| bad.in_range().expect_err("out of range").path;
+        assert_eq!(Weathering::LITTER.in_range(), Ok(()));
         assert_eq!(
             field(Weathering {
                 leaves: f64::NAN,
                 ..NOTHING
             }),
-            "weathering.leaves"
+            "leaves"
         );
         assert_eq!(
             field(Weathering {
                 bleached: 1.1,
                 ..NOTHING
             }),
-            "weathering.bleached"
+            "bleached"
         );
     }
 }

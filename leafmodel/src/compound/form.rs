@@ -1,25 +1,46 @@
 //! The arrangement of a compound leaf's leaflets, as given by a plan.
 
+use crate::document::declared::Declared;
+use crate::document::keys::{Keys, Variant};
+use crate::document::limits::Limits;
+use crate::document::value_kind::{Degrees, Integer, Number, Numbers};
 /// Leaflets, or pinnae, in two rows along a rachis.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Feather {
-    /// Pairs, 1 to 200.
-    pub pairs: u32,
-    /// Whether there is a terminal one at the rachis' end (imparipinnate).
-    pub terminal: bool,
+    /// Length from the first pair to the end, in leaflets; of `pinnae` over the largest pinna's
+    /// rachis.
+    ///
     /// Length of the rachis from the first pair to its end, relative to its owner: see
-    /// [`Arrangement`]; 0.01 to 100.
+    /// [`Arrangement`].
+    #[key("rachis", required, 0.01..=100.0)]
     pub rachis: f64,
-    /// Shift of the left ones towards the tip as a share of the gap between pairs, 0 to 0.9: 0 is
-    /// opposite, 0.5 alternate.
+    /// Pairs along the rachis.
+    #[key("pairs", required, 1..=200)]
+    pub pairs: u32,
+    /// Whether one more stands at the end.
+    ///
+    /// Whether there is a terminal one at the rachis' end (imparipinnate).
+    #[key("terminal")]
+    pub terminal: bool,
+    /// How far the left ones stand towards the tip, in gaps between pairs: 0 opposite, 0.5
+    /// alternate.
+    #[key("alternation", 0.0..=0.9)]
     pub alternation: f64,
-    /// Angle from the rachis of the first pair and of the last, radians, 0.05 to 3; linear between.
+    /// Angle from the rachis of the first pair and the last, linear between.
+    ///
+    /// Radians.
+    #[key("angles_deg", required, degrees(3.0..=170.0))]
     pub angles: [f64; 2],
-    /// Size of the first pair, of one half-way and of the last, relative to the largest leaflet;
-    /// 0.01 to 1, linear between.
+    /// First pair, one half-way, last, over the largest.
+    ///
+    /// Size of the first pair, of one half-way and of the last, relative to the largest leaflet,
+    /// linear between.
+    #[key("sizes", 0.01..=1.0)]
     pub sizes: [f64; 3],
-    /// Curvature of the rachis: the angle by which it turns to the right from end to end, radians,
-    /// −2 to 2.
+    /// Angle by which the rachis turns to the right from end to end.
+    ///
+    /// Radians.
+    #[key("turn_deg", degrees(-114.0..=114.0))]
     pub turn: f64,
 }
 
@@ -53,35 +74,156 @@ pub enum Arrangement {
 }
 
 /// The parameters of a compound leaf apart from its leaflets.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct CompoundForm {
     /// The arrangement of leaflets.
     pub arrangement: Arrangement,
+    /// Length up to the first pair, or to where all leaflets stand.
+    ///
     /// Length of the petiole, from the origin to the first pair or to the common insertion of all
-    /// leaflets, relative to the largest leaflet, 0 to 100.
+    /// leaflets, relative to the largest leaflet
+    #[key("petiole", 0.0..=100.0)]
     pub petiole: f64,
-    /// Length of petiolules relative to their leaflets, 0 to 10.
+    /// Stalk of a leaflet over that leaflet's length.
+    #[key("petiolule", 0.0..=10.0)]
     pub petiolule: f64,
-    /// Radius of the largest leaflet's stalk, mm, 0.001 to 100.
+    /// Radius of the largest leaflet's stalk; cross-sections of axes are sums of those that they
+    /// bear.
+    #[key("stalk_radius_mm", 0.001..=100.0)]
     pub stalk_radius_mm: f64,
-    /// Number of different leaflets that are grown, 1 to 50; they are used in turn.
+    /// Different leaflets that are grown, each from a seed of its own; they stand in turn. Each has
+    /// a mesh and a map.
+    #[key("variants", 1..=50)]
     pub variants: u32,
-    /// Angle through which petiole and rachis bend from end to end, towards the abaxial side,
-    /// radians, −6.2 to 6.2.
+    /// Angle through which petiole and rachis bend from end to end, towards the abaxial side.
+    ///
+    /// Radians.
+    #[key("curl_deg", degrees(-355.0..=355.0))]
     pub curl: f64,
-    /// Angle by which leaflets are raised about the axis that bears them, towards the adaxial side,
-    /// radians, −1.4 to 1.4; multiplied by the sine of the angle of insertion.
+    /// Angle by which leaflets are raised about the axis that bears them, times the sine of the
+    /// angle at which they stand on it.
+    ///
+    /// Radians.
+    #[key("fold_deg", degrees(-80.0..=80.0))]
     pub fold: f64,
-    /// Largest random rotation of each leaflet about its midrib, radians, 0 to 1; that about the
-    /// axis across it is half as large.
+    /// Largest angle by which each is turned by chance about its midrib, and half as far across it.
+    ///
+    /// Radians.
+    #[key("tilt_deg", degrees(0.0..=57.0))]
     pub tilt: f64,
-    /// Standard deviation, from leaflet to leaflet and from pinna to pinna, of places along the axis
-    /// in gaps between pairs, of angles relative to themselves and, half as much, of sizes; 0 to
-    /// 0.25. Those that would come into each other's way stray less.
+    /// Standard deviation, from one to the next, of places along an axis in gaps between pairs, of
+    /// angles over themselves and, half as much, of sizes. Those that would come into each other's
+    /// way stray less.
+    #[key("irregularity", 0.0..=0.25)]
     pub irregularity: f64,
 }
 
+/// Lengths of stalks in leaflets.
+const LENGTHS: Number = Number(Limits::closed(0.01, 100.0));
+/// Sizes in shares of the largest leaflet.
+const SIZES: Limits = Limits::closed(0.01, 1.0);
+
+fn palmate() -> Arrangement {
+    Arrangement::Palmate {
+        leaflets: 2,
+        spread: 1.0,
+        sizes: [1.0; 2],
+    }
+}
+
+fn rows() -> Feather {
+    Feather {
+        pairs: 1,
+        terminal: true,
+        rachis: 1.0,
+        alternation: 0.0,
+        angles: [1.0; 2],
+        sizes: [1.0; 3],
+        turn: 0.0,
+    }
+}
+
+/// The kinds of `compound`, with the keys that all of them have.
+const KINDS: [Variant<CompoundForm>; 3] = [
+    Variant {
+        name: "pinnate",
+        about: "Leaflets in two rows along a rachis.",
+        new: || CompoundForm::new(Arrangement::Pinnate(rows())),
+        is: |form| matches!(form.arrangement, Arrangement::Pinnate(_)),
+        declare: |form, keys| {
+            if let Arrangement::Pinnate(rows) = &mut form.arrangement {
+                rows.declare(keys);
+            }
+            form.declare(keys);
+        },
+    },
+    Variant {
+        name: "palmate",
+        about: "Leaflets from one point.",
+        new: || CompoundForm::new(palmate()),
+        is: |form| matches!(form.arrangement, Arrangement::Palmate { .. }),
+        declare: |form, keys| {
+            if let Arrangement::Palmate {
+                leaflets,
+                spread,
+                sizes,
+            } = &mut form.arrangement
+            {
+                let count = Integer::within(2, 100);
+                keys.required("leaflets", leaflets, count, "How many.");
+                let limits = Degrees(Limits::closed(3.0, 355.0));
+                let about = "Angle between the two outermost.";
+                keys.required("spread_deg", spread, limits, about);
+                let about = "Outermost and middle ones over the largest leaflet.";
+                keys.key("sizes", sizes, Numbers(SIZES), about);
+            }
+            form.declare(keys);
+        },
+    },
+    Variant {
+        name: "bipinnate",
+        about: "Pinnae in two rows, each with leaflets in two rows.",
+        new: || {
+            CompoundForm::new(Arrangement::Bipinnate {
+                pinnae: rows(),
+                leaflets: rows(),
+                stalk: 1.0,
+            })
+        },
+        is: |form| matches!(form.arrangement, Arrangement::Bipinnate { .. }),
+        declare: |form, keys| {
+            if let Arrangement::Bipinnate {
+                pinnae,
+                leaflets,
+                stalk,
+            } = &mut form.arrangement
+            {
+                let about = "Length of the largest pinna's stalk, from the rachis to its first \
+                    leaflets.";
+                keys.required("stalk", stalk, LENGTHS, about);
+                let about = "How pinnae stand on the rachis.";
+                keys.required_block("pinnae", about, &[], |keys| pinnae.declare(keys));
+                let about = "How leaflets stand on a pinna.";
+                keys.required_block("leaflets", about, &[], |keys| leaflets.declare(keys));
+            }
+            form.declare(keys);
+        },
+    },
+];
+
+impl Default for CompoundForm {
+    /// A compound leaf of which nothing is said.
+    fn default() -> Self {
+        Self::new(palmate())
+    }
+}
+
 impl CompoundForm {
+    /// The keys of `compound`: those of its kind, then those that all kinds have.
+    pub(crate) fn keys(&mut self, keys: &mut Keys<'_>) {
+        keys.kind(self, &KINDS);
+    }
+
     /// A form with default values for all but the arrangement: no petiole, short stalks, all in one
     /// plane and without chance.
     pub fn new(arrangement: Arrangement) -> Self {

@@ -4,7 +4,7 @@
 //! each other's way stray half as far, again and again, until they do not: [`Stray::calm`].
 
 use super::{Arrangement, CompoundError, CompoundForm};
-use crate::venation::chance::{Use, uniform};
+use crate::random::{Use, uniform};
 
 /// Random numbers for strays come after those for seeds and tilts; those for pinnae after those for
 /// leaflets.
@@ -109,7 +109,10 @@ impl Stray {
                     leaflets.push(leaflet);
                     pinnae.extend(0..self.pinnae.len());
                 }
-                CompoundError::OutOfRange { .. } | CompoundError::Leaflet(_) => {}
+                CompoundError::Range(_)
+                | CompoundError::TooMany { .. }
+                | CompoundError::RolledUp { .. }
+                | CompoundError::Leaflet(_) => {}
             }
         }
         // Not `||` for the first two: both are calmed.

@@ -176,7 +176,7 @@ fn leaflets_in_each_others_way_are_refused() {
     ));
     let steep = Feather {
         pairs: 1,
-        angles: [0.05, 0.05],
+        angles: [3_f64.to_radians(); 2],
         rachis: 6.0,
         ..feather()
     };
@@ -184,6 +184,42 @@ fn leaflets_in_each_others_way_are_refused() {
         plan(Arrangement::Pinnate(steep)).arrange(&leaflet()),
         Err(CompoundError::OnStalk { leaflet: 0 } | CompoundError::Overlap { .. })
     ));
+}
+
+#[test]
+fn a_leaf_that_its_curl_would_roll_up_is_refused_unless_it_lies_on_the_ground() {
+    // Pinnae many times as long as the axis that bears them.
+    let pinnae = Feather {
+        pairs: 1,
+        terminal: false,
+        angles: [1.0; 2],
+        rachis: 0.02,
+        ..feather()
+    };
+    let leaflets = Feather {
+        pairs: 3,
+        rachis: 6.0,
+        ..feather()
+    };
+    let curled = |curl: f64| CompoundForm {
+        petiole: 0.02,
+        curl,
+        ..plan(Arrangement::Bipinnate {
+            pinnae: pinnae.clone(),
+            leaflets: leaflets.clone(),
+            stalk: 1.0,
+        })
+    };
+    let little = curled(0.2).arrange(&leaflet());
+    assert!(little.is_ok(), "{little:?}");
+    let much = curled(6.0).arrange(&leaflet());
+    assert!(
+        matches!(much, Err(CompoundError::RolledUp { degrees }) if degrees > 720.0),
+        "{much:?}"
+    );
+    let mut lying = leaflet();
+    lying.stance.on_ground = true;
+    assert!(curled(6.0).arrange(&lying).is_ok());
 }
 
 /// The same leaf with an irregularity.
@@ -302,64 +338,64 @@ fn every_bad_number_is_named() {
         plan(Arrangement::Pinnate(feather))
     };
     let bad = [
-        ("pairs", with(|f| f.pairs = 0)),
-        ("rachis", with(|f| f.rachis = f64::NAN)),
-        ("alternation", with(|f| f.alternation = 1.0)),
-        ("angles", with(|f| f.angles[1] = 0.0)),
-        ("sizes", with(|f| f.sizes[2] = 1.1)),
-        ("turn", with(|f| f.turn = 3.0)),
+        ("pinnate.pairs", with(|f| f.pairs = 0)),
+        ("pinnate.rachis", with(|f| f.rachis = f64::NAN)),
+        ("pinnate.alternation", with(|f| f.alternation = 1.0)),
+        ("pinnate.angles_deg", with(|f| f.angles[1] = 0.0)),
+        ("pinnate.sizes", with(|f| f.sizes[2] = 1.1)),
+        ("pinnate.turn_deg", with(|f| f.turn = 3.0)),
         (
-            "petiole",
+            "palmate.petiole",
             CompoundForm {
                 petiole: -1.0,
                 ..plan(palmate())
             },
         ),
         (
-            "petiolule",
+            "palmate.petiolule",
             CompoundForm {
                 petiolule: 11.0,
                 ..plan(palmate())
             },
         ),
         (
-            "stalk_radius_mm",
+            "palmate.stalk_radius_mm",
             CompoundForm {
                 stalk_radius_mm: 0.0,
                 ..plan(palmate())
             },
         ),
         (
-            "variants",
+            "palmate.variants",
             CompoundForm {
                 variants: 0,
                 ..plan(palmate())
             },
         ),
         (
-            "curl",
+            "palmate.curl_deg",
             CompoundForm {
                 curl: 7.0,
                 ..plan(palmate())
             },
         ),
         (
-            "fold",
+            "palmate.fold_deg",
             CompoundForm {
                 fold: f64::NAN,
                 ..plan(palmate())
             },
         ),
         (
-            "tilt",
+            "palmate.tilt_deg",
             CompoundForm {
                 tilt: -0.1,
                 ..plan(palmate())
             },
         ),
-        ("irregularity", irregular(palmate(), 0.3)),
+        ("palmate.irregularity", irregular(palmate(), 0.3)),
         (
-            "leaflets",
+            "palmate.leaflets",
             plan(Arrangement::Palmate {
                 leaflets: 1,
                 spread: 1.0,
@@ -367,7 +403,7 @@ fn every_bad_number_is_named() {
             }),
         ),
         (
-            "spread",
+            "palmate.spread_deg",
             plan(Arrangement::Palmate {
                 leaflets: 3,
                 spread: 7.0,
@@ -377,7 +413,7 @@ fn every_bad_number_is_named() {
     ];
     for (expected, plan) in bad {
         match plan.arrange(&leaflet()) {
-            Err(CompoundError::OutOfRange { key, .. }) => assert_eq!(key, expected),
+            Err(CompoundError::Range(error)) => assert_eq!(error.path, expected),
             other => panic!("{expected}: {other:?}"),
         }
     }

@@ -4,14 +4,14 @@ mod ground;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-use super::{
-    Arrangement, CompoundError, CompoundForm, CompoundLeaf, PlacedLeaflet, StalkKind, direction,
-};
+use super::{CompoundError, CompoundForm, CompoundLeaf, PlacedLeaflet, StalkKind, direction};
 use crate::blade::petiole::{Course, PetiolePlan};
 use crate::blade::stalk::StalkMesh;
 use crate::leaf::{Leaf, LeafError, LeafPlan};
+use crate::numeric::smooth_step;
+use crate::plane::polyline;
+use crate::random::{Use, bits, uniform};
 use crate::rotation::about;
-use crate::venation::chance::{Use, bits, uniform};
 
 /// Random numbers for the tilts of leaflets come after those for their seeds.
 const FIRST_TILT: u64 = 1 << 32;
@@ -172,20 +172,8 @@ struct Bend {
 
 impl Bend {
     fn new(form: &CompoundForm, unit: f64) -> Self {
-        let rachis = match &form.arrangement {
-            Arrangement::Pinnate(feather) => feather.rachis,
-            Arrangement::Palmate { .. } => 0.0,
-            Arrangement::Bipinnate {
-                pinnae, leaflets, ..
-            } => pinnae.rachis * leaflets.rachis,
-        };
-        let length = (form.petiole + rachis) * unit;
         Self {
-            curvature: if length > 0.0 {
-                form.curl / length
-            } else {
-                0.0
-            },
+            curvature: form.curvature(unit),
         }
     }
 
@@ -231,15 +219,9 @@ impl Bend {
 
     /// A tube along a polyline of the plane.
     fn tube(&self, points: &[DVec2], radii: &[f64]) -> StalkMesh {
-        let whole: f64 = points
-            .windows(2)
-            .map(|pair| pair[0].distance(pair[1]))
-            .sum();
+        let whole = polyline::length(points);
         let foot = (FOOT_RADII * radii[0]).min(0.5 * whole);
-        let swollen = |along: f64| {
-            let t = (along / foot).min(1.0);
-            1.0 + FOOT * (1.0 - t * t * (3.0 - 2.0 * t))
-        };
+        let swollen = |along: f64| 1.0 + FOOT * (1.0 - smooth_step(along / foot));
         let (mut placed, mut thick) = (vec![self.place(points[0])], vec![radii[0] * swollen(0.0)]);
         let mut along = 0.0;
         for (pair, ends) in points.windows(2).zip(radii.windows(2)) {
@@ -253,7 +235,8 @@ impl Bend {
             }
             along += length;
         }
-        StalkMesh::tube(&placed, &thick).expect("an axis is an arc, its radii are above 0")
+        StalkMesh::tube(&placed, &thick)
+            .expect("an axis is an arc of two turns at most, its radii are above 0")
     }
 }
 

@@ -2,9 +2,10 @@
 
 use glam::DVec2;
 
-use super::margin::{Interval, Margin, cross};
+use super::margin::{Interval, Margin};
 use super::plan::{Sequence, Wave};
 use super::skeleton::{NO_NODE, Skeleton, bowed, pieces};
+use crate::plane::segment::cross;
 
 /// How near to the base a convergence point may appear, over the distance from another one.
 const BASE_CLEARANCE: f64 = 0.4;

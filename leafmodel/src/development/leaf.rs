@@ -4,6 +4,7 @@ use super::check::DevelopmentError;
 use super::network::MainVeinStyle;
 use super::plan::DevelopmentPlan;
 use super::steps::Developing;
+use crate::document::declared::Declared;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;
 
@@ -65,16 +66,6 @@ impl DevelopmentPlan {
 }
 
 impl DevelopedLeaf {
-    /// What it was grown from.
-    pub fn plan(&self) -> &DevelopmentPlan {
-        &self.plan
-    }
-
-    /// The seed of its irregularity.
-    pub fn seed(&self) -> u64 {
-        self.seed
-    }
-
     /// Steps done.
     pub fn step(&self) -> u32 {
         self.grown.step
@@ -110,13 +101,13 @@ impl DevelopedLeaf {
     ///
     /// # Errors
     ///
-    /// [`DevelopmentError::OutOfRange`] of the style.
+    /// [`DevelopmentError::Range`] of the style.
     pub fn network(
         &self,
         length_mm: f64,
         style: MainVeinStyle,
     ) -> Result<VenationNetwork, DevelopmentError> {
-        style.validate()?;
+        style.in_range()?;
         Ok(self.grown.network(length_mm, style))
     }
 

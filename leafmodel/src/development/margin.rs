@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::plan::{Primordium, Sequence, Wave};
 use super::skeleton::NO_NODE;
+use crate::plane::segment::cross;
 
 /// A point of tissue at the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -256,12 +257,6 @@ fn share_between(before: &MarginPoint, point: &MarginPoint) -> f64 {
         0.0
     };
     0.5 * (from + after)
-}
-
-/// Whether two segments cross at an inner point of both.
-pub(super) fn cross(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
-    let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
-    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
 }
 
 impl Primordium {

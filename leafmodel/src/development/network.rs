@@ -1,18 +1,20 @@
 //! The main veins as a network like that of any other leaf.
 
-use super::check::DevelopmentError;
 use super::skeleton::NO_NODE;
 use super::steps::Developing;
+use crate::document::declared::Declared;
 use crate::venation::network::{VeinEdge, VeinNode, VenationNetwork};
 use crate::venation::topology::Topology;
 use crate::venation::width;
 
 /// How main veins are drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct MainVeinStyle {
-    /// Radius of the midrib at the base, mm, 0.0001 to 100.
+    /// Radius of the midrib at the base.
+    #[key("base_radius_mm", 1e-4..=100.0)]
     pub base_radius_mm: f64,
-    /// Exponent of Murray's law, 0.5 to 10.
+    /// n of Murray's law: rⁿ adds up from the tips to the base.
+    #[key("murray_exponent", 0.5..=10.0)]
     pub murray_exponent: f64,
 }
 
@@ -22,38 +24,6 @@ impl Default for MainVeinStyle {
             base_radius_mm: 0.6,
             murray_exponent: 2.0,
         }
-    }
-}
-
-impl MainVeinStyle {
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`DevelopmentError::OutOfRange`].
-    pub fn validate(&self) -> Result<(), DevelopmentError> {
-        let checks = [
-            (
-                "base_radius_mm",
-                self.base_radius_mm,
-                1e-4,
-                100.0,
-                "0.0001 to 100 mm",
-            ),
-            (
-                "murray_exponent",
-                self.murray_exponent,
-                0.5,
-                10.0,
-                "0.5 to 10",
-            ),
-        ];
-        for (key, value, low, high, range) in checks {
-            if !(low..=high).contains(&value) {
-                return Err(DevelopmentError::OutOfRange { key, value, range });
-            }
-        }
-        Ok(())
     }
 }
 

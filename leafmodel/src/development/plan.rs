@@ -1,21 +1,25 @@
 //! What a development is told. Lengths are those of the primordium, whose midrib is 1.
 
+use crate::document::declared::{Declared, Words};
 /// The margin of the primordium, symmetric about its midrib.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Primordium {
-    /// Its greatest width over its length, 0.02 to 3.
+    /// Greatest width of the primordium over its length.
+    #[key("width", 0.02..=3.0)]
     pub width: f64,
-    /// Where along the midrib it is widest, 0.05 to 0.95.
+    /// Where along its midrib the primordium is widest.
+    #[key("widest_at", 0.05..=0.95)]
     pub widest_at: f64,
-    /// How pointed the base is: 0.3 is nearly a box, 0.5 an ellipse, 1 a lens, 2 drawn out;
-    /// 0.2 to 3.
+    /// How pointed its base is: 0.5 an ellipse, 1 a lens, 2 drawn out.
+    #[key("taper_base", 0.2..=3.0)]
     pub taper_base: f64,
-    /// The same of the tip.
+    /// How pointed its tip is.
+    #[key("taper_tip", 0.2..=3.0)]
     pub taper_tip: f64,
 }
 
 /// In which sequence convergence points appear on the margin between those that are there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Words)]
 pub enum Sequence {
     /// From the tip to the base: each as near to the next one above as the spacing allows.
     Basipetal,
@@ -27,62 +31,87 @@ pub enum Sequence {
 
 /// A wave of initiation: convergence points that appear while the leaf has some length, and what
 /// becomes of the lobes or teeth at them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Wave {
-    /// Length of the leaf when the first may appear, ≥ 1.
+    /// Length of the leaf, in primordia, when the first may appear.
+    #[key("from", 1.0..=1000.0)]
     pub from: f64,
-    /// Length of the leaf after which none appears, above `from`.
+    /// Length of the leaf after which none appears.
+    #[key("until", 1.0..=1000.0)]
     pub until: f64,
-    /// Least distance along the margin from all other convergence points, 0.01 to 10.
+    /// Least distance from other convergence points along the margin, in primordia.
+    #[key("spacing", 0.01..=10.0)]
     pub spacing: f64,
-    /// In which sequence they appear.
+    /// `basipetal` from the tip to the base, `acropetal` from the base to the tip, `intercalary` in
+    /// the middle of gaps.
+    #[key("sequence", word)]
     pub sequence: Sequence,
-    /// The part of each side's margin where they appear, from the base (0) to the tip (1).
+    /// The part of each side's margin where they appear: 0 the base, 1 the tip.
+    #[key("zone", 0.0..=1.0)]
     pub zone: [f64; 2],
-    /// What transport along veins costs over that through other tissue, 0 to 1: with 0 a vein
-    /// joins the nearest one squarely, with 1 it runs to the base.
+    /// What transport along veins costs over that through other tissue: with 0 veins join the
+    /// nearest one squarely, with 1 they run to the base (palmate).
+    #[key("transport", 0.0..=1.0)]
     pub transport: f64,
-    /// How fast their veins elongate, over the leaf, where they arise at the base of the margin and
-    /// at its tip; 0.5 to 1.5.
+    /// How fast veins elongate, over the leaf, that end at the base of the margin.
+    #[key("rate_base", 0.5..=1.5, at = 0)]
+    /// The same of veins that end at its tip; between, in between.
+    #[key("rate_tip", 0.5..=1.5, at = 1)]
     pub rates: [f64; 2],
-    /// How much growth is held back in the sinuses between them, 0 (not at all: an entire margin)
-    /// to 1 (the margin keeps its distance from the veins: leaflets).
+    /// How much growth is held back between them: 0 an entire margin, 1 leaflets.
+    #[key("hold", 0.0..=1.0)]
     pub hold: f64,
-    /// How much of that applies between the base and the lowest of them, 0 to 1.
+    /// How much of that applies below the lowest of them.
+    #[key("hold_base", 0.0..=1.0)]
     pub hold_base: f64,
-    /// How much of the margin between the uppermost of them and the leaf's tip belongs to the
-    /// terminal lobe, 0.1 to 0.9.
+    /// How much of the margin between the uppermost and the tip is the terminal lobe's.
+    #[key("terminal", 0.1..=0.9)]
     pub terminal: f64,
-    /// How wide sinuses are: 1 pointed, 2 rounded, 4 broad; 0.3 to 8.
+    /// Form of sinuses: 1 pointed, 2 rounded, 4 broad.
+    #[key("sinus", 0.3..=8.0)]
     pub sinus: f64,
-    /// How blunt lobes are: 1 pointed, 2 rounded, 4 broad; 0.3 to 8.
+    /// Form of lobes and teeth: 1 pointed, 2 rounded, 4 broad.
+    #[key("blunt", 0.3..=8.0)]
     pub blunt: f64,
-    /// Where sinuses lie between two points: 0 in the middle, towards 1 by the lower one, so that
-    /// teeth point to the apex; −0.9 to 0.9.
+    /// Where sinuses lie: 0 in the middle, towards 1 above the lower tooth, so that teeth point to
+    /// the apex.
+    #[key("lean", -0.9..=0.9)]
     pub lean: f64,
-    /// How far their veins arch, as a share of their length, −0.3 to 0.3; positive towards the tip.
+    /// How far veins arch towards the tip, in shares of their length.
+    #[key("bow", -0.3..=0.3)]
     pub bow: f64,
-    /// How much the angles of their veins with the parent's direction widen per e-fold of the
-    /// leaf's length, −0.3 to 0.3.
+    /// How much the angles of veins widen per e-fold of the leaf's length.
+    #[key("splay", -0.3..=0.3)]
     pub splay: f64,
 }
 
 /// Everything that decides a development.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct DevelopmentPlan {
     /// What it starts from.
+    #[key(flat)]
     pub primordium: Primordium,
-    /// How long the full-grown leaf is, in primordia, 1.1 to 1000.
+    /// Length of the full-grown leaf, in primordia.
+    #[key("growth", 1.1..=1000.0)]
     pub growth: f64,
-    /// Where the midrib elongates: 0 evenly, towards 1 at the base, towards −1 at the tip; −0.9
-    /// to 0.9.
+    /// Where the leaf grows faster: 0 nowhere, towards 1 at the base, −1 at the tip.
+    #[key("basal_growth", -0.9..=0.9)]
     pub basal_growth: f64,
-    /// Waves of initiation, at most 4.
-    pub waves: Vec<Wave>,
-    /// How irregular distances, rates and angles are, 0 to 1.
+    /// How unlike distances, lengths and angles are by chance; the leaf's `seed` decides.
+    #[key("irregularity", 0.0..=1.0)]
     pub irregularity: f64,
-    /// Points of the margin per length of the leaf, 20 to 400.
+    /// Points of the margin per length of the leaf, at least.
+    #[key("resolution", 20..=400)]
     pub resolution: u32,
+    /// Waves of initiation of convergence points, each with a vein of its own.
+    #[key(
+        "waves",
+        list(
+            most = 4,
+            wanted = "a list of at most 4 waves, such as { spacing = 0.3, hold = 0.2 }"
+        )
+    )]
+    pub waves: Vec<Wave>,
 }
 
 impl Default for Wave {

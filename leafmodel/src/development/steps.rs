@@ -1,6 +1,6 @@
 //! The loop: convergence points appear, veins canalise, veins and blade grow.
 
-use crate::venation::chance::{Use, uniform};
+use crate::random::{Use, uniform};
 
 use super::check::DevelopmentError;
 use super::initiation::{canal, place_in};

@@ -265,12 +265,12 @@ fn bad_numbers_are_named_with_what_is_allowed() {
         ),
         (
             |p| p.primordium.width = 0.0,
-            "width is 0, outside 0.02 to 3 (lengths)",
+            "width is 0, outside 0.02 to 3",
         ),
         (|p| p.resolution = 5, "resolution is 5, outside 20 to 400"),
         (
             |p| p.waves[0].hold = 1.5,
-            "hold of wave 0 is 1.5, outside 0 to 1",
+            "waves[0].hold is 1.5, outside 0 to 1",
         ),
         (
             |p| p.waves[0].until = 1.0,
@@ -283,7 +283,7 @@ fn bad_numbers_are_named_with_what_is_allowed() {
         (|p| p.growth = 1.2, "wave 1 starts at a length of 5, but"),
         (
             |p| p.waves = vec![Wave::default(); 5],
-            "there are 5 waves, more than 4",
+            "waves is a list of 5, outside a list of at most 4 waves",
         ),
         (
             |p| {

@@ -5,8 +5,10 @@ use std::ops::Range;
 
 use glam::DVec2;
 
-use super::margin::{Margin, cross};
+use super::margin::Margin;
 use super::skeleton::{Deformation, NO_NODE, Skeleton};
+use crate::plane::bounds;
+use crate::plane::segment::{cross, meeting};
 
 /// How near to a vein, of the way there, growth can be held back.
 const SHORT_OF_VEINS: f64 = 0.8;
@@ -74,11 +76,7 @@ impl<'a> Blade<'a> {
             let nodes = first..vein.tip as usize + 1;
             first = nodes.end;
             let own = &tissues[nodes.clone()];
-            let (low, high) = own
-                .iter()
-                .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), t| {
-                    (low.min(t.from), high.max(t.from))
-                });
+            let (low, high) = bounds(own.iter().map(|tissue| tissue.from));
             VeinTissue {
                 nodes,
                 low,
@@ -148,8 +146,7 @@ fn short_of(
     for piece in ways.iter().flat_map(|way| way.windows(2)) {
         let [c, d] = [piece[0], piece[1]].map(|node| deformations[node as usize].to);
         if cross(free, wanted, c, d) {
-            let across = way.perp_dot(d - c);
-            share = share.min((c - free).perp_dot(d - c) / across * SHORT_OF_VEINS);
+            share = share.min(meeting(free, way, c, d).0 * SHORT_OF_VEINS);
         }
     }
     free + way * share.max(0.0)

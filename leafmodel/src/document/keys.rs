@@ -1,4 +1,4 @@
-//! One declaration of a block, from which it is read, written and described.
+//! One declaration of a block, from which it is read, written, described and checked.
 //!
 //! A function that takes the value and [`Keys`] names each key once, with the place of its value,
 //! its kind (type and range), and its meaning:
@@ -33,12 +33,13 @@ use std::rc::Rc;
 
 pub use self::kinds::Variant;
 pub use self::lists::{BlockList, NamedList};
+use super::ranges::{RangeError, Ranges};
 use super::reader::Block;
 use super::schema::{BlockSchema, EntrySchema, Is};
 use super::value_kind::Kind;
 use super::written::{Extent, Written};
 
-/// A block while it is read, written or described.
+/// A block while it is read, written, described or checked.
 #[derive(Debug)]
 pub struct Keys<'p> {
     pass: Pass<'p>,
@@ -49,6 +50,7 @@ enum Pass<'p> {
     Read(Reading<'p>),
     Write { extent: Extent, block: Written },
     Describe(BlockSchema),
+    Check(Ranges),
 }
 
 #[derive(Debug)]
@@ -106,7 +108,7 @@ impl<'p> Keys<'p> {
         declare(&mut keys);
         match keys.pass {
             Pass::Write { block, .. } => block,
-            Pass::Read(_) | Pass::Describe(_) => Written::default(),
+            Pass::Read(_) | Pass::Describe(_) | Pass::Check(_) => Written::default(),
         }
     }
 
@@ -118,8 +120,29 @@ impl<'p> Keys<'p> {
         declare(&mut keys);
         match keys.pass {
             Pass::Describe(schema) => schema,
-            Pass::Read(_) | Pass::Write { .. } => BlockSchema::default(),
+            Pass::Read(_) | Pass::Write { .. } | Pass::Check(_) => BlockSchema::default(),
         }
+    }
+
+    /// Everything in a block that lies outside the range of its key.
+    pub fn check(declare: impl FnOnce(&mut Keys<'_>)) -> Vec<RangeError> {
+        Self::check_within(Ranges::default(), declare).errors
+    }
+
+    fn check_within(ranges: Ranges, declare: impl FnOnce(&mut Keys<'_>)) -> Ranges {
+        let mut keys = Keys {
+            pass: Pass::Check(ranges),
+        };
+        declare(&mut keys);
+        match keys.pass {
+            Pass::Check(ranges) => ranges,
+            Pass::Read(_) | Pass::Write { .. } | Pass::Describe(_) => Ranges::default(),
+        }
+    }
+
+    /// Checks a block inside the one that is checked.
+    fn check_inside(ranges: &mut Ranges, name: &str, declare: impl FnOnce(&mut Keys<'_>)) {
+        ranges.errors = Self::check_within(ranges.inside(name), declare).errors;
     }
 
     /// A key that may be left out: the value is then what it was.
@@ -139,6 +162,7 @@ impl<'p> Keys<'p> {
                 }
             }
             Pass::Write { block, .. } => block.value(name, false, kind.write(value)),
+            Pass::Check(ranges) => ranges.value(name, &kind.describe(), &kind.write(value)),
             Pass::Describe(schema) => schema.add(EntrySchema {
                 key: name.to_owned(),
                 about,
@@ -174,6 +198,7 @@ impl<'p> Keys<'p> {
                 }
             }
             Pass::Write { block, .. } => block.value(name, true, kind.write(value)),
+            Pass::Check(ranges) => ranges.value(name, &kind.describe(), &kind.write(value)),
             Pass::Describe(schema) => schema.add(EntrySchema {
                 key: name.to_owned(),
                 about,
@@ -199,7 +224,7 @@ impl<'p> Keys<'p> {
             Pass::Describe(_) => {
                 return self.optional(name, &mut None, kind, about);
             }
-            Pass::Write { .. } => None,
+            Pass::Write { .. } | Pass::Check(_) => None,
         };
         self.required(name, value, kind, about);
         if let Pass::Read(reading) = &mut self.pass {
@@ -224,6 +249,11 @@ impl<'p> Keys<'p> {
             Pass::Write { block, .. } => {
                 if let Some(value) = value {
                     block.value(name, false, kind.write(value));
+                }
+            }
+            Pass::Check(ranges) => {
+                if let Some(value) = value {
+                    ranges.value(name, &kind.describe(), &kind.write(value));
                 }
             }
             Pass::Describe(schema) => schema.add(EntrySchema {
@@ -284,6 +314,7 @@ impl<'p> Keys<'p> {
                     block.block(name, kept, inner);
                 }
             }
+            Pass::Check(ranges) => Self::check_inside(ranges, name, declare),
             Pass::Describe(schema) => schema.add(EntrySchema {
                 key: name.to_owned(),
                 about,
@@ -317,6 +348,11 @@ impl<'p> Keys<'p> {
             Pass::Write { extent, block } => {
                 if let Some(value) = value {
                     block.block(name, true, fresh(*extent, value, &mut new(), &declare));
+                }
+            }
+            Pass::Check(ranges) => {
+                if let Some(value) = value {
+                    Self::check_inside(ranges, name, |keys| declare(value, keys));
                 }
             }
             Pass::Describe(schema) => schema.add(EntrySchema {

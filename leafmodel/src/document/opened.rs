@@ -75,15 +75,10 @@ impl Opened {
         let mut sources = Sources::default();
         let source = sources.add(shown, text);
         let cx = Context::new(sources, folder.to_owned());
-        let (parsed, syntax) = DeTable::parse_recoverable(text);
-        let mut syntax: Vec<LocatedError> = syntax
-            .iter()
-            .map(|error| syntax_error(text, source, error.message(), error.span()))
-            .collect();
+        let (mut tree, mut syntax) = parsed(text, source);
         if let Some(error) = is_json(text, source) {
             syntax = vec![error];
         }
-        let mut tree = Table::from_toml(source, parsed.into_inner());
         if !overridden.is_empty() {
             let schema = schema();
             for text in overridden {
@@ -101,6 +96,14 @@ impl Opened {
             syntax,
             recorded,
         })
+    }
+
+    /// Another text whose values join this document's, as a tree. Errors of its syntax are noted.
+    pub fn also(&mut self, text: &str, shown: &str) -> Table {
+        let source = self.cx.sources.borrow_mut().add(shown, text);
+        let (tree, syntax) = parsed(text, source);
+        self.syntax.extend(syntax);
+        tree
     }
 
     /// What its blocks have noted so far, unless the file has errors of syntax.
@@ -137,6 +140,16 @@ impl Opened {
             }
         }
     }
+}
+
+/// A text as a tree, and its errors of syntax.
+fn parsed(text: &str, source: usize) -> (Table, Vec<LocatedError>) {
+    let (parsed, errors) = DeTable::parse_recoverable(text);
+    let errors = errors
+        .iter()
+        .map(|error| syntax_error(text, source, error.message(), error.span()));
+    let errors = errors.collect();
+    (Table::from_toml(source, parsed.into_inner()), errors)
 }
 
 /// All errors in the order of the text. Beside syntax errors only those are kept that are about a

@@ -10,6 +10,7 @@ use glam::DVec2;
 
 use super::draft::{Draft, DraftEdge};
 use super::faults::{Fault, FaultKind};
+use crate::numeric::bisect;
 
 /// Pieces of an arc.
 const PIECES: u32 = 12;
@@ -150,15 +151,9 @@ fn turn_of(straight: f64) -> f64 {
     const STEPS: usize = 80;
     let pieces = f64::from(PIECES);
     let of = |turn: f64| libm::sin(0.5 * turn) / (pieces * libm::sin(0.5 * turn / pieces));
-    let (mut low, mut high) = (0.0, std::f64::consts::TAU);
-    for _ in 0..STEPS {
-        let middle = 0.5 * (low + high);
-        if of(middle) > straight {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    let (low, high) = bisect(0.0, std::f64::consts::TAU, STEPS, |turn| {
+        of(turn) > straight
+    });
     0.5 * (low + high)
 }
 

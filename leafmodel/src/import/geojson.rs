@@ -193,14 +193,8 @@ impl Lines {
                     .as_str()
                     .map_or_else(|| value.to_string(), str::to_owned);
                 let key = || key.clone();
-                self.builder.edge_text(
-                    field,
-                    &Text {
-                        value: &value,
-                        key,
-                        place,
-                    },
-                )?;
+                self.builder
+                    .edge_text(field, &Text::new(&value, key, place))?;
             }
             self.builder.edge_is_done(place);
         }

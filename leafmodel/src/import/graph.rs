@@ -22,7 +22,11 @@ pub(super) struct Text<'a, K, P> {
     pub(super) place: P,
 }
 
-impl<K: Fn() -> String, P: Fn() -> String> Text<'_, K, P> {
+impl<'a, K: Fn() -> String, P: Fn() -> String> Text<'a, K, P> {
+    pub(super) fn new(value: &'a str, key: K, place: P) -> Self {
+        Self { value, key, place }
+    }
+
     fn refused(&self, allowed: &'static str) -> ImportError {
         ImportError::BadValue {
             place: (self.place)(),

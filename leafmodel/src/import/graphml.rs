@@ -60,14 +60,8 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
             }
             // The id is the name.
             if let Some(field) = field.filter(|field| *field != NodeField::Name) {
-                builder.node_text(
-                    field,
-                    &Text {
-                        value,
-                        key: || name_of(key),
-                        place,
-                    },
-                )?;
+                let text = Text::new(value, || name_of(key), place);
+                builder.node_text(field, &text)?;
             }
         }
         builder.node_is_done(place)?;
@@ -78,11 +72,7 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
         builder.edge();
         for (end, key) in [(0, "source"), (1, "target")] {
             let value = edge.attribute(key).unwrap_or_default();
-            let text = Text {
-                value,
-                key: || key.to_owned(),
-                place,
-            };
+            let text = Text::new(value, || key.to_owned(), place);
             builder.edge_text(EdgeField::End(end), &text)?;
         }
         for (key, value) in with_defaults(edge, &edge_defaults) {
@@ -93,14 +83,8 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
                 None => builder.ignore("edge", &name_of(key)),
                 Some(EdgeField::End(_) | EdgeField::EndCoordinate(..)) => {}
                 Some(field) => {
-                    builder.edge_text(
-                        field,
-                        &Text {
-                            value,
-                            key: || name_of(key),
-                            place,
-                        },
-                    )?;
+                    let text = Text::new(value, || name_of(key), place);
+                    builder.edge_text(field, &text)?;
                 }
             }
         }

@@ -254,14 +254,7 @@ fn lists(
             if let Some(field) = field.filter(|_| !is_label) {
                 let value = text_of(value);
                 let key = || key.clone();
-                builder.node_text(
-                    field,
-                    &Text {
-                        value: &value,
-                        key,
-                        place,
-                    },
-                )?;
+                builder.node_text(field, &Text::new(&value, key, place))?;
             }
         }
         builder.node_is_done(place)?;
@@ -287,14 +280,7 @@ fn lists(
                 Some(field) => {
                     let value = text_of(value);
                     let key = || key.clone();
-                    builder.edge_text(
-                        field,
-                        &Text {
-                            value: &value,
-                            key,
-                            place,
-                        },
-                    )?;
+                    builder.edge_text(field, &Text::new(&value, key, place))?;
                 }
             }
         }

@@ -6,8 +6,8 @@ use super::draft::Draft;
 use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
 use super::repair::leave_out_bare;
+use crate::plane::polygon;
 use crate::shape::outline::Outline;
-use crate::shape::segments::nearest_on_closed;
 
 /// How far outside a margin, as a share of the blade's extent, a node still counts as on it: files
 /// round, and veins end at the margin.
@@ -46,7 +46,7 @@ impl Draft {
                 let high = extent.reduce(DVec2::max).unwrap_or_default();
                 let slack = ROUNDED * (high - low).max_element();
                 let snapped = |end: DVec2| {
-                    let place = nearest_on_closed(&margin.points, end).at;
+                    let place = polygon::nearest(&margin.points, end).at;
                     if place.distance(end) <= slack {
                         place
                     } else {

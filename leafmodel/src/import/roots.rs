@@ -8,6 +8,7 @@ use glam::DVec2;
 use super::draft::{Draft, DraftEdge};
 use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
+use crate::buckets::Buckets;
 use crate::venation::network::{VeinNode, VenationNetwork};
 use crate::venation::topology::Topology;
 
@@ -114,38 +115,20 @@ pub(super) fn parts_without_petiole(network: &VenationNetwork) -> Vec<DVec2> {
 /// The veins of a draft as a graph without directions.
 struct Veins<'a> {
     draft: &'a Draft,
-    starts: Vec<u32>,
-    around: Vec<u32>,
+    around: Buckets,
 }
 
 impl<'a> Veins<'a> {
     fn new(draft: &'a Draft) -> Self {
-        let mut starts = vec![0_u32; draft.places.len() + 1];
-        for end in draft.edges.iter().flat_map(|edge| edge.ends) {
-            starts[end as usize + 1] += 1;
-        }
-        for node in 1..starts.len() {
-            starts[node] += starts[node - 1];
-        }
-        let mut next = starts.clone();
-        let mut around = vec![0; 2 * draft.edges.len()];
-        for (number, edge) in (0..).zip(&draft.edges) {
-            for end in edge.ends {
-                let at = &mut next[end as usize];
-                around[*at as usize] = number;
-                *at += 1;
-            }
-        }
+        let ends = draft.edges.iter().map(|edge| edge.ends);
         Self {
             draft,
-            starts,
-            around,
+            around: Buckets::around(draft.places.len(), ends),
         }
     }
 
     fn edges(&self, node: u32) -> impl Iterator<Item = &DraftEdge> {
-        let node = node as usize;
-        let list = &self.around[self.starts[node] as usize..self.starts[node + 1] as usize];
+        let list = self.around.list(node as usize);
         list.iter().map(|&edge| &self.draft.edges[edge as usize])
     }
 

@@ -88,14 +88,7 @@ pub(super) fn read(edges: &str, nodes: Option<&str>, form: Form) -> Result<Draft
                 table.number_text(value)
             };
             let key = || name.clone();
-            builder.edge_text(
-                field,
-                &Text {
-                    value: &value,
-                    key,
-                    place,
-                },
-            )?;
+            builder.edge_text(field, &Text::new(&value, key, place))?;
         }
         if nodes.is_some() {
             builder.edge_is_done(place);
@@ -260,14 +253,7 @@ fn read_nodes(
                 let Some(field) = *field else { continue };
                 let value = table.number_text(value);
                 let key = || name.clone();
-                builder.node_text(
-                    field,
-                    &Text {
-                        value: &value,
-                        key,
-                        place,
-                    },
-                )?;
+                builder.node_text(field, &Text::new(&value, key, place))?;
             }
             builder.node_is_done(place)?;
         }

@@ -2,9 +2,10 @@
 
 use super::linear::{Factor, moments};
 use super::problem::Problem;
-use super::random::{Purpose, member, uniform};
+use super::random::{member, uniform};
 use super::regression::{Lesson, Regression};
 use super::simulated::{Counts, Particle, Shortage};
+use crate::random::Use;
 
 /// Regressions, each of which learns from the nearer half of what the one before learned from.
 const ROUNDS: usize = 3;
@@ -44,7 +45,7 @@ impl Located {
     pub(super) fn resampled(&self, seed: u64, generation: u32, count: usize) -> Vec<Vec<f64>> {
         let sums = self.sums();
         let one = |number: u32| {
-            let share = uniform(seed, Purpose::Member, generation, number, 0);
+            let share = uniform(seed, Use::Member, generation, number, 0);
             let share = (f64::from(number) + share) / count as f64;
             self.sample[member(&sums, share)].0.clone()
         };

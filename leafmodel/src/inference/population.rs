@@ -6,8 +6,9 @@ use super::Outcome;
 use super::distances::{Located, locate};
 use super::linear::{Factor, moments};
 use super::problem::Problem;
-use super::random::{Purpose, member, normal, uniform};
+use super::random::{member, normal, uniform};
 use super::simulated::{Counts, Particle, Shortage};
+use crate::random::Use;
 
 /// A density from which places were drawn.
 #[derive(Clone, Debug)]
@@ -59,7 +60,7 @@ impl<'p> Population<'p> {
         let mut places = Vec::with_capacity(count);
         match &mut self.next {
             Proposal::Prior => places.extend((0..count as u32).map(|number| {
-                let one = |dimension| uniform(seed, Purpose::Prior, generation, number, dimension);
+                let one = |dimension| uniform(seed, Use::Prior, generation, number, dimension);
                 (0..dimensions as u32).map(one).collect()
             })),
             Proposal::Around {
@@ -71,7 +72,7 @@ impl<'p> Population<'p> {
             } => {
                 let (mut within, mut trial) = (0_u32, 0);
                 while trial < TRIALS || places.len() < count {
-                    let share = uniform(seed, Purpose::Member, generation, trial, 0);
+                    let share = uniform(seed, Use::Member, generation, trial, 0);
                     let step = covariance.coloured(&normal(seed, generation, trial, dimensions));
                     let point = points[member(sums, share)].iter().zip(step);
                     let place: Vec<f64> = point.map(|(x, step)| x + step).collect();

@@ -2,8 +2,9 @@
 
 use std::convert::Infallible;
 
-use super::random::{Purpose, normal, uniform};
+use super::random::{normal, uniform};
 use super::*;
+use crate::random::Use;
 
 /// Carries out a simulator of parameters and standard normal numbers.
 fn simulated(
@@ -167,7 +168,7 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
     let ranges = [("a", 0.5, 8.0), ("b", 0.0, 3.0)];
     let (mut half, mut most, fits) = (0, 0, 60);
     for number in 0..fits {
-        let share = |dimension| uniform(99, Purpose::Prior, 0, number, dimension);
+        let share = |dimension| uniform(99, Use::Prior, 0, number, dimension);
         let truth = [0.5 * libm::pow(16.0, share(0)), 3.0 * share(1)];
         let observed = curved(&truth, &normal(1234, 0, number, 8));
         let problem = problem(&ranges, &observed, 500, u64::from(number));

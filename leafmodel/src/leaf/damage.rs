@@ -17,49 +17,65 @@ mod stains;
 mod tears;
 
 use glam::DVec2;
-use thiserror::Error;
 
 pub use self::dieback::Dieback;
 pub(crate) use self::dieback::Front;
 use self::places::Places;
 pub(crate) use self::stains::Stain;
 use self::tears::Tear;
+use crate::document::declared::Declared;
+use crate::plane::polygon;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;
 
 /// How much damage there is. Sizes are medians; single ones differ by about a third.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Damage {
-    /// Holes between the larger veins, at most 200; fewer if there is no room.
-    pub holes: u32,
-    /// Their diameter, mm, 0.1 to 100.
+    /// Median diameter of holes.
+    #[key("hole_mm", 0.1..=100.0)]
     pub hole_mm: f64,
-    /// Bites from the margin, at most 100.
-    pub bites: u32,
-    /// Their width, mm, 0.2 to 200.
+    /// Median width of bites.
+    #[key("bite_mm", 0.2..=200.0)]
     pub bite_mm: f64,
-    /// Winding mines of larvae between the faces, at most 50.
-    pub mines: u32,
-    /// Their width at the end, mm, 0.1 to 20; they begin at a fifth of it.
+    /// Median width of winding mines at their end; they begin at a fifth of it.
+    #[key("mine_mm", 0.1..=20.0)]
     pub mine_mm: f64,
-    /// Their length, mm, 1 to 1000; less where there is no room.
+    /// Median length of winding mines; less where there is no room.
+    #[key("mine_length_mm", 1.0..=1000.0)]
     pub mine_length_mm: f64,
-    /// Blotch mines, at most 50.
-    pub blotches: u32,
-    /// Their diameter, mm, 0.2 to 100.
+    /// Median diameter of blotch mines.
+    #[key("blotch_mm", 0.2..=100.0)]
     pub blotch_mm: f64,
-    /// Tears from the margin inwards, at most 100; fewer if there is no room.
-    pub tears: u32,
-    /// Their length, mm, 0.5 to 500; less where a thick vein stops them.
+    /// Median length of tears; less where a thick vein stops them.
+    #[key("tear_mm", 0.5..=500.0)]
     pub tear_mm: f64,
-    /// Width of their mouths over their length, 0.005 to 0.5.
+    /// Width of their mouths over their length.
+    #[key("tear_gape", 0.005..=0.5)]
     pub tear_gape: f64,
-    /// Height by which one lip stands above the plane at the mouth, and the other below it, over
-    /// their length, 0 to 0.3.
+    /// Height by which one lip stands above the blade at the mouth, and the other below it, over
+    /// their length.
+    #[key("tear_lift", 0.0..=0.3)]
     pub tear_lift: f64,
-    /// Width of the brown rim about holes, bites and tears, mm, 0 to 10.
+    /// Width of the brown rim about holes, bites and tears.
+    #[key("rim_mm", 0.0..=10.0)]
     pub rim_mm: f64,
+    /// Holes between the larger veins; fewer where there is no room.
+    #[key("holes", 0..=200)]
+    pub holes: u32,
+    /// Bites from the margin.
+    #[key("bites", 0..=100)]
+    pub bites: u32,
+    /// Winding mines: tissue eaten between the two faces.
+    #[key("mines", 0..=50)]
+    pub mines: u32,
+    /// Blotch mines.
+    #[key("blotches", 0..=50)]
+    pub blotches: u32,
+    /// Tears from the margin inwards along the veins; fewer where there is no room.
+    #[key("tears", 0..=100)]
+    pub tears: u32,
     /// Tissue that has died from the margin inwards.
+    #[key("dieback", block)]
     pub dieback: Option<Dieback>,
 }
 
@@ -85,18 +101,6 @@ impl Default for Damage {
     }
 }
 
-/// A number of the damage that is out of range.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("{key} is {value}, outside {range}")]
-pub struct DamageError {
-    /// Which number.
-    pub key: &'static str,
-    /// What it was.
-    pub value: f64,
-    /// What it may be.
-    pub range: &'static str,
-}
-
 /// What damage has left of a lamina.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wounds {
@@ -112,45 +116,6 @@ pub struct Wounds {
 }
 
 impl Damage {
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`DamageError`] for the first that is out of range.
-    pub fn validate(&self) -> Result<(), DamageError> {
-        let checks = [
-            ("holes", f64::from(self.holes), 0.0, 200.0, "0 to 200"),
-            ("hole_mm", self.hole_mm, 0.1, 100.0, "0.1 to 100"),
-            ("bites", f64::from(self.bites), 0.0, 100.0, "0 to 100"),
-            ("bite_mm", self.bite_mm, 0.2, 200.0, "0.2 to 200"),
-            ("mines", f64::from(self.mines), 0.0, 50.0, "0 to 50"),
-            ("mine_mm", self.mine_mm, 0.1, 20.0, "0.1 to 20"),
-            (
-                "mine_length_mm",
-                self.mine_length_mm,
-                1.0,
-                1000.0,
-                "1 to 1000",
-            ),
-            ("blotches", f64::from(self.blotches), 0.0, 50.0, "0 to 50"),
-            ("blotch_mm", self.blotch_mm, 0.2, 100.0, "0.2 to 100"),
-            ("tears", f64::from(self.tears), 0.0, 100.0, "0 to 100"),
-            ("tear_mm", self.tear_mm, 0.5, 500.0, "0.5 to 500"),
-            ("tear_gape", self.tear_gape, 0.005, 0.5, "0.005 to 0.5"),
-            ("tear_lift", self.tear_lift, 0.0, 0.3, "0 to 0.3"),
-            ("rim_mm", self.rim_mm, 0.0, 10.0, "0 to 10"),
-        ];
-        let dieback = self.dieback.as_ref().map(Dieback::checks);
-        for (key, value, least, most, range) in
-            checks.into_iter().chain(dieback.into_iter().flatten())
-        {
-            if !(least..=most).contains(&value) {
-                return Err(DamageError { key, value, range });
-            }
-        }
-        Ok(())
-    }
-
     /// The margin after the damage, with veins cut off, and what has been done.
     pub(super) fn done_to(
         &self,
@@ -230,36 +195,16 @@ impl VenationNetwork {
 
 /// Whether a piece of vein reaches into a hole.
 fn touches(hole: &[DVec2], from: DVec2, to: DVec2) -> bool {
-    if is_within(hole, from) || is_within(hole, to) {
-        return true;
-    }
-    let turn = |a: DVec2, b: DVec2, c: DVec2| (b - a).perp_dot(c - a);
-    sides(hole).any(|(a, b)| {
-        turn(a, b, from) * turn(a, b, to) < 0.0 && turn(from, to, a) * turn(from, to, b) < 0.0
-    })
-}
-
-/// Whether a place lies within a polygon.
-pub(crate) fn is_within(polygon: &[DVec2], p: DVec2) -> bool {
-    let crossings = sides(polygon).filter(|(a, b)| {
-        (a.y > p.y) != (b.y > p.y) && a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x
-    });
-    crossings.count() % 2 == 1
-}
-
-fn sides(polygon: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
-    let next = polygon.iter().cycle().skip(1);
-    polygon.iter().zip(next).map(|(a, b)| (*a, *b))
+    polygon::contains(hole, from)
+        || polygon::contains(hole, to)
+        || polygon::is_crossed_by(hole, from, to)
 }
 
 impl Wounds {
     /// Area of the holes, mm².
     pub fn holes_area(&self) -> f64 {
-        let holes = self.holes.iter().map(|hole| {
-            let twice = sides(hole).map(|(a, b)| (a - hole[0]).perp_dot(b - hole[0]));
-            0.5 * twice.sum::<f64>()
-        });
-        holes.sum()
+        let holes = self.holes.iter();
+        holes.map(|hole| polygon::signed_area(hole)).sum()
     }
 
     /// How far the blade stands above the plane that it had, mm, at a flat point: at the lips of

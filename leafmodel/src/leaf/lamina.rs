@@ -6,6 +6,7 @@ use super::damage::Wounds;
 use super::outline_plan::Origin;
 use super::{LeafError, LeafPlan};
 use crate::development::{DevelopedLeaf, MainVeinStyle};
+use crate::document::declared::Declared;
 use crate::leaf::venation_plan::VenationPlan;
 use crate::shape::outline::Outline;
 use crate::transport::{FilledBlade, TransportLeaf};
@@ -60,12 +61,12 @@ impl LeafPlan {
             VenationPlan::Auxin(plan) => venation::check(&outline, plan)?,
             VenationPlan::Arcuate(plan) => plan.validate()?,
             VenationPlan::Cells(style) => {
-                style.validate()?;
+                style.in_range()?;
                 origin.cells().ok_or(LeafError::NoCells)?;
             }
             VenationPlan::Transport(plan) => plan.check(&outline)?,
             VenationPlan::Development(style) => {
-                style.validate()?;
+                style.in_range()?;
                 origin.developed().ok_or(LeafError::NotDeveloped)?;
             }
         }
@@ -80,7 +81,7 @@ impl LeafPlan {
     /// [`VenationError::Stopped`](crate::venation::VenationError::Stopped).
     pub fn grow_lamina_unless(&self, is_stopped: &dyn Fn() -> bool) -> Result<Lamina, LeafError> {
         if let Some(damage) = &self.damage {
-            damage.validate()?;
+            damage.in_range().map_err(LeafError::Damage)?;
         }
         let (outline, origin) = self.outline.grow_with_origin(self.length_mm, self.seed)?;
         let mut filled = None;

@@ -156,6 +156,18 @@ impl OutlinePlan {
         }
     }
 
+    /// The parameters of the growth algorithm, if that brings forth the contour.
+    pub fn growth_form(&self) -> Option<&GrowthForm> {
+        match &self.contour {
+            Contour::GrowthAlgorithm(form) => Some(form),
+            Contour::Curve(_)
+            | Contour::Svg(_)
+            | Contour::Cubic(_)
+            | Contour::Transport(_)
+            | Contour::Development(_) => None,
+        }
+    }
+
     /// Whether the contour is the whole margin.
     pub fn is_contour(&self) -> bool {
         self.teeth.is_empty() && self.specimen.is_none()

@@ -10,7 +10,8 @@ use crate::blade::hairs::HairMesh;
 use crate::blade::mesh::BladeMesh;
 use crate::blade::senescence::Withering;
 use crate::blade::surface::{Bulge, HeldSheet, SurfaceMap, SurfaceOf};
-use crate::blade::tissue::TissueError;
+use crate::document::declared::Declared;
+use crate::document::ranges::RangeError;
 use crate::mosaic::pattern::LaminaPattern;
 use crate::optics::Contents;
 use crate::shape::tips::Knob;
@@ -85,7 +86,7 @@ impl LeafPlan {
         )?;
         self.form.margin.thin(&mut map, &frame, lamina.intact());
         if let Some(unevenness) = &self.unevenness {
-            unevenness.validate()?;
+            unevenness.in_range()?;
             unevenness.apply(&mut map, &frame, lamina.intact(), &veins, self.seed);
         }
         for knob in lamina.intact().knobs() {
@@ -151,7 +152,7 @@ impl LeafPlan {
         &self,
         lamina: &Lamina,
         blade: &BladeMesh,
-    ) -> Result<Vec<HairMesh>, TissueError> {
+    ) -> Result<Vec<HairMesh>, RangeError> {
         if self.hairs.is_empty() {
             return Ok(Vec::new());
         }

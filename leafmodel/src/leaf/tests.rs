@@ -1,5 +1,7 @@
 //! Whole leaves from plans.
 
+mod combinations;
+
 use proptest::prelude::*;
 
 use super::*;
@@ -169,7 +171,7 @@ fn each_stage_refuses_in_its_own_name() {
                 }
                 .into();
             },
-            "venation: kill_distance is -1",
+            "venation: kill_distance_segments is -1",
         ),
         (
             |p| {
@@ -181,8 +183,8 @@ fn each_stage_refuses_in_its_own_name() {
             },
             "venation: veins of the cells need",
         ),
-        (|p| p.form.curl = f64::INFINITY, "blade: curl is inf"),
-        (|p| p.tissue.mottle = 2.0, "tissue: mottle is 2"),
+        (|p| p.form.curl = f64::INFINITY, "blade: curl_deg is inf"),
+        (|p| p.tissue.mottle = 2.0, "tissue: mottle.share is 2"),
         (|p| p.map_size = 3, "tissue: map_size is 3"),
     ];
     for (spoil, start) in spoils {

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::Subject;
 use super::statistics::{mean, median, quantile, variation};
+use crate::random::{Use, below, bits};
 use crate::venation::areole::Areole;
-use crate::venation::chance::{Use, bits};
 
 /// Share of the draws on either side of an interval.
 const TAIL: f64 = 0.025;
@@ -74,7 +74,7 @@ fn interval(values: &[f64], measure: Measure, draws: u32, seed: u64) -> Option<(
                     Use::Bootstrap,
                     draw.wrapping_mul(count).wrapping_add(i),
                 );
-                values[((u128::from(random) * u128::from(count)) >> 64) as usize]
+                values[below(random, values.len())]
             };
             measure(&mut (0..count).map(pick).collect::<Vec<f64>>())
         })
@@ -95,11 +95,7 @@ fn interval(values: &[f64], measure: Measure, draws: u32, seed: u64) -> Option<(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::chance::{bits as random_bits, share};
-
-    fn uniform(seed: u64, purpose: u64, counter: u64) -> f64 {
-        share(random_bits(seed, purpose, counter))
-    }
+    use crate::testing::uniform;
 
     fn sample(number: u64, count: u64) -> Vec<f64> {
         (0..count).map(|i| uniform(number, 77, i)).collect()

@@ -1,6 +1,7 @@
 //! Pipes whose cut cuts something off.
 
 use super::laplacian::Pipe;
+use crate::buckets::Buckets;
 
 /// For each pipe what leaves beyond it, if its cut parts that from the ground; `None` for others.
 ///
@@ -9,27 +10,12 @@ use super::laplacian::Pipe;
 pub(super) fn beyond(count: usize, pipes: &[Pipe], outflow: &[f64]) -> Vec<Option<f64>> {
     let ground = count as u32;
     let end_of = |end: u32| if end == Pipe::GROUND { ground } else { end };
-    let mut starts = vec![0_u32; count + 2];
-    for end in pipes.iter().flat_map(|pipe| pipe.ends) {
-        starts[end_of(end) as usize + 1] += 1;
-    }
-    for node in 1..starts.len() {
-        starts[node] += starts[node - 1];
-    }
-    let mut next = starts.clone();
-    let mut around = vec![0_u32; 2 * pipes.len()];
-    for (number, pipe) in (0..).zip(pipes) {
-        for end in pipe.ends {
-            let at = &mut next[end_of(end) as usize];
-            around[*at as usize] = number;
-            *at += 1;
-        }
-    }
+    let around = Buckets::around(count + 1, pipes.iter().map(|pipe| pipe.ends.map(end_of)));
     let mut beyond = vec![None; pipes.len()];
     let mut found = vec![0_u32; count + 1];
     let mut lowest = vec![0_u32; count + 1];
     let mut sums: Vec<f64> = outflow.iter().copied().chain([0.0]).collect();
-    let mut at = starts.clone();
+    let mut met = vec![0_usize; count + 1];
     let mut time = 1;
     found[ground as usize] = time;
     lowest[ground as usize] = time;
@@ -37,9 +23,8 @@ pub(super) fn beyond(count: usize, pipes: &[Pipe], outflow: &[f64]) -> Vec<Optio
     let mut way = vec![(ground, u32::MAX)];
     while let Some(&(node, by)) = way.last() {
         let here = node as usize;
-        if at[here] < starts[here + 1] {
-            let pipe = around[at[here] as usize];
-            at[here] += 1;
+        if let Some(&pipe) = around.list(here).get(met[here]) {
+            met[here] += 1;
             if pipe == by {
                 continue;
             }

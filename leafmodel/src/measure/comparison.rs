@@ -47,10 +47,11 @@ pub use self::student::{Among, Summary, Welch, one_among, summary, welch};
 const OUTSIDE: f64 = 0.05;
 
 /// The size of a difference.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Effect {
     /// The estimate; positive if the second group has the larger values.
     pub value: f64,
     /// Ends of its 95 % interval.
+    #[serde(rename = "interval_95")]
     pub interval: [f64; 2],
 }

@@ -9,6 +9,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DMat2, DVec2};
 
+use crate::plane::polygon;
 use crate::shape::outline::Outline;
 
 /// Number of ellipses in the sum.
@@ -66,9 +67,7 @@ pub(super) fn descriptors(outline: &Outline) -> Vec<f64> {
 
 /// The ellipses of a closed polygon walked at constant speed: columns for cosine and sine.
 fn coefficients(points: &[DVec2]) -> Vec<DMat2> {
-    let steps: Vec<DVec2> = (0..points.len())
-        .map(|i| points[(i + 1) % points.len()] - points[i])
-        .collect();
+    let steps: Vec<DVec2> = polygon::sides(points).map(|(a, b)| b - a).collect();
     let perimeter: f64 = steps.iter().map(|step| step.length()).sum();
     let ellipse = |n: usize| {
         let n = n as f64;

@@ -18,6 +18,7 @@ mod tests;
 use glam::DVec2;
 
 use self::dissection::order;
+use crate::buckets::Buckets;
 
 /// Marks what is not there.
 const NONE: u32 = u32::MAX;
@@ -72,7 +73,7 @@ impl Factored {
                 }
             }
         }
-        let (parent, starts, rows) = pattern(count, &Sorted::new(count, &between, 1));
+        let (parent, starts, rows) = pattern(count, &sorted(count, &between, 1));
         let mut factored = Self {
             rank,
             parent,
@@ -81,7 +82,7 @@ impl Factored {
             starts,
             pivots: vec![0.0; count],
         };
-        factored.eliminate(&Sorted::new(count, &between, 0), ground);
+        factored.eliminate(&sorted(count, &between, 0), ground);
         let is_sound = |pivot: &f64| pivot.is_finite() && *pivot > 0.0;
         factored.pivots.iter().all(is_sound).then_some(factored)
     }
@@ -182,35 +183,14 @@ impl Factored {
     }
 }
 
-/// Pipes by one of their ends.
-struct Sorted {
-    starts: Vec<usize>,
-    others: Vec<(u32, f64)>,
-}
+/// The other ends and conductances of pipes by their earlier end (0) or their later one (1).
+type Sorted = Buckets<(u32, f64)>;
 
-impl Sorted {
-    /// Sorts by the earlier end (0) or by the later (1).
-    fn new(count: usize, pipes: &[([u32; 2], f64)], end: usize) -> Self {
-        let mut starts = vec![0_usize; count + 1];
-        for (ends, _) in pipes {
-            starts[ends[end] as usize + 1] += 1;
-        }
-        for node in 0..count {
-            starts[node + 1] += starts[node];
-        }
-        let mut next = starts.clone();
-        let mut others = vec![(0_u32, 0.0); pipes.len()];
-        for (ends, conductance) in pipes {
-            let at = &mut next[ends[end] as usize];
-            others[*at] = (ends[1 - end], *conductance);
-            *at += 1;
-        }
-        Self { starts, others }
-    }
-
-    fn list(&self, node: usize) -> &[(u32, f64)] {
-        &self.others[self.starts[node]..self.starts[node + 1]]
-    }
+fn sorted(count: usize, pipes: &[([u32; 2], f64)], end: usize) -> Sorted {
+    let others = pipes
+        .iter()
+        .map(|&(ends, conductance)| (ends[end] as usize, (ends[1 - end], conductance)));
+    Buckets::new(count, others)
 }
 
 /// The elimination tree, and the neighbours of each node when it is eliminated.

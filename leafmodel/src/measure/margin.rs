@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::plane::polygon;
 use crate::shape::outline::Outline;
 
 /// Widths that differ by less than this share, which is rounding, count as equal.
@@ -29,8 +30,7 @@ pub(super) fn extent(outline: &Outline) -> Extent {
         DVec2::new(-midrib.perp_dot(p), midrib.dot(p))
     };
     let points: Vec<DVec2> = outline.points().iter().map(in_frame).collect();
-    let mut edges: Vec<(DVec2, DVec2)> = (0..points.len())
-        .map(|i| (points[i], points[(i + 1) % points.len()]))
+    let mut edges: Vec<(DVec2, DVec2)> = polygon::sides(&points)
         .map(|(a, b)| if a.y <= b.y { (a, b) } else { (b, a) })
         .collect();
     edges.sort_by(|p, q| p.0.y.total_cmp(&q.0.y));
@@ -70,44 +70,10 @@ pub(super) fn extent(outline: &Outline) -> Extent {
 
 /// Area of the smallest convex polygon around the margin, mm², > 0.
 pub(super) fn hull_area(outline: &Outline) -> f64 {
-    let hull = hull(outline);
-    let origin = hull[0];
-    let doubled: f64 = hull
-        .windows(2)
-        .map(|edge| (edge[0] - origin).perp_dot(edge[1] - origin))
-        .sum();
-    0.5 * doubled
+    polygon::signed_area(&polygon::hull(outline.points()))
 }
 
 /// Length around the smallest convex polygon around the margin, mm, > 0.
 pub(super) fn hull_perimeter(outline: &Outline) -> f64 {
-    let hull = hull(outline);
-    let closed = hull.iter().zip(hull.iter().cycle().skip(1));
-    closed.map(|(a, b)| a.distance(*b)).sum()
-}
-
-/// The smallest convex polygon around the margin, counter-clockwise (monotone chains).
-fn hull(outline: &Outline) -> Vec<DVec2> {
-    let mut points = outline.points().to_vec();
-    points.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
-    let mut hull = chain(points.iter().copied());
-    hull.extend(chain(points.iter().rev().copied()));
-    hull
-}
-
-/// Half of the hull of points sorted in one direction, without its last point, which starts the
-/// other half.
-pub(super) fn chain(points: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
-    let mut hull: Vec<DVec2> = Vec::new();
-    for p in points {
-        while let [.., a, b] = hull[..] {
-            if (b - a).perp_dot(p - a) > 0.0 {
-                break;
-            }
-            hull.pop();
-        }
-        hull.push(p);
-    }
-    hull.pop();
-    hull
+    polygon::perimeter(&polygon::hull(outline.points()))
 }

@@ -1,6 +1,6 @@
 //! Loops within loops (\[katifori2012\], \[ronellenfitsch2015\]).
 
-use super::spanning::Sets;
+use crate::numeric::Sets;
 use crate::venation::areole::{Areoles, OUTSIDE};
 
 /// How loops are nested.

@@ -14,6 +14,7 @@ use glam::DVec2;
 
 use super::margin::hull_perimeter;
 use super::statistics::quantile;
+use crate::numeric::Sets;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;
 
@@ -152,16 +153,13 @@ fn peaks(heights: &[f64]) -> Vec<Peak> {
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|&a, &b| heights[b].total_cmp(&heights[a]).then(a.cmp(&b)));
     // Islands that grow together as the water sinks; each knows its highest point.
-    let mut parent: Vec<Option<usize>> = vec![None; n];
+    let (mut islands, mut is_out) = (Sets::new(n), vec![false; n]);
     let mut found = Vec::new();
     for &i in &order {
-        parent[i] = Some(i);
+        is_out[i] = true;
         for j in [(i + n - 1) % n, (i + 1) % n] {
-            if parent[j].is_none() {
-                continue;
-            }
-            let (a, b) = (root(&mut parent, i), root(&mut parent, j));
-            if a == b {
+            let [a, b] = [i, j].map(|place| islands.leader(place as u32) as usize);
+            if !is_out[j] || a == b {
                 continue;
             }
             // A root is the highest point of its island, the earlier of two as high.
@@ -175,7 +173,7 @@ fn peaks(heights: &[f64]) -> Vec<Peak> {
                     stands_out,
                 });
             }
-            parent[low] = Some(high);
+            islands.attach(low as u32, high as u32);
         }
     }
     if let (Some(&highest), Some(&lowest)) = (order.first(), order.last()) {
@@ -188,14 +186,6 @@ fn peaks(heights: &[f64]) -> Vec<Peak> {
     found.retain(|peak| peak.stands_out > 0.0);
     found.sort_by_key(|peak| peak.at);
     found
-}
-
-fn root(parent: &mut [Option<usize>], mut i: usize) -> usize {
-    while let Some(above) = parent[i].filter(|&above| above != i) {
-        parent[i] = parent[above];
-        i = above;
-    }
-    i
 }
 
 /// Points of a closed polygon at equal distances along it.

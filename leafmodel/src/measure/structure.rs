@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 use super::Subject;
 use super::window;
+use crate::numeric::bisect;
 
 /// Least number of centroids.
 const FEWEST: usize = 50;
@@ -252,25 +253,18 @@ fn exponent(pairs: &[(f64, f64)]) -> Option<(f64, f64)> {
         }
         -weighted / sum
     };
-    let (mut low, mut high) = (-8.0, 16.0);
+    let (low, high) = (-8.0, 16.0);
     if !(slope(low) < 0.0 && slope(high) > 0.0) {
         return None;
     }
-    for _ in 0..STEPS {
-        let a = 0.5 * (low + high);
-        if slope(a) < 0.0 { low = a } else { high = a }
-    }
+    let (low, high) = bisect(low, high, STEPS, |a| slope(a) < 0.0);
     Some((0.5 * (low + high), 1.0 / spread.sqrt()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::chance::{bits as random_bits, share};
-
-    fn uniform(seed: u64, purpose: u64, counter: u64) -> f64 {
-        share(random_bits(seed, purpose, counter))
-    }
+    use crate::testing::uniform;
 
     const SIDE: i32 = 64;
 

@@ -11,9 +11,9 @@ use super::skeleton::Skeleton;
 use super::structure::Structure;
 use super::supply::Supply;
 use super::{List, Measures, spanning};
+use crate::random::{Use, uniform};
 use crate::shape::outline::Outline;
 use crate::venation::areole::{Areoles, areoles};
-use crate::venation::chance::{Use, uniform};
 use crate::venation::network::VenationNetwork;
 
 /// Number of points of the blade at which the distance to the nearest vein is measured.

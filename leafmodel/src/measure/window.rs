@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::plane::{bounds, polygon, turn};
 use crate::shape::outline::Outline;
 
 /// Cells along the longer side of the raster.
@@ -11,23 +12,17 @@ const CELLS: usize = 192;
 /// the longer side whose cells lie within the convex hull of the points and, if there is one, within
 /// the margin. `None` if no cell does.
 pub(super) fn largest(points: &[DVec2], outline: Option<&Outline>) -> Option<(DVec2, DVec2)> {
-    let hull = hull(points);
+    let hull = polygon::hull(points);
     if hull.len() < 3 {
         return None;
     }
-    let (low, high) = hull
-        .iter()
-        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| {
-            (low.min(p), high.max(p))
-        });
+    let (low, high) = bounds(hull.iter().copied());
     let cell = (high - low).max_element() / CELLS as f64;
     let columns = (((high.x - low.x) / cell) as usize).max(1);
     let rows = (((high.y - low.y) / cell) as usize).max(1);
     let corner = |column: usize, row: usize| low + DVec2::new(column as f64, row as f64) * cell;
     let is_inside = |p: DVec2| {
-        hull.iter()
-            .zip(hull.iter().cycle().skip(1))
-            .all(|(a, b)| (*b - *a).perp_dot(p - *a) >= 0.0)
+        polygon::sides(&hull).all(|(a, b)| turn(a, b, p) >= 0.0)
             && outline.is_none_or(|outline| outline.contains(p))
     };
     let width = columns + 1;
@@ -67,15 +62,6 @@ pub(super) fn largest(points: &[DVec2], outline: Option<&Outline>) -> Option<(DV
         }
     }
     best.map(|(_, [left, bottom, right, top])| (corner(left, bottom), corner(right, top)))
-}
-
-/// The smallest convex polygon around points, counter-clockwise (monotone chains).
-fn hull(points: &[DVec2]) -> Vec<DVec2> {
-    let mut sorted = points.to_vec();
-    sorted.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
-    let mut hull = super::margin::chain(sorted.iter().copied());
-    hull.extend(super::margin::chain(sorted.iter().rev().copied()));
-    hull
 }
 
 #[cfg(test)]

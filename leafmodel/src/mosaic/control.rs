@@ -10,6 +10,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 pub use self::image::ControlImage;
+use crate::document::ranges::RangeError;
 
 /// A cylinder around the surface or a part of it, the image wrapped around it, and what the image
 /// controls. It has no effect outside the cylinder.
@@ -81,15 +82,8 @@ pub enum ControlError {
         types: usize,
     },
     /// A number is out of its range.
-    #[error("its {field} is {value}, outside {range}")]
-    OutOfRange {
-        /// Which number.
-        field: &'static str,
-        /// What it is.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
+    #[error("its {0}")]
+    Range(#[from] RangeError),
     /// A picture does not have one value per pixel.
     #[error("its picture of {width} × {height} pixels has {values} values")]
     PictureSize {
@@ -179,14 +173,7 @@ pub(super) fn check(
     good: bool,
     range: &'static str,
 ) -> Result<(), ControlError> {
-    if good {
-        return Ok(());
-    }
-    Err(ControlError::OutOfRange {
-        field,
-        value,
-        range,
-    })
+    Ok(RangeError::unless(good, field, value, range)?)
 }
 
 /// All controls of a plan.

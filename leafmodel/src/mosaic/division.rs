@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::plan::CellType;
-use crate::venation::chance::{Use, bits, uniform};
+use crate::random::{Use, bits, uniform};
 
 /// Diameter of the disc in which a child lies, over the repulsion radius.
 pub(super) const CHILD_DISC: f64 = 0.01;

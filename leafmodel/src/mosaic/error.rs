@@ -4,20 +4,14 @@ use thiserror::Error;
 
 use super::control::ControlError;
 use super::surface::SurfaceError;
+use crate::document::ranges::RangeError;
 
 /// Why a plan cannot be grown.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum MosaicError {
     /// A number is out of its range.
-    #[error("{field} is {value}, outside {range}")]
-    OutOfRange {
-        /// Which number.
-        field: String,
-        /// What it is.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Range(#[from] RangeError),
     /// The plan has no cell types, or too many.
     #[error("there are {count} cell types; a mosaic has 1 to 1000")]
     Types {
@@ -123,20 +117,4 @@ pub enum MosaicError {
     /// The caller stopped the growth.
     #[error("stopped")]
     Stopped,
-}
-
-pub(super) fn in_range(
-    field: &str,
-    value: f64,
-    good: bool,
-    range: &'static str,
-) -> Result<(), MosaicError> {
-    if good {
-        return Ok(());
-    }
-    Err(MosaicError::OutOfRange {
-        field: field.to_owned(),
-        value,
-        range,
-    })
 }

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::error::{MosaicError, in_range};
+use super::error::MosaicError;
+use crate::document::ranges::RangeError;
 
 /// Whether and how the surface grows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,23 +57,17 @@ impl SurfaceGrowth {
             return Ok(());
         };
         for (axis, value) in ["x", "y", "z"].iter().zip(start.to_array()) {
-            let good = (0.01..=10.0).contains(&value);
-            in_range(
-                &format!("size at the start along {axis}"),
-                value,
-                good,
-                "0.01 to 10",
-            )?;
+            let (good, path) = (
+                (0.01..=10.0).contains(&value),
+                format!("size at the start along {axis}"),
+            );
+            RangeError::unless(good, &path, value, "0.01 to 10")?;
         }
         if let GrowthCourse::Logistic { middle, steepness } = course {
-            in_range(
-                "middle of growth",
-                middle,
-                (0.0..=1.0).contains(&middle),
-                "0 to 1",
-            )?;
+            let good = (0.0..=1.0).contains(&middle);
+            RangeError::unless(good, "middle of growth", middle, "0 to 1")?;
             let good = (1.0..=100.0).contains(&steepness);
-            in_range("steepness of growth", steepness, good, "1 to 100")?;
+            RangeError::unless(good, "steepness of growth", steepness, "1 to 100")?;
         }
         Ok(())
     }

@@ -11,7 +11,8 @@
 
 use glam::DVec3;
 
-use crate::venation::chance::{self, Use};
+use crate::numeric::between;
+use crate::random::{self, Use};
 
 /// Noise and the share of the surface that it marks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +34,7 @@ impl NoisePattern {
         let mut amplitude = 1.0;
         let mut at = p / self.scale_mm;
         for octave in 0..self.octaves {
-            let key = chance::bits(seed, Use::NoiseGradient, u64::from(octave));
+            let key = random::bits(seed, Use::NoiseGradient, u64::from(octave));
             sum += amplitude * gradient_noise(at, key);
             amplitude *= self.gain;
             at *= 2.0;
@@ -67,13 +68,9 @@ fn gradient_noise(p: DVec3, key: u64) -> f64 {
         let step = DVec3::new(dx, dy, dz);
         gradient(cell + step, key).dot(inside - step)
     };
-    let along_x = |dy, dz| lerp(corner(0.0, dy, dz), corner(1.0, dy, dz), fade.x);
-    let along_y = |dz| lerp(along_x(0.0, dz), along_x(1.0, dz), fade.y);
-    lerp(along_y(0.0), along_y(1.0), fade.z)
-}
-
-fn lerp(a: f64, b: f64, t: f64) -> f64 {
-    a + (b - a) * t
+    let along_x = |dy, dz| between(corner(0.0, dy, dz), corner(1.0, dy, dz), fade.x);
+    let along_y = |dz| between(along_x(0.0, dz), along_x(1.0, dz), fade.y);
+    between(along_y(0.0), along_y(1.0), fade.z)
 }
 
 /// One of the twelve directions from the middle of a cube to the middles of its edges.
@@ -81,7 +78,7 @@ fn gradient(lattice: DVec3, key: u64) -> DVec3 {
     // Coordinates wrap at 2^21, far beyond the extent of any plant over any scale.
     let part = |x: f64| (x as i64 as u64) & 0x1f_ffff;
     let counter = part(lattice.x) | part(lattice.y) << 21 | part(lattice.z) << 42;
-    let draw = (chance::uniform(key, Use::NoiseGradient, counter) * 12.0) as u32;
+    let draw = (random::uniform(key, Use::NoiseGradient, counter) * 12.0) as u32;
     let (a, b) = (
         if draw & 1 == 0 { 1.0 } else { -1.0 },
         if draw & 2 == 0 { 1.0 } else { -1.0 },
@@ -105,7 +102,7 @@ mod tests {
     };
 
     fn places() -> Vec<DVec3> {
-        let place = |i: u64, k| 100.0 * chance::uniform(3, Use::NoiseGradient, 3 * i + k);
+        let place = |i: u64, k| 100.0 * random::uniform(3, Use::NoiseGradient, 3 * i + k);
         (0..4000)
             .map(|i| DVec3::new(place(i, 0), place(i, 1), place(i, 2)))
             .collect()

@@ -28,8 +28,10 @@ use super::error::MosaicError;
 use super::patch::PatchFinder;
 use super::simulation::Mosaic;
 use super::surface::{Surface, SurfacePoint};
-use super::voronoi::{FACE_EDGE, Voronoi, distance_to_segment};
+use super::voronoi::{FACE_EDGE, Voronoi};
+use crate::numeric::smooth_step;
 use crate::optics::{Contents, PerConstituent};
+use crate::plane::segment::Line;
 
 /// Number of faces processed together.
 const CHUNK: usize = 256;
@@ -255,7 +257,7 @@ impl TypeField {
         }
         weights.fill(f64::INFINITY);
         for border in borders {
-            let distance = distance_to_segment(border.from, border.to, flat);
+            let distance = Line::new([border.from, border.to]).distance(flat);
             for kind in border.kinds {
                 let least = &mut weights[usize::from(kind)];
                 *least = least.min(distance);
@@ -323,12 +325,6 @@ impl TypeField {
     }
 }
 
-/// `3 t² − 2 t³` between 0 and 1.
-fn smooth_step(t: f64) -> f64 {
-    let t = t.clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}
-
 /// The borders between cells of different types within a face.
 fn borders_in(voronoi: &Voronoi, kinds: &[u16], face: u32) -> Vec<Border> {
     let mut borders = Vec::new();
@@ -388,7 +384,7 @@ impl Borders<'_> {
             for (other, unfold) in patch.faces() {
                 for border in &self.own[*other as usize] {
                     let (from, to) = (unfold.apply(border.from), unfold.apply(border.to));
-                    let distance = distance_to_segment(from, to, centre);
+                    let distance = Line::new([from, to]).distance(centre);
                     if distance <= reach + size {
                         for place in places(border.kinds) {
                             nearest[place] = nearest[place].min(distance);

@@ -19,6 +19,7 @@ use std::collections::BinaryHeap;
 use glam::DVec2;
 
 use super::surface::{Surface, Unfold};
+use crate::plane::segment::Line;
 
 /// The faces near a face, unfolded into its plane.
 #[derive(Clone, Debug)]
@@ -203,19 +204,15 @@ impl Hub {
                 let mut least = f64::INFINITY;
                 for k in 0..3 {
                     let (p, q) = (corners[k], corners[(k + 1) % 3]);
-                    least = least.min(to_segment(p, a, b));
-                    least = least.min(to_segment(a, p, q)).min(to_segment(b, p, q));
+                    let (edge, side) = (Line::new([a, b]), Line::new([p, q]));
+                    least = least.min(edge.distance_squared(p));
+                    least = least
+                        .min(side.distance_squared(a))
+                        .min(side.distance_squared(b));
                 }
                 least.sqrt()
             }
-            Self::Disc(centre, radius) => (to_segment(centre, a, b).sqrt() - radius).max(0.0),
+            Self::Disc(centre, radius) => (Line::new([a, b]).distance(centre) - radius).max(0.0),
         }
     }
-}
-
-/// Squared distance of a point to a segment.
-fn to_segment(point: DVec2, a: DVec2, b: DVec2) -> f64 {
-    let (along, to) = (b - a, point - a);
-    let share = (to.dot(along) / along.length_squared()).clamp(0.0, 1.0);
-    to.distance_squared(along * share)
 }

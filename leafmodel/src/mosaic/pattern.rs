@@ -9,6 +9,7 @@ use super::control::Controls;
 use super::paint::{SheetField, TypeField};
 use super::shapes::{ShapeError, sheet};
 use super::{Mosaic, MosaicError, MosaicPlan, Surface, SurfaceError};
+use crate::document::declared::Words;
 use crate::optics::Contents;
 use crate::shape::outline::Outline;
 
@@ -29,7 +30,7 @@ pub struct MosaicPattern {
 }
 
 /// The faces of a leaf on which cells live.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq, Words)]
 pub enum LeafFaces {
     /// One layer of cells: the pattern goes through the blade.
     #[default]

@@ -1,8 +1,10 @@
 //! The plan of a clonal mosaic.
 
 use super::control::{CylinderControl, Steered};
-use super::error::{MosaicError, in_range};
+use super::error::MosaicError;
 use super::growth::SurfaceGrowth;
+use crate::document::declared::{Declared, Words};
+use crate::document::ranges::RangeError;
 
 /// Tolerance on sums of probabilities.
 const TOLERANCE: f64 = 1e-6;
@@ -39,7 +41,7 @@ pub struct CellType {
 }
 
 /// The number of cells from which the repulsion radius is computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq, Words)]
 pub enum RadiusRule {
     /// The initial number: the radius stays the same while cells crowd.
     #[default]
@@ -55,23 +57,36 @@ pub enum RadiusRule {
 /// \[binsfeld2011\] gives the model and Table I; what it leaves open (`step`, the initial
 /// relaxations, four relaxations a day, adhesion 0 between types) has the values that the authors'
 /// program starts with.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct MosaicPlan {
-    /// Cells at the start, 1 or more.
+    /// Cells at the start.
+    #[key("cells", 1..=1_000_000)]
     pub initial_cells: usize,
-    /// How long the mosaic grows, days, 0 or more.
+    /// How long they divide and push one another.
+    #[key("days", required, 0.0..=1e5)]
     pub days: f64,
     /// `w_r`: the repulsion radius over the root of the mean area of a cell, 0.1 to 10.
+    #[key(
+        "radius_weight", 0.1..=10.0,
+        about = "W_r: the radius of repulsion over the root of a cell's mean area."
+    )]
     pub radius_weight: f64,
-    /// `ρ`: relaxation events a day, 1 to 1000.
+    /// ρ.
+    ///
+    /// `ρ`: relaxation events a day
+    #[key("relaxations_per_day", 1..=1000)]
     pub relaxations_per_day: u32,
-    /// Displacement of a cell for a force of 1, as a share of the radius, 0 to 1.
+    /// How far a cell moves for a force of 1, in radii.
+    #[key("step", 0.0..=1.0)]
     pub step: f64,
-    /// Number of relaxation events before the first day, without adhesion.
+    /// Relaxations before the first day.
+    #[key("initial_relaxations", 0..=100_000)]
     pub initial_relaxations: u32,
-    /// `step` in the initial relaxations, 0 to 1.
+    /// `step` in these.
+    #[key("initial_step", 0.0..=1.0)]
     pub initial_step: f64,
-    /// The number of cells from which the radius is computed.
+    /// Which number of cells that area is of: those at the start, or those of the day.
+    #[key("radius", word)]
     pub radius: RadiusRule,
     /// The types, one or more.
     pub types: Vec<CellType>,
@@ -138,33 +153,7 @@ impl MosaicPlan {
     ///
     /// [`MosaicError`] for the first that is wrong.
     pub fn validate(&self) -> Result<(), MosaicError> {
-        let numbers = [
-            (
-                "initial_cells",
-                self.initial_cells as f64,
-                1.0..=4e6,
-                "1 to 4000000",
-            ),
-            ("days", self.days, 0.0..=1e5, "0 to 100000"),
-            ("radius_weight", self.radius_weight, 0.1..=10.0, "0.1 to 10"),
-            (
-                "relaxations_per_day",
-                f64::from(self.relaxations_per_day),
-                1.0..=1000.0,
-                "1 to 1000",
-            ),
-            ("step", self.step, 0.0..=1.0, "0 to 1"),
-            (
-                "initial_relaxations",
-                f64::from(self.initial_relaxations),
-                0.0..=1e5,
-                "0 to 100000",
-            ),
-            ("initial_step", self.initial_step, 0.0..=1.0, "0 to 1"),
-        ];
-        for (field, value, allowed, range) in numbers {
-            in_range(field, value, allowed.contains(&value), range)?;
-        }
+        self.in_range()?;
         let count = self.types.len();
         if !(1..=1000).contains(&count) {
             return Err(MosaicError::Types { count });
@@ -294,22 +283,15 @@ impl MosaicPlan {
 impl CellType {
     fn validate(&self, types: usize) -> Result<(), MosaicError> {
         let name = &self.name;
+        let in_range = |key: &str, value: f64, valid: bool, limits| {
+            RangeError::unless(valid, &format!("{key} of type \"{name}\""), value, limits)
+        };
         // Infinity is in the range: such cells never divide.
-        let divides = self.division_days > 0.0;
-        in_range(
-            &format!("division_days of type \"{name}\""),
-            self.division_days,
-            divides,
-            "the positive numbers",
-        )?;
+        let days = self.division_days;
+        in_range("division_days", days, days > 0.0, "the positive numbers")?;
         let share = self.initial_probability;
         let good = (0.0..=1.0).contains(&share);
-        in_range(
-            &format!("initial_probability of type \"{name}\""),
-            share,
-            good,
-            "0 to 1",
-        )?;
+        in_range("initial_probability", share, good, "0 to 1")?;
         for (field, row) in [("switching", &self.switching), ("adhesion", &self.adhesion)] {
             if row.len() != types {
                 return Err(MosaicError::RowLength {
@@ -320,13 +302,7 @@ impl CellType {
                 });
             }
             for &value in row {
-                let good = (0.0..=1.0).contains(&value);
-                in_range(
-                    &format!("{field} of type \"{name}\""),
-                    value,
-                    good,
-                    "0 to 1",
-                )?;
+                in_range(field, value, (0.0..=1.0).contains(&value), "0 to 1")?;
             }
         }
         let sum = self.switching.iter().sum();

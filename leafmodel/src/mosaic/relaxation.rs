@@ -20,6 +20,7 @@ use super::control::Controls;
 use super::live::Live;
 use super::surface::Surface;
 use super::walk::walk;
+use crate::buckets::Buckets;
 
 /// Greatest product of the weight and the number of cells in a square of side `r`.
 const MOST_WEIGHT: f64 = 1.0;
@@ -44,39 +45,10 @@ pub(super) struct Relaxation {
     blocks: Vec<Block>,
 }
 
-/// Cells sorted by face, within a face in their own order.
-#[derive(Debug)]
-struct ByFace {
-    first: Vec<u32>,
-    cells: Vec<u32>,
-}
-
-impl ByFace {
-    fn new(faces: usize, cells: &[Live]) -> Self {
-        let mut first = vec![0_u32; faces + 1];
-        for cell in cells {
-            first[cell.face as usize + 1] += 1;
-        }
-        for face in 0..faces {
-            first[face + 1] += first[face];
-        }
-        let mut next = first.clone();
-        let mut sorted = vec![0; cells.len()];
-        for (number, cell) in cells.iter().enumerate() {
-            let place = &mut next[cell.face as usize];
-            sorted[*place as usize] = number as u32;
-            *place += 1;
-        }
-        Self {
-            first,
-            cells: sorted,
-        }
-    }
-
-    fn of(&self, face: u32) -> &[u32] {
-        let face = face as usize;
-        &self.cells[self.first[face] as usize..self.first[face + 1] as usize]
-    }
+/// The numbers of the cells in each face.
+fn by_face(surface: &Surface, cells: &[Live]) -> Buckets {
+    let faces = cells.iter().map(|cell| cell.face as usize);
+    Buckets::new(surface.faces().len(), faces.zip(0..))
 }
 
 impl Relaxation {
@@ -101,7 +73,7 @@ impl Relaxation {
     ) {
         let crowding = cells.len() as f64 * self.radius * self.radius / surface.total_area();
         let step = bonds.step.min(MOST_WEIGHT / crowding) * self.radius;
-        let by_face = ByFace::new(surface.faces().len(), cells);
+        let by_face = by_face(surface, cells);
         let before: &[Live] = cells;
         let steered = bonds.controls.steer_adhesion();
         let blocked = bonds.controls.block();
@@ -110,7 +82,7 @@ impl Relaxation {
             if !block
                 .own
                 .iter()
-                .any(|&(face, _)| !by_face.of(face).is_empty())
+                .any(|&(face, _)| !by_face.list(face as usize).is_empty())
             {
                 return Vec::new();
             }
@@ -118,7 +90,7 @@ impl Relaxation {
             let mut moved = Vec::new();
             let mut row = Vec::new();
             for &(face, unfold) in &block.own {
-                for &number in by_face.of(face) {
+                for &number in by_face.list(face as usize) {
                     let cell = &before[number as usize];
                     let kind = usize::from(cell.kind);
                     row.clone_from(&bonds.adhesion[kind]);
@@ -156,13 +128,13 @@ impl Relaxation {
     /// lowers.
     #[cfg(test)]
     pub(super) fn energy(&self, surface: &Surface, cells: &[Live], adhesion: &[Vec<f64>]) -> f64 {
-        let by_face = ByFace::new(surface.faces().len(), cells);
+        let by_face = by_face(surface, cells);
         let mut places: Vec<Places> = (0..adhesion.len()).map(|_| Places::default()).collect();
         let mut energy = 0.0;
         for block in &self.blocks {
             self.gather(block, cells, &by_face, &mut places);
             for &(face, unfold) in &block.own {
-                for &number in by_face.of(face) {
+                for &number in by_face.list(face as usize) {
                     let cell = &cells[number as usize];
                     let row = &adhesion[usize::from(cell.kind)];
                     let (x, y) = self.place(block, unfold.apply(cell.at));
@@ -185,11 +157,11 @@ impl Relaxation {
     }
 
     /// The cells within reach of those of a block, by type.
-    fn gather(&self, block: &Block, cells: &[Live], by_face: &ByFace, places: &mut [Places]) {
+    fn gather(&self, block: &Block, cells: &[Live], by_face: &Buckets, places: &mut [Places]) {
         places.iter_mut().for_each(Places::clear);
         let reach = (block.reach + self.radius).powi(2);
         for (face, unfold) in &block.near {
-            for &number in by_face.of(*face) {
+            for &number in by_face.list(*face as usize) {
                 let cell = &cells[number as usize];
                 let at = unfold.apply(cell.at);
                 if at.distance_squared(block.centre) <= reach {

@@ -13,6 +13,7 @@ use glam::{DVec2, DVec3};
 use thiserror::Error;
 
 use crate::blade::{BladeError, even_sheet};
+use crate::document::ranges::RangeError;
 use crate::shape::outline::Outline;
 
 pub use lathe::lathe;
@@ -38,15 +39,8 @@ pub struct Shape {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ShapeError {
     /// A size is out of its range.
-    #[error("{field} is {value}, it must be {range}")]
-    OutOfRange {
-        /// Which size.
-        field: &'static str,
-        /// What it was, mm.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Range(#[from] RangeError),
     /// The profile has fewer than two points.
     #[error("a profile needs at least 2 points, it has {points}")]
     ShortProfile {
@@ -96,7 +90,7 @@ pub enum ShapeError {
 ///
 /// # Errors
 ///
-/// [`ShapeError::OutOfRange`] unless both are finite and above 0; [`ShapeError::TooFine`].
+/// [`ShapeError::Range`] unless both are finite and above 0; [`ShapeError::TooFine`].
 pub fn sphere(radius_mm: f64, max_edge_mm: f64) -> Result<Shape, ShapeError> {
     positive("radius_mm", radius_mm)?;
     ellipsoid(DVec3::splat(radius_mm), max_edge_mm)
@@ -107,7 +101,7 @@ pub fn sphere(radius_mm: f64, max_edge_mm: f64) -> Result<Shape, ShapeError> {
 ///
 /// # Errors
 ///
-/// [`ShapeError::OutOfRange`] unless all are finite and above 0; [`ShapeError::TooFine`].
+/// [`ShapeError::Range`] unless all are finite and above 0; [`ShapeError::TooFine`].
 pub fn ellipsoid(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<Shape, ShapeError> {
     for axis in semi_axes_mm.to_array() {
         positive("semi_axes_mm", axis)?;
@@ -150,7 +144,7 @@ pub fn ellipsoid_triangles(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<f64,
 ///
 /// # Errors
 ///
-/// [`ShapeError::OutOfRange`] unless all are finite and above 0 and the corner radius at most half
+/// [`ShapeError::Range`] unless all are finite and above 0 and the corner radius at most half
 /// the side; [`ShapeError::TooFine`].
 pub fn rounded_cube(
     side_mm: f64,
@@ -159,13 +153,9 @@ pub fn rounded_cube(
 ) -> Result<Shape, ShapeError> {
     positive("side_mm", side_mm)?;
     positive("max_edge_mm", max_edge_mm)?;
-    if !(corner_radius_mm > 0.0 && corner_radius_mm <= 0.5 * side_mm) {
-        return Err(ShapeError::OutOfRange {
-            field: "corner_radius_mm",
-            value: corner_radius_mm,
-            range: "above 0 and at most half the side",
-        });
-    }
+    let fits = corner_radius_mm > 0.0 && corner_radius_mm <= 0.5 * side_mm;
+    let limits = "above 0 and at most half the side";
+    RangeError::unless(fits, "corner_radius_mm", corner_radius_mm, limits)?;
     let flat = 0.5 * side_mm - corner_radius_mm;
     // Squares a little smaller than the edge allowed, as their diagonals are edges too; near
     // corners they are lozenges with diagonals up to √3.
@@ -263,14 +253,13 @@ pub fn sheet(outline: &Outline, max_edge_mm: f64) -> Result<Shape, ShapeError> {
 }
 
 fn positive(field: &'static str, value: f64) -> Result<(), ShapeError> {
-    if value.is_finite() && value > 0.0 {
-        return Ok(());
-    }
-    Err(ShapeError::OutOfRange {
+    let valid = value.is_finite() && value > 0.0;
+    Ok(RangeError::unless(
+        valid,
         field,
         value,
-        range: "finite and above 0 (millimetres)",
-    })
+        "the positive numbers (millimetres)",
+    )?)
 }
 
 fn affordable(triangles: f64) -> Result<(), ShapeError> {

@@ -11,12 +11,13 @@ use glam::DVec3;
 use self::regions::Regions;
 use super::control::Controls;
 use super::division::{child_id, chosen, days_to_division, kind_of_child, place_of_child};
-use super::error::{MosaicError, in_range};
+use super::error::MosaicError;
 use super::live::Live;
 use super::plan::{MOST_CELLS, MosaicPlan, RadiusRule};
 use super::relaxation::{Bonds, Relaxation, free_walk};
 use super::surface::{Ancestry, Surface, SurfacePoint};
-use crate::venation::chance::{Use, bits, uniform};
+use crate::document::ranges::RangeError;
+use crate::random::{Use, bits, uniform};
 
 /// Number of attempts to place an initial cell before the surface counts as blocked.
 const THROWS: u32 = 1000;
@@ -77,7 +78,7 @@ impl Mosaic {
     ///
     /// # Errors
     ///
-    /// As [`Mosaic::grow`]; [`MosaicError::OutOfRange`] for a day outside the plan's;
+    /// As [`Mosaic::grow`]; [`MosaicError::Range`] for a day outside the plan's;
     /// [`MosaicError::Stopped`].
     pub fn grow_until(
         surface: &Surface,
@@ -101,7 +102,7 @@ impl Mosaic {
         plan.validate()?;
         for &day in days {
             let good = (0.0..=plan.days).contains(&day);
-            in_range("day of a stage", day, good, "0 to the days of the plan")?;
+            RangeError::unless(good, "day of a stage", day, "0 to the days of the plan")?;
         }
         let event = |day: f64| (day * f64::from(plan.relaxations_per_day)).round() as u64;
         let mut order: Vec<usize> = (0..days.len()).collect();

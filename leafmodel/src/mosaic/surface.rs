@@ -13,6 +13,7 @@ mod subdivide;
 #[cfg(test)]
 mod tests;
 
+use crate::random::{Use, uniform};
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
@@ -442,6 +443,15 @@ impl Surface {
             face: face.min(self.faces.len() - 1) as u32,
             barycentric: [(1.0 - root).max(0.0), v, w],
         }
+    }
+
+    /// Points uniform over the surface at which patterns are compared; the same for the same seed.
+    pub fn probes(&self, count: u64, seed: u64) -> Vec<SurfacePoint> {
+        let probe = |number: u64| {
+            let draw = |k| uniform(seed, Use::PatternProbe, 3 * number + k);
+            self.sample([draw(0), draw(1), draw(2)])
+        };
+        (0..count).map(probe).collect()
     }
 
     /// Longest edge of all, mm.

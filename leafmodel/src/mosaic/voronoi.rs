@@ -21,6 +21,8 @@ use rayon::prelude::*;
 
 use super::patch::PatchFinder;
 use super::surface::{Surface, SurfacePoint};
+use crate::plane::polygon;
+use crate::plane::segment::Line;
 
 /// Marks an edge of the face itself, with no cell beyond.
 pub const FACE_EDGE: u32 = u32::MAX;
@@ -47,11 +49,7 @@ pub struct Piece {
 impl Piece {
     /// Its area, mm².
     pub fn area(&self) -> f64 {
-        let first = self.corners[0];
-        self.corners
-            .windows(2)
-            .map(|pair| 0.5 * (pair[0] - first).perp_dot(pair[1] - first))
-            .sum()
+        polygon::signed_area(&self.corners)
     }
 
     /// Its edges: both ends and the cell across.
@@ -298,15 +296,8 @@ pub(super) fn distance_to_triangle(corners: &[DVec2; 3], p: DVec2) -> f64 {
         return 0.0;
     }
     (0..3)
-        .map(|k| distance_to_segment(corners[k], corners[(k + 1) % 3], p))
+        .map(|k| Line::new([corners[k], corners[(k + 1) % 3]]).distance(p))
         .fold(f64::INFINITY, f64::min)
-}
-
-/// Distance of a point to a segment.
-pub(super) fn distance_to_segment(from: DVec2, to: DVec2, p: DVec2) -> f64 {
-    let (along, way) = (to - from, p - from);
-    let share = way.dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
-    way.distance(along * share.clamp(0.0, 1.0))
 }
 
 /// Cuts a face by the bisectors between the cells near it.

@@ -2,6 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::constituent::Constituent;
@@ -12,7 +13,7 @@ use super::per_constituent::PerConstituent;
 ///
 /// [`Contents::new`] and [`Contents::checked`] refuse fewer plates than one, and less than nothing
 /// of the rest; the optics trust them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Contents(pub PerConstituent<f64>);
 
 /// What a leaf holds at a texel of a map.

@@ -1,12 +1,13 @@
 //! Something for each constituent: contents, factors, absorptions, texels, names of columns.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::{Index, IndexMut};
 
 use super::constituent::Constituent;
 
 /// A value for each [`Constituent`], found by it: `absorption[Constituent::Water]`.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Deserialize, Eq, Hash, PartialEq, Serialize)]
 #[repr(transparent)]
 pub struct PerConstituent<T>([T; Constituent::COUNT]);
 

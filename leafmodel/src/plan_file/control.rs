@@ -1,9 +1,8 @@
 //! `mosaic.controls.NAME`: an image wrapped round a cylinder that steers cells.
 
-use super::layers::asset;
-use super::outline::bad_file;
 use crate::document::keys::Keys;
 use crate::document::limits::Limits;
+use crate::document::named_asset::{asset, bad_file};
 use crate::document::sections::Names;
 use crate::document::value_kind::{Integer, Number, Text, Vector, Word};
 use crate::document::values::text_at;

@@ -2,20 +2,21 @@
 
 use glam::DVec3;
 
-use super::contents::changed_contents;
 use super::control::{self, control};
+use crate::document::declared::{Declared, Words};
 use crate::document::error::DocumentError;
 use crate::document::keys::{Keys, NamedList};
 use crate::document::limits::Limits;
 use crate::document::sections::Names;
 use crate::document::tree::Entry;
-use crate::document::value_kind::{Integer, MapOf, Number, Vector, Word};
+use crate::document::value_kind::{MapOf, Number, Vector, Word};
 use crate::document::values::rounded;
 use crate::mosaic::control::CylinderControl;
 use crate::mosaic::growth::{GrowthCourse, SurfaceGrowth};
 use crate::mosaic::pattern::{LeafFaces, MosaicPattern};
-use crate::mosaic::plan::{CellType, MosaicPlan, RadiusRule};
+use crate::mosaic::plan::{CellType, MosaicPlan};
 use crate::optics::Contents;
+use crate::optics::contents_keys::changed_contents;
 
 /// Width of the blend between unlike cells where nothing is said, mm.
 const BLEND_MM: f64 = 0.2;
@@ -38,57 +39,13 @@ pub(super) fn usual() -> MosaicPattern {
 
 /// The keys of `mosaic`. `base` is what cells hold where they say nothing else.
 pub(super) fn mosaic(pattern: &mut MosaicPattern, keys: &mut Keys<'_>, base: Contents) {
-    let plan = &mut pattern.plan;
-    let count = Integer::within(1, 1_000_000);
-    keys.key(
-        "cells",
-        &mut plan.initial_cells,
-        count,
-        "Cells at the start.",
-    );
-    let limits = Number(Limits::closed(0.0, 1e5));
-    keys.required(
-        "days",
-        &mut plan.days,
-        limits,
-        "How long they divide and push one another.",
-    );
-    let limits = Number(Limits::closed(0.1, 10.0));
-    let about = "W_r: the radius of repulsion over the root of a cell's mean area.";
-    keys.key("radius_weight", &mut plan.radius_weight, limits, about);
-    let count = Integer::within(1, 1000);
-    let about = "ρ.";
-    keys.key(
-        "relaxations_per_day",
-        &mut plan.relaxations_per_day,
-        count,
-        about,
-    );
-    let about = "How far a cell moves for a force of 1, in radii.";
-    keys.key("step", &mut plan.step, SHARE, about);
-    let count = Integer::within(0, 100_000);
-    let about = "Relaxations before the first day.";
-    keys.key(
-        "initial_relaxations",
-        &mut plan.initial_relaxations,
-        count,
-        about,
-    );
-    let about = "`step` in these.";
-    keys.key("initial_step", &mut plan.initial_step, SHARE, about);
-    let words = [
-        ("initial", RadiusRule::Initial),
-        ("daily", RadiusRule::Daily),
-    ];
-    let about = "Which number of cells that area is of: those at the start, or those of the day.";
-    keys.key("radius", &mut plan.radius, Word(&words), about);
+    pattern.plan.declare(keys);
     let limits = Number(Limits::closed(0.0, 100.0));
     let about = "Width over which unlike cells blend.";
     keys.key("blend_mm", &mut pattern.blend_mm, limits, about);
-    let words = [("through", LeafFaces::Through), ("both", LeafFaces::Both)];
     let about = "Whether the pattern goes through the blade, or each face has cells of its own, \
         joined at the margin; the leaf then holds the mean of the two.";
-    keys.key("faces", &mut pattern.faces, Word(&words), about);
+    keys.key("faces", &mut pattern.faces, Word(Words::WORDS), about);
     let names = types(pattern, keys, base);
     controls(&mut pattern.plan.controls, keys, &names);
     growth(&mut pattern.plan.growth, keys);

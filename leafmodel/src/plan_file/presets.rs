@@ -1,5 +1,6 @@
 //! `preset`: the name of a leaf, or of a colour, whose numbers hold where a file says nothing else.
 
+use super::leaf::{leaf_of_preset, usual_leaf};
 use crate::document::context::{Context, QUOTED};
 use crate::document::error::DocumentError;
 use crate::document::keys::Keys;
@@ -11,15 +12,31 @@ use crate::document::value_kind::{Integer, Kind};
 use crate::document::values::{listed, text_at};
 use crate::leaf::LeafPlan;
 use crate::optics::{Contents, presets};
-use crate::species;
+use crate::species::{self, BLOCKS, Preset};
+
+impl Preset {
+    /// The whole plan of the leaf.
+    pub fn plan(&self) -> LeafPlan {
+        let plan = self.plan.get_or_init(|| {
+            let mut plan = usual_leaf(100.0);
+            species::read(self.opened(), |keys| {
+                let about = "The plan.";
+                keys.required_block("leaf", about, &[], |keys| leaf_of_preset(&mut plan, keys));
+                keys.leave(&BLOCKS);
+            });
+            plan
+        });
+        plan.clone()
+    }
+}
 
 /// One of many things by name.
 pub(super) struct Chosen<T: 'static> {
     pub(super) kind: &'static str,
     pub(super) all: &'static [T],
-    pub(super) name_of: fn(&T) -> &'static str,
+    pub(super) name_of: fn(&'static T) -> &'static str,
     /// What it is, in words.
-    pub(super) about: fn(&T) -> &'static str,
+    pub(super) about: fn(&'static T) -> &'static str,
 }
 
 impl<T> Kind for Chosen<T> {
@@ -63,7 +80,7 @@ pub fn leaf_preset(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
         kind: "preset",
         all: species::PRESETS,
         name_of: |preset| preset.name,
-        about: |preset| preset.about,
+        about: Preset::about,
     };
     let mut preset = None;
     let about = "A leaf whose numbers hold where nothing else is said: see `lamina grow --list`.";

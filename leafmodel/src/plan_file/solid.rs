@@ -4,18 +4,17 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::contents::{changed_contents, warn_of_mixture};
-use super::layers::asset;
 use super::mosaic::{self, mosaic};
-use super::outline::bad_file;
 use super::pigments::pigments;
 use crate::document::assets::Triangles;
 use crate::document::keys::{Keys, Variant};
 use crate::document::limits::Limits;
+use crate::document::named_asset::{asset, bad_file};
 use crate::document::value_kind::{Integer, ListOf, MapOf, Number, Numbers, Text, Vector};
 use crate::mosaic::Surface;
 use crate::mosaic::pattern::MosaicPattern;
 use crate::mosaic::shapes::Shape;
+use crate::optics::contents_keys::{changed_contents, warn_of_mixture};
 use crate::optics::{Contents, Pigments};
 use crate::solid::{Raised, SolidMesh, SolidPlan, SolidShape, creased, smooth_normals};
 

@@ -8,8 +8,8 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::posture::LEAST_AWAY;
 use super::{BorneLeaf, Foot, PlantPlan};
+use crate::random::{Use, bell};
 use crate::rotation::about;
-use crate::shape::chance::{Use, bell};
 use crate::shell::{Extent, cross, each_near, sweep};
 
 /// Standard deviation of the turns about each axis that come first and last, radians.

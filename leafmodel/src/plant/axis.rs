@@ -4,8 +4,9 @@ use glam::{DQuat, DVec3};
 
 use super::climbing::Wall;
 use super::{AxisPlan, PlantError};
+use crate::plane::polyline;
+use crate::random::{Use, bell};
 use crate::rotation::about;
-use crate::shape::chance::{Use, bell};
 
 /// Radius of the tightest bend by which an axis follows a wall, mm: it bridges narrow joints.
 const STIFFNESS_MM: f64 = 60.0;
@@ -168,10 +169,7 @@ impl Axis {
         let needed: Vec<f64> = (self.points.iter().zip(&self.radii))
             .map(|(point, radius)| wall.needed(*point, *radius))
             .collect();
-        let mut ways = vec![0.0];
-        for pair in self.points.windows(2) {
-            ways.push(ways[ways.len() - 1] + pair[0].distance(pair[1]));
-        }
+        let ways = polyline::lengths(&self.points);
         let lifted: Vec<f64> = (0..needed.len())
             .map(|here| {
                 let bridge = |there: usize| {

@@ -11,7 +11,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::shape::chance::{Use, uniform};
+use crate::document::declared::Declared;
+use crate::document::keys::Keys;
+use crate::numeric::{between, smooth_step};
+use crate::random::{Use, uniform};
 
 /// Greatest height over the radius of the axis there, so that thin twigs keep their form.
 const MOST_OF_RADIUS: f64 = 0.3;
@@ -23,20 +26,37 @@ const FADE: f64 = 0.05;
 const FEWEST_RIDGES: f64 = 3.0;
 
 /// The relief of the axes of a plant.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
+#[key(last = not_crowded)]
 pub struct BarkRelief {
-    /// Height of ridges over the furrows between them, mm, 0 to 20.
+    /// Height of the ridges along an axis over the furrows between them.
+    #[key("ridges_mm", 0.0..=20.0)]
     pub ridges_mm: f64,
-    /// Distance from ridge to ridge around the axis, mm, 0.1 to 100.
+    /// Distance from ridge to ridge around the thickest part of an axis; they are eight times as
+    /// long.
+    #[key("ridge_width_mm", 0.1..=100.0)]
     pub ridge_width_mm: f64,
-    /// Lenticels on a square centimetre, 0 to 200.
+    /// Lenticels, the pores of bark, on a square centimetre.
+    #[key("lenticels_per_cm2", 0.0..=200.0)]
     pub lenticels_per_cm2: f64,
-    /// Their lengths across and along the axis, mm, 0.1 to 50.
+    /// Their lengths across and along the axis.
+    #[key("lenticel_mm", 0.1..=50.0)]
     pub lenticel_mm: [f64; 2],
-    /// Their height, mm, 0 to 5.
+    /// Their height.
+    #[key("lenticel_height_mm", 0.0..=5.0)]
     pub lenticel_height_mm: f64,
-    /// Longest edge of the mesh, mm, 0.02 to 20.
+    /// About the longest edge of the mesh along and around an axis.
+    #[key("edge_mm", 0.02..=20.0)]
     pub edge_mm: f64,
+}
+
+/// Reports lenticels that would cover all of the bark.
+fn not_crowded(relief: &BarkRelief, keys: &Keys<'_>) {
+    if keys.is_sound() && relief.is_crowded() {
+        let problem = "so many of that size would cover all of the bark".to_owned();
+        let help = "use fewer, or smaller ones by `lenticel_mm`";
+        keys.refuse(&["lenticels_per_cm2"], problem, help);
+    }
 }
 
 impl BarkRelief {
@@ -93,7 +113,7 @@ impl AxisRelief {
             return 0.0;
         }
         let to_end = way.min(self.length - way).max(0.0);
-        let ramp = smooth((to_end / (2.0 * self.widest)).min(1.0));
+        let ramp = smooth_step((to_end / (2.0 * self.widest)).min(1.0));
         let fits = (MOST_OF_RADIUS * radius / most).min(1.0);
         ramp * fits * (self.ridge(way, turn) + self.lenticel(way, turn, radius))
     }
@@ -121,10 +141,10 @@ impl AxisRelief {
         let (row, column) = (along.floor(), across.floor());
         let at =
             |row: f64, column: f64| self.chance(0, row as i64, (column as i64).rem_euclid(around));
-        let [up, aside] = [along - row, across - column].map(smooth);
-        let near = mixed(at(row, column), at(row, column + 1.0), aside);
-        let far = mixed(at(row + 1.0, column), at(row + 1.0, column + 1.0), aside);
-        relief.ridges_mm * (1.0 - (2.0 * mixed(near, far, up) - 1.0).abs())
+        let [up, aside] = [along - row, across - column].map(smooth_step);
+        let near = between(at(row, column), at(row, column + 1.0), aside);
+        let far = between(at(row + 1.0, column), at(row + 1.0, column + 1.0), aside);
+        relief.ridges_mm * (1.0 - (2.0 * between(near, far, up) - 1.0).abs())
     }
 
     fn lenticel(&self, way: f64, turn: f64, radius: f64) -> f64 {
@@ -166,15 +186,6 @@ impl AxisRelief {
         }
         relief.lenticel_height_mm * most * (2.0 - most)
     }
-}
-
-fn mixed(from: f64, to: f64, share: f64) -> f64 {
-    from + (to - from) * share
-}
-
-/// From 0 to 1 with level ends.
-fn smooth(share: f64) -> f64 {
-    share * share * (3.0 - 2.0 * share)
 }
 
 #[cfg(test)]

@@ -13,8 +13,9 @@ use super::{
     Phyllotaxis, Plant, PlantError, PlantPlan,
 };
 use crate::blade::stalk::StalkMesh;
+use crate::plane::polyline;
+use crate::random::{Use, uniform};
 use crate::rotation::about;
-use crate::shape::chance::{Use, uniform};
 
 /// How deep the foot of a petiole stands in its axis, as a share of the radius there.
 const SUNK: f64 = 0.25;
@@ -201,7 +202,7 @@ impl Builder<'_> {
             return Ok(());
         }
         let apart = 1.0 / climbing.rootlets_per_mm;
-        let whole: f64 = axis.points.windows(2).map(|p| p[0].distance(p[1])).sum();
+        let whole = polyline::length(&axis.points);
         let (mut way, mut next, mut count) = (0.0, apart, 0_u64);
         for (piece, pair) in axis.points.windows(2).enumerate() {
             let length = pair[0].distance(pair[1]);
@@ -398,7 +399,7 @@ impl Builder<'_> {
         let Some(relief) = self.plan.relief else {
             return self.tube(&axis.points, &axis.radii);
         };
-        let length: f64 = axis.points.windows(2).map(|p| p[0].distance(p[1])).sum();
+        let length = polyline::length(&axis.points);
         let widest = axis.radii.iter().copied().fold(0.0, f64::max);
         let around = std::f64::consts::TAU * widest / relief.edge_mm;
         // With those of both ends.

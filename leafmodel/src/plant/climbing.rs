@@ -2,19 +2,42 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::document::declared::Declared;
+use crate::document::keys::Keys;
+use crate::plane::bounds;
 use crate::rotation::about;
 
 /// How a plant climbs. Angles are radians.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
+#[key(last = away_from_wall)]
 pub struct Climbing {
-    /// Unit vector away from the wall, which goes through the plant's foot.
+    /// Away from the wall, in the plant's frame; any length but 0. The wall goes through the
+    /// plant's foot.
+    #[key("away", -1e6..=1e6)]
     pub away: DVec3,
-    /// Angle by which petioles stand off the wall, 0 to 1.5.
+    /// Angle by which petioles stand off the wall.
+    ///
+    /// Radians.
+    #[key("lift_deg", degrees(0.0..=85.0))]
     pub lift: f64,
-    /// Least distance between blades and wall, mm, 0 to 1000.
+    /// Least distance between blades, taken flat, and the wall.
+    #[key("clearance_mm", 0.0..=1000.0)]
     pub clearance_mm: f64,
-    /// Adventitious roots by which axes hold on, for each millimetre of them, 0 to 20.
+    /// Adventitious roots by which axes hold on, for each millimetre of them.
+    #[key("rootlets_per_mm", 0.0..=20.0)]
     pub rootlets_per_mm: f64,
+}
+
+/// Gives the direction away from the wall the length 1.
+fn away_from_wall(climbing: &mut Climbing, keys: &Keys<'_>) {
+    match climbing.away.try_normalize() {
+        Some(away) => climbing.away = away,
+        None => keys.refuse(
+            &["away"],
+            "a direction of length 0 is none".to_owned(),
+            "write the direction in which the wall faces, such as `[1, 0, 0]`",
+        ),
+    }
 }
 
 impl Climbing {
@@ -75,11 +98,7 @@ impl Wall {
             .flatten()
             .copied()
             .filter(|c| c.is_finite());
-        let (mut least, mut most) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        for corner in corners.map(on) {
-            least = least.min(corner);
-            most = most.max(corner);
-        }
+        let (least, most) = bounds(corners.map(on));
         let extent = most - least;
         if !extent.is_finite() || extent.min_element() <= 0.0 {
             return wall;
@@ -175,32 +194,6 @@ impl Wall {
 }
 
 impl Climbing {
-    /// Checks whether all its numbers are in range; the name of one that is not, its value and range.
-    pub(super) fn fault(&self) -> Option<(&'static str, f64, &'static str)> {
-        let length = self.away.length();
-        let all = [
-            ("climbing.away", length, 0.999, 1.001, "a unit vector"),
-            ("climbing.lift_deg", self.lift, 0.0, 1.5, "0 to 85°"),
-            (
-                "climbing.clearance_mm",
-                self.clearance_mm,
-                0.0,
-                1000.0,
-                "0 to 1000",
-            ),
-            (
-                "climbing.rootlets_per_mm",
-                self.rootlets_per_mm,
-                0.0,
-                20.0,
-                "0 to 20",
-            ),
-        ];
-        all.into_iter()
-            .find(|(_, value, least, most, _)| !(*least..=*most).contains(value))
-            .map(|(field, value, _, _, range)| (field, value, range))
-    }
-
     /// The direction in which a petiole stands out from an axis on the wall, of which `radial` is
     /// the part along the wall.
     pub(super) fn lifted(&self, radial: DVec3, along: DVec3) -> DVec3 {

@@ -11,25 +11,37 @@ use super::StalkError;
 use super::axis::level;
 use super::turned::ribbed;
 use crate::blade::stalk::StalkMesh;
+use crate::document::declared::Declared;
+use crate::random::{Use, bell};
 use crate::rotation::about;
-use crate::shape::chance::{Use, bell};
 
 /// The numbers of a flower. Angles are radians.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct FlowerPlan {
-    /// Sepals, petals, stamens of either whorl, stigmas: so many of each, 2 to 12.
+    /// Sepals, petals, stamens of either whorl, stigmas: so many of each.
+    #[key("parts", 2..=12)]
     pub parts: u32,
-    /// Length of the peduncle, mm, 1 to 1000.
+    /// Length of the peduncle.
+    #[key("peduncle_mm", 1.0..=1000.0)]
     pub peduncle_mm: f64,
-    /// Its radius, mm, 0.1 to 20.
+    /// Radius of the peduncle.
+    #[key("peduncle_radius_mm", 0.1..=20.0)]
     pub peduncle_radius_mm: f64,
-    /// Angle by which it leans away from the axis that bears it, 0 to 2.5.
+    /// Angle by which it leans away from the axis that bears it.
+    ///
+    /// Radians.
+    #[key("nod_deg", degrees(0.0..=143.0))]
     pub nod: f64,
-    /// Angles of the feet of sepals and petals from the flower's axis, 0.05 to 3.
+    /// Angles of the feet of sepals and of petals from the flower's axis.
+    ///
+    /// Radians.
+    #[key("angles_deg", degrees(3.0..=170.0))]
     pub angles: [f64; 2],
-    /// Lengths of filament and anther, mm, 0.2 to 100.
+    /// Lengths of filament and anther.
+    #[key("stamens_mm", 0.2..=100.0)]
     pub stamens_mm: [f64; 2],
-    /// Lengths of ovary and stigmas, mm, 0.2 to 100.
+    /// Lengths of ovary and stigmas.
+    #[key("pistil_mm", 0.2..=100.0)]
     pub pistil_mm: [f64; 2],
 }
 

@@ -3,8 +3,8 @@
 use glam::{DMat3, DVec3};
 
 use super::{Foot, Posture};
+use crate::random::{Use, bell};
 use crate::rotation::about;
-use crate::shape::chance::{Use, bell};
 
 /// Least cosine of the petiole's foot to the direction away from the axis that turning to the light
 /// leaves: it does not bend into the axis.

@@ -9,30 +9,41 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::turned::turned;
 use crate::blade::stalk::StalkMesh;
-use crate::shape::chance::{Use, bell, uniform};
+use crate::document::declared::Declared;
+use crate::random::{Use, bell, uniform};
 
 /// The numbers of a pot.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct PotPlan {
-    /// Outer diameter at the rim, mm, 20 to 2000.
+    /// Outer diameter at the rim.
+    #[key("diameter_mm", 20.0..=2000.0)]
     pub diameter_mm: f64,
-    /// Height, mm, 20 to 2000.
+    /// Height, without the dish.
+    #[key("height_mm", 20.0..=2000.0)]
     pub height_mm: f64,
-    /// Diameter of the foot over that of the body below the rim, 0.3 to 1.
+    /// Diameter of the foot over that at the top of the body, without the rim.
+    #[key("taper", 0.3..=1.0)]
     pub taper: f64,
-    /// Thickness of the wall, mm, 1 to 100.
+    /// Thickness of the wall.
+    #[key("wall_mm", 1.0..=100.0)]
     pub wall_mm: f64,
-    /// Height of the rim, and how far it stands out from the body, mm, 0 to 500.
+    /// Height of the rim, and how far it stands out; with a 0 there is none.
+    #[key("rim_mm", 0.0..=500.0)]
     pub rim_mm: [f64; 2],
     /// Whether it stands in a dish.
+    #[key("dish")]
     pub dish: bool,
-    /// Height of the soil over the pot's, 0.2 to 1.
+    /// Height of the soil over that of the pot.
+    #[key("fill", 0.2..=1.0)]
     pub fill: f64,
-    /// Crumbs for each square centimetre of soil, 0 to 100.
+    /// Crumbs for each square centimetre of soil.
+    #[key("crumbs_per_cm2", 0.0..=100.0)]
     pub crumbs_per_cm2: f64,
-    /// Largest radius of a crumb, mm, 0.1 to 50.
+    /// Radius of the largest crumbs; most are much smaller.
+    #[key("crumb_mm", 0.1..=50.0)]
     pub crumb_mm: f64,
-    /// Moisture of the soil, 0 dry to 1 wet.
+    /// Moisture of the soil, from 0 dry to 1 wet.
+    #[key("moisture", 0.0..=1.0)]
     pub moisture: f64,
 }
 

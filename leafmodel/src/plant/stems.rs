@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::climbing::Wall;
 use super::{AxisPlan, Phyllotaxis, PlantPlan};
+use crate::random::{Use, uniform};
 use crate::rotation::about;
-use crate::shape::chance::{Use, uniform};
 
 /// Least length of the stems of a plant over that of the first.
 const SHORTEST_STEM: f64 = 0.6;

@@ -14,13 +14,17 @@ use thiserror::Error;
 
 use super::cubic::{Cubic, FLATNESS};
 use super::outline::{Outline, OutlineError};
-
-/// The greatest number of control points.
-const MOST_POINTS: usize = 1000;
-
-/// Farthest that a control point may lie from the base across or along the leaf, in lengths of the
-/// midrib.
-const FARTHEST: f64 = 10.0;
+use crate::document::context::{Context, QUOTED};
+use crate::document::declared::Declared;
+use crate::document::error::DocumentError;
+use crate::document::limits::Limits;
+use crate::document::nearest::nearest;
+use crate::document::ranges::RangeError;
+use crate::document::schema::Type;
+use crate::document::source::escaped;
+use crate::document::tree::{Node, Value};
+use crate::document::value_kind::{Kind, ListOf};
+use crate::document::values::{list, number, number_at, text_at, wrong_length, wrong_type};
 
 /// A point that the contour passes through.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,36 +36,94 @@ pub struct ControlPoint {
     pub corner: bool,
 }
 
+/// The points of a contour.
+const POINTS: ListOf<Point> = ListOf {
+    of: Point,
+    least: 3,
+    most: 1000,
+    wanted: "a list of 3 to 1000 points, [x, y] or [x, y, \"corner\"]",
+};
+
+/// `[x, y]` or `[x, y, "corner"]`.
+#[derive(Clone, Copy, Debug)]
+struct Point;
+
+impl Point {
+    const LIMITS: Limits = Limits::closed(-10.0, 10.0);
+    const ONE: &str = "a point, [x, y] or [x, y, \"corner\"]";
+}
+
+impl Kind for Point {
+    type Of = ControlPoint;
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<ControlPoint> {
+        let Value::List(parts) = &node.value else {
+            wrong_type(cx, node, key, Self::ONE);
+            return None;
+        };
+        let (x, y, corner) = match parts.as_slice() {
+            [x, y] => (x, y, Some(false)),
+            [x, y, word] => (x, y, read_corner(cx, word, key)),
+            _ => {
+                wrong_length(cx, &node.at, key, "a list", parts.len(), Self::ONE);
+                return None;
+            }
+        };
+        let [x, y] = [x, y].map(|node| number_at(cx, node, key, Self::LIMITS));
+        Some(ControlPoint {
+            place: [x?, y?],
+            corner: corner?,
+        })
+    }
+
+    fn write(&self, point: &ControlPoint) -> Value {
+        let corner = point.corner.then(|| Value::Text("corner".to_owned()));
+        list(point.place.map(number).into_iter().chain(corner))
+    }
+
+    fn describe(&self) -> Type {
+        let place = || vec![Type::Number(Self::LIMITS); 2];
+        let mut corner = place();
+        corner.push(Type::Word(vec!["corner".to_owned()]));
+        Type::AnyOf(vec![Type::Tuple(place()), Type::Tuple(corner)], Self::ONE)
+    }
+}
+
+/// The word `"corner"`.
+fn read_corner(cx: &Context, node: &Node, key: &str) -> Option<bool> {
+    let (word, at) = text_at(cx, node, key)?;
+    if word == "corner" {
+        return Some(true);
+    }
+    let error = DocumentError::UnknownWord {
+        key: key.to_owned(),
+        word: escaped(word, QUOTED),
+        nearest: nearest(word, ["corner"]).map(str::to_owned),
+        known: "`corner`".to_owned(),
+    };
+    cx.error(at, error);
+    None
+}
+
 /// A contour through control points.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct ContourCurve {
-    /// The points in order, 3 to 1000. If mirrored, the first is the base, (0, 0), the last the
-    /// apex, (0, 1), and those between are the right side; else they go once around the margin, in
-    /// either sense.
-    pub points: Vec<ControlPoint>,
-    /// Whether the left side is the mirror image of the right one.
+    /// The points are the right side, from the base `[0, 0]` to the apex `[0, 1]`, and the left side
+    /// is its mirror image. If false, they go all round.
+    #[key("mirrored")]
     pub mirrored: bool,
+    /// `[[x, y], [x, y, "corner"], …]`: in order; the word makes a corner where else the curve is
+    /// smooth.
+    #[key("points", required, POINTS)]
+    pub points: Vec<ControlPoint>,
 }
 
 /// Why control points give no outline.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ContourCurveError {
-    /// Too few or too many.
-    #[error("a contour has 3 to 1000 control points, here are {points}")]
-    PointCount {
-        /// How many there are.
-        points: usize,
-    },
-    /// A coordinate is not finite or lies far outside the leaf.
-    #[error("control point {index} is ({x}, {y}), outside -10 to 10 (lengths of the midrib)")]
-    OutOfRange {
-        /// Which point, from 0.
-        index: usize,
-        /// Across the midrib.
-        x: f64,
-        /// Along the midrib.
-        y: f64,
-    },
+    /// Too few points or too many, or one that lies far outside the leaf.
+    #[error("control points: {0}")]
+    Range(#[from] RangeError),
     /// A point coincides with the point before it. The point before the first is the last.
     #[error("control point {index} lies where the one before it does")]
     Coincident {
@@ -145,16 +207,9 @@ impl ContourCurve {
     }
 
     fn validate(&self) -> Result<(), ContourCurveError> {
+        self.in_range()?;
         let points = self.points.len();
-        if !(3..=MOST_POINTS).contains(&points) {
-            return Err(ContourCurveError::PointCount { points });
-        }
-        let allowed = -FARTHEST..=FARTHEST;
         for (index, point) in self.points.iter().enumerate() {
-            let [x, y] = point.place;
-            if !(allowed.contains(&x) && allowed.contains(&y)) {
-                return Err(ContourCurveError::OutOfRange { index, x, y });
-            }
             let before = self.points[(index + points - 1) % points].place;
             if point.place == before {
                 return Err(ContourCurveError::Coincident { index });
@@ -294,13 +349,13 @@ mod tests {
             spoil(&mut curve);
             curve.grow(50.0).expect_err("a bad contour")
         };
-        assert_eq!(
+        assert!(matches!(
             spoiled(|c| c.points.truncate(2)),
-            ContourCurveError::PointCount { points: 2 }
-        );
+            ContourCurveError::Range(error) if error.value == "a list of 2"
+        ));
         assert!(matches!(
             spoiled(|c| c.points[1].place[0] = f64::NAN),
-            ContourCurveError::OutOfRange { index: 1, .. }
+            ContourCurveError::Range(error) if error.path == "points[1]"
         ));
         assert_eq!(
             spoiled(|c| c.points[2] = c.points[1]),

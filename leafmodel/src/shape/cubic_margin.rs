@@ -12,20 +12,28 @@ use thiserror::Error;
 
 use super::cubic::{Cubic, FLATNESS};
 use super::outline::{Outline, OutlineError};
+use crate::document::declared::Declared;
+use crate::document::ranges::RangeError;
 
 /// One side as a cubic Bézier spline from base to tip; the other is its mirror image. Lengths are
 /// in units of the leaf's length; the letters are the article's.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct CubicMargin {
-    /// `Angle1`: direction of the handle at the base from the midrib, degrees, 0 to 180, both
-    /// excluded.
+    /// Angle at the base between midrib and margin.
+    ///
+    /// `Angle1`: direction of the handle at the base from the midrib, both excluded.
+    #[key("angle1_deg", open(0.0, 180.0))]
     pub angle1_deg: f64,
-    /// `L1`: length of that handle, 0.01 to 10.
+    /// Length of the handle at the base, in midribs.
+    #[key("length1", 0.01..=10.0)]
     pub length1: f64,
-    /// `Angle2`: direction of the handle at the tip from the midrib, degrees, 0 to 180, both
-    /// excluded.
+    /// Angle at the apex.
+    ///
+    /// `Angle2`: direction of the handle at the tip from the midrib, both excluded.
+    #[key("angle2_deg", open(0.0, 180.0))]
     pub angle2_deg: f64,
-    /// `L2`: length of that handle, 0.01 to 10.
+    /// Length of the handle at the apex, in midribs.
+    #[key("length2", 0.01..=10.0)]
     pub length2: f64,
 }
 
@@ -45,15 +53,8 @@ impl Default for CubicMargin {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum CubicMarginError {
     /// A number is out of its range.
-    #[error("{key} is {value}, outside {range}")]
-    OutOfRange {
-        /// Which parameter.
-        key: &'static str,
-        /// What it was.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Range(#[from] RangeError),
     /// The splines cross, or enclose no area.
     #[error("the splines of these angles and lengths are no margin: {0}")]
     Margin(#[from] OutlineError),
@@ -64,25 +65,9 @@ impl CubicMargin {
     ///
     /// # Errors
     ///
-    /// [`CubicMarginError::OutOfRange`] for the first number that is out of range.
+    /// [`CubicMarginError::Range`] for the first number that is out of range.
     pub fn validate(&self) -> Result<(), CubicMarginError> {
-        // The ends are excluded, so the ranges go to the neighbouring floating-point numbers.
-        let angles = (
-            f64::MIN_POSITIVE..=180.0_f64.next_down(),
-            "0 to 180 degrees, both excluded",
-        );
-        let lengths = (0.01..=10.0, "0.01 to 10");
-        for (key, value, (allowed, range)) in [
-            ("angle1_deg", self.angle1_deg, &angles),
-            ("length1", self.length1, &lengths),
-            ("angle2_deg", self.angle2_deg, &angles),
-            ("length2", self.length2, &lengths),
-        ] {
-            if !allowed.contains(&value) {
-                return Err(CubicMarginError::OutOfRange { key, value, range });
-            }
-        }
-        Ok(())
+        Ok(self.in_range()?)
     }
 
     /// The margin of a leaf whose midrib goes from the origin to (0, `length_mm`), 0.001 to 100
@@ -94,13 +79,13 @@ impl CubicMargin {
     /// valid margin.
     pub fn grow(&self, length_mm: f64) -> Result<Outline, CubicMarginError> {
         self.validate()?;
-        if !(1e-3..=1e5).contains(&length_mm) {
-            return Err(CubicMarginError::OutOfRange {
-                key: "length_mm",
-                value: length_mm,
-                range: "0.001 to 100000 (millimetres)",
-            });
-        }
+        let limits = "0.001 to 100000";
+        RangeError::unless(
+            (1e-3..=1e5).contains(&length_mm),
+            "length_mm",
+            length_mm,
+            limits,
+        )?;
         let left = self.flat();
         // From (x along, y across to the left) to (right, up).
         let place = |p: DVec2, side: f64| DVec2::new(-p.y * side, p.x) * length_mm;
@@ -164,7 +149,7 @@ mod tests {
             angle1_deg: 0.0,
             ..CubicMargin::default()
         };
-        let expected = "angle1_deg is 0, outside 0 to 180 degrees, both excluded";
+        let expected = "angle1_deg is 0, outside the values between 0 and 180";
         assert_eq!(refusal(flat), expected);
         let long = CubicMargin {
             length2: f64::NAN,

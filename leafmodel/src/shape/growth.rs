@@ -16,6 +16,7 @@
 //!
 //! \[runions2005\], Appendix A, Eq. 4 and Fig. 5.
 
+use crate::numeric::bisect;
 use glam::DVec2;
 use thiserror::Error;
 
@@ -246,19 +247,8 @@ pub(crate) fn arrival(initial: f64, along: &RateCurve, last: f64) -> Result<f64,
             return Err(GrowthError::NeverArrives { initial, last });
         }
     }
-    let mut low = high * 0.5;
-    if high <= 1.0 {
-        low = 0.0;
-    }
-    for _ in 0..80 {
-        let middle = 0.5 * (low + high);
-        if length(middle) < last {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    Ok(high)
+    let low = if high <= 1.0 { 0.0 } else { high * 0.5 };
+    Ok(bisect(low, high, 80, |t| length(t) < last).1)
 }
 
 #[cfg(test)]

@@ -19,6 +19,7 @@
 mod axes;
 mod check;
 mod error;
+mod keys;
 #[cfg(test)]
 mod palmate_tests;
 mod row_curve;

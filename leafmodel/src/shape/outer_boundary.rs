@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::segments::crossing;
+use crate::plane::segment::crossing;
 
 /// The outer boundary of the closed polyline `points`, counter-clockwise, starting at `points[0]`.
 ///

@@ -6,16 +6,14 @@
 //!   touches another; the enclosed area is positive; both ends of the midrib lie on the blade.
 //!
 //! Away from the margin, queries are answered by the coarse cells of `shape::interior_grid`; near
-//! it, by the horizontal slabs of `shape::slabs`. The cost depends on the few edges at the same
+//! it, by the horizontal slabs of `plane::slabs`. The cost depends on the few edges at the same
 //! height, not on the whole margin.
 
 use glam::DVec2;
 use thiserror::Error;
 
-use super::crossing::first_crossing;
-use super::interior_grid::InteriorGrid;
-use super::slabs::Slabs;
 use super::tips::Knob;
+use crate::plane::{InteriorGrid, Slabs, bounds, first_crossing, polygon};
 
 /// How far off the blade an end of the midrib may lie, as a share of the outline's extent: rounding
 /// only.
@@ -114,7 +112,7 @@ impl Outline {
             });
         }
         let slabs = Slabs::new(&points);
-        let (area, perimeter) = (signed_area(&points), perimeter(&points));
+        let (area, perimeter) = (polygon::signed_area(&points), polygon::perimeter(&points));
         // Below this share, the area of the polygon is rounding noise of its coordinates.
         if area.abs() <= 1e-12 * perimeter * perimeter {
             return Err(OutlineError::NoArea);
@@ -214,21 +212,17 @@ impl Outline {
 
     /// Area inside the margin, mm², > 0.
     pub fn area(&self) -> f64 {
-        signed_area(&self.points)
+        polygon::signed_area(&self.points)
     }
 
     /// Length of the margin, mm, > 0.
     pub fn perimeter(&self) -> f64 {
-        perimeter(&self.points)
+        polygon::perimeter(&self.points)
     }
 
     /// Lower left and upper right corner of the smallest upright rectangle around the blade, mm.
     pub fn bounds(&self) -> (DVec2, DVec2) {
-        self.points
-            .iter()
-            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| {
-                (low.min(p), high.max(p))
-            })
+        bounds(self.points.iter().copied())
     }
 
     /// The margin with `centre` moved to the origin, then enlarged by `factor` > 0. Nothing is
@@ -266,24 +260,6 @@ impl Outline {
             knobs: Vec::new(),
         }
     }
-}
-
-/// Area of a polygon, positive when it is counter-clockwise (shoelace formula about its first
-/// corner).
-fn signed_area(points: &[DVec2]) -> f64 {
-    let origin = points[0];
-    let doubled: f64 = points
-        .windows(2)
-        .map(|edge| (edge[0] - origin).perp_dot(edge[1] - origin))
-        .sum();
-    0.5 * doubled
-}
-
-/// Length of a closed polygon.
-fn perimeter(points: &[DVec2]) -> f64 {
-    let closing = (points[0] - points[points.len() - 1]).length();
-    let open: f64 = points.windows(2).map(|e| (e[1] - e[0]).length()).sum();
-    open + closing
 }
 
 #[cfg(test)]

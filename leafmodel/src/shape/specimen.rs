@@ -21,25 +21,33 @@ pub use self::ends::{ApexShape, BaseShape};
 use super::outline::{Outline, OutlineError};
 use super::teeth::LobeTips;
 use super::tips::Tip;
+use crate::document::declared::Declared;
+use crate::document::ranges::RangeError;
+use crate::plane::polygon;
 
 /// Longest edge of a margin that is to be bent, as a share of the midrib's length.
 const LONGEST_EDGE: f64 = 0.004;
 
 /// How the margin of a specimen departs from its contour.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Specimen {
-    /// Factor on the width, 0.2 to 5.
+    /// Factor on the width of the contour.
+    #[key("breadth", 0.2..=5.0)]
     pub breadth: f64,
     /// The base, where it is not the contour's.
+    #[key("base", block, default = BaseShape::Cordate { depth: 0.08, width: 0.3 })]
     pub base: Option<BaseShape>,
-    /// How much lower the right half of the blade begins than the left, as a share of the midrib's
-    /// length, −0.3 to 0.3.
+    /// How much lower the right half of the blade begins than the left, as a share of the length.
+    #[key("oblique", -0.3..=0.3)]
     pub oblique: f64,
     /// The apex, where it is not the contour's.
+    #[key("apex", block, default = ApexShape::Acuminate { length: 0.15, narrowing: 0.6 })]
     pub apex: Option<ApexShape>,
     /// How left and right differ by chance.
+    #[key("asymmetry", block)]
     pub asymmetry: Asymmetry,
-    /// What ends pointed lobes.
+    /// What ends pointed lobes and the apex.
+    #[key("lobe_tip", block)]
     pub lobe_tip: Option<Tip>,
 }
 
@@ -61,15 +69,8 @@ impl Default for Specimen {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SpecimenError {
     /// A number out of range.
-    #[error("{key} is {value}, outside {range}")]
-    OutOfRange {
-        /// The block's keys, down to the number.
-        key: &'static str,
-        /// What it was.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Range(#[from] RangeError),
     /// A sinus that is there already.
     #[error(
         "a cordate base of depth {depth} needs a contour that reaches less far below the petiole: this one goes {there:.3} below it"
@@ -123,30 +124,13 @@ impl Specimen {
         }
     }
 
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`SpecimenError::OutOfRange`].
-    pub fn validate(&self) -> Result<(), SpecimenError> {
-        within("breadth", self.breadth, 0.2, 5.0, "0.2 to 5")?;
-        within("oblique", self.oblique, -0.3, 0.3, "-0.3 to 0.3")?;
-        self.base.map_or(Ok(()), BaseShape::validate)?;
-        self.apex.map_or(Ok(()), ApexShape::validate)?;
-        self.asymmetry.validate()?;
-        match self.lobe_tip.and_then(|tip| tip.fault()) {
-            Some((key, value, range)) => Err(SpecimenError::OutOfRange { key, value, range }),
-            None => Ok(()),
-        }
-    }
-
     /// The outline of the specimen. `seed` decides how its sides differ.
     ///
     /// # Errors
     ///
     /// [`SpecimenError`].
     pub fn applied(&self, outline: Outline, seed: u64) -> Result<Outline, SpecimenError> {
-        self.validate()?;
+        self.in_range()?;
         if self.keeps_contour() {
             return Ok(outline);
         }
@@ -174,33 +158,13 @@ impl Specimen {
     }
 }
 
-/// Refuses a number out of range by its key.
-fn within(
-    key: &'static str,
-    value: f64,
-    least: f64,
-    most: f64,
-    range: &'static str,
-) -> Result<(), SpecimenError> {
-    if (least..=most).contains(&value) {
-        Ok(())
-    } else {
-        Err(SpecimenError::OutOfRange { key, value, range })
-    }
-}
-
 /// A closed polygon with corners added, so that no edge is longer than `longest`.
 fn finely(polygon: &[DVec2], longest: f64) -> Vec<DVec2> {
-    let ends = polygon.iter().zip(polygon.iter().cycle().skip(1));
-    ends.flat_map(|(&from, &to)| {
-        let pieces = (from.distance(to) / longest).ceil().clamp(1.0, 1e4);
-        (0..pieces as u32).map(move |i| from.lerp(to, f64::from(i) / pieces))
-    })
-    .collect()
-}
-
-/// A smooth step from 0 at 0 to 1 at 1.
-fn step(x: f64) -> f64 {
-    let x = x.clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
+    let sides = polygon::sides(polygon);
+    sides
+        .flat_map(|(from, to)| {
+            let pieces = (from.distance(to) / longest).ceil().clamp(1.0, 1e4);
+            (0..pieces as u32).map(move |i| from.lerp(to, f64::from(i) / pieces))
+        })
+        .collect()
 }

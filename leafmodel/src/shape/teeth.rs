@@ -20,8 +20,10 @@ use thiserror::Error;
 use self::layout::Layout;
 pub use self::wave::{ToothForm, ToothWave};
 use super::outline::{Outline, OutlineError};
-use super::segments::{Place, nearest_on_closed};
 use super::tips::{Tip, lobe_corners, with_tips};
+use crate::document::declared::Declared;
+use crate::document::ranges::RangeError;
+use crate::plane::polygon::{self, Place};
 
 /// Greatest number of waves of a margin.
 const MOST_WAVES: usize = 20;
@@ -30,16 +32,12 @@ const MOST_WAVES: usize = 20;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum TeethError {
     /// A number out of range.
-    #[error("teeth {index}: {key} is {value}, outside {range}")]
-    OutOfRange {
+    #[error("teeth {index}: {error}")]
+    Range {
         /// Which wave, from 0.
         index: usize,
-        /// Which parameter.
-        key: &'static str,
-        /// What it was.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
+        /// What is out of range.
+        error: RangeError,
     },
     /// Too many waves.
     #[error("a margin has at most 20 waves of teeth, here are {waves}")]
@@ -172,7 +170,8 @@ fn check(waves: &[ToothWave]) -> Result<(), TeethError> {
         return Err(TeethError::TooManyWaves { waves: waves.len() });
     }
     for (index, wave) in waves.iter().enumerate() {
-        wave.validate(index)?;
+        wave.in_range()
+            .map_err(|error| TeethError::Range { index, error })?;
         if !wave.nested {
             continue;
         }
@@ -286,7 +285,7 @@ impl Side {
 fn sides(outline: &Outline) -> [Vec<DVec2>; 2] {
     let points = outline.points();
     let n = points.len();
-    let [base, apex] = [outline.base(), outline.apex()].map(|p| nearest_on_closed(points, p));
+    let [base, apex] = [outline.base(), outline.apex()].map(|p| polygon::nearest(points, p));
     // Counter-clockwise from one end to the other.
     let walk = |from: &Place, to: &Place| {
         let corners = if from.edge == to.edge && from.along <= to.along {

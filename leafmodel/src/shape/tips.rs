@@ -6,26 +6,40 @@
 
 use glam::DVec2;
 
+use crate::document::declared::Declared;
+use crate::optics::contents_keys::changed_contents;
 use crate::optics::{Constituent, Contents};
 
 /// The end of a tooth, a lobe or a blade. Lengths are shares of the midrib's length.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub enum Tip {
-    /// A knob, as that on the teeth of cherries and willows.
+    /// A knob.
+    ///
+    /// As that on the teeth of cherries and willows.
     Gland(Gland),
-    /// A short point, set off from what it ends.
+    /// A short point, set off.
     Mucro(Point),
-    /// A bristle, as that on the lobes of red oaks: as wide as a hair but at its foot.
+    /// A bristle.
+    ///
+    /// As that on the lobes of red oaks: as wide as a hair but at its foot.
     Awn(Point),
 }
 
 /// A knob that stands on a corner, of tissue of its own.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Gland {
-    /// Its diameter, 0.0001 to 0.05.
+    /// Its diameter, as a share of the leaf's length.
+    #[key("diameter", 1e-4..=0.05)]
     pub diameter: f64,
     /// What it holds.
+    #[key("contents", block, with = changed_contents)]
     pub contents: Contents,
+}
+
+impl Default for Tip {
+    fn default() -> Self {
+        Self::Mucro(Point::default())
+    }
 }
 
 impl Default for Gland {
@@ -73,11 +87,13 @@ impl Knob {
 }
 
 /// A point that stands on a corner.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Point {
-    /// How far it stands out, 0.0001 to 0.2.
+    /// How far it stands out, as a share of the leaf's length.
+    #[key("length", 1e-4..=0.2)]
     pub length: f64,
-    /// Width of its foot, 0.0001 to 0.1.
+    /// Width of its foot, likewise.
+    #[key("width", 1e-4..=0.1)]
     pub width: f64,
 }
 
@@ -95,24 +111,6 @@ impl Default for Point {
 const KNOB_EDGES: u32 = 10;
 
 impl Tip {
-    /// A number that is out of range: its name, its value and the range.
-    pub(super) fn fault(&self) -> Option<(&'static str, f64, &'static str)> {
-        let out = |value: f64, most: f64| !(1e-4..=most).contains(&value);
-        match *self {
-            Self::Gland(Gland { diameter, .. }) => {
-                out(diameter, 0.05).then_some(("diameter", diameter, "0.0001 to 0.05"))
-            }
-            Self::Mucro(point) | Self::Awn(point) => {
-                if out(point.length, 0.2) {
-                    Some(("length", point.length, "0.0001 to 0.2"))
-                } else {
-                    let is_out = out(point.width, 0.1);
-                    is_out.then_some(("width", point.width, "0.0001 to 0.1"))
-                }
-            }
-        }
-    }
-
     /// Width of the foot, as a share.
     fn foot(&self) -> f64 {
         match *self {

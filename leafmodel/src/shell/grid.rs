@@ -1,5 +1,6 @@
 //! Quadratic B-splines over the cells of a square grid that a flat shape covers.
 
+use crate::plane::polygon;
 use glam::{DVec2, DVec3};
 
 /// Marks a cell, or a control point, that the shape does not need.
@@ -62,8 +63,7 @@ impl Grid {
             knots: Vec::new(),
         };
         let mut touched = vec![false; columns * rows];
-        for (i, &a) in margin.iter().enumerate() {
-            let b = margin[(i + 1) % margin.len()];
+        for (a, b) in polygon::sides(margin) {
             let pieces = (a.distance(b) / (0.2 * spacing)).ceil().max(1.0) as usize;
             for piece in 0..pieces {
                 let [column, row] = grid.cell_at(a.lerp(b, piece as f64 / pieces as f64)).0;

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use super::grid::{Grid, quadratic};
+use crate::plane::polygon;
 
 /// Pieces of a cell along each side.
 const PIECES: usize = 2;
@@ -61,8 +62,7 @@ impl Skin {
             [at.x, at.y].map(|x| x.floor() as i32)
         };
         let mut touched: BTreeSet<[i32; 2]> = BTreeSet::new();
-        for (i, &a) in margin.iter().enumerate() {
-            let b = margin[(i + 1) % margin.len()];
+        for (a, b) in polygon::sides(margin) {
             let steps = (a.distance(b) / (0.2 * side)).ceil().max(1.0) as usize;
             for step in 0..steps {
                 touched.insert(place(a.lerp(b, step as f64 / steps as f64)));

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
+use crate::buckets::Buckets;
 use crate::mosaic::shapes::{
     Shape, ShapeError, ellipsoid, ellipsoid_triangles, lathe, rounded_cube,
 };
@@ -126,12 +127,7 @@ pub fn creased(positions: &[DVec3], faces: &[[u32; 3]]) -> Shape {
             (corner(b) - corner(a)).cross(corner(c) - corner(a))
         })
         .collect();
-    let mut around: Vec<Vec<usize>> = vec![Vec::new(); positions.len()];
-    for (number, face) in faces.iter().enumerate() {
-        for &vertex in face {
-            around[vertex as usize].push(number);
-        }
-    }
+    let around = Buckets::around(positions.len(), faces.iter().copied());
     let mut shape = Shape {
         positions: Vec::new(),
         normals: Vec::new(),
@@ -142,7 +138,8 @@ pub fn creased(positions: &[DVec3], faces: &[[u32; 3]]) -> Shape {
         let own = doubled[number].normalize_or_zero();
         let corners = face.map(|point| {
             let point = point as usize;
-            let near = around[point].iter().map(|&other| doubled[other]);
+            let near = around.list(point).iter();
+            let near = near.map(|&other| doubled[other as usize]);
             let near = near.filter(|other| other.normalize_or_zero().dot(own) > crease);
             let normal = near.sum::<DVec3>().try_normalize().unwrap_or(own);
             let known = vertices[point].iter();

@@ -12,8 +12,13 @@ use crate::venation::{Stage, grow_stages};
 
 mod architecture;
 mod beyond;
+mod colours;
+mod developed;
+mod forms;
 mod junctions;
 mod open;
+mod traits;
+mod young;
 
 /// A preset and the leaf that it grows.
 struct Grown {
@@ -354,10 +359,9 @@ fn is_closed(plan: &AuxinPlan) -> bool {
 #[ignore = "deep: 14 s"]
 fn every_preset_settles_is_sound_and_has_loops_only_if_it_is_closed() {
     // Veins of coloured leaves are those of green ones, or grow by the same numbers.
-    let green = |name| super::colours::coloured(name).is_none();
     for preset in super::PRESETS
         .iter()
-        .filter(|preset| preset.name != "poplar-x10" && green(preset.name))
+        .filter(|preset| preset.name != "poplar-x10" && !preset.is_coloured())
     {
         let leaf = Grown::preset(preset.name);
         assert_eq!(leaf.network.validate(), Ok(()), "{}", preset.name);
@@ -369,10 +373,5 @@ fn every_preset_settles_is_sound_and_has_loops_only_if_it_is_closed() {
         );
         let may_meet = leaf.plan.venation.auxin().is_none_or(is_closed);
         assert!(may_meet || leaf.network.loops() == 0, "{}", preset.name);
-        if let Some(row) = preset.row {
-            let venation = leaf.auxin();
-            assert_eq!(venation.pattern, row.pattern, "{}", preset.name);
-            assert_eq!(venation.murray_exponent, row.murray_exponent);
-        }
     }
 }

@@ -4,17 +4,18 @@
 //! - **In**: a plan and the number of a leaf.
 //! - **Out**: the plan of that leaf.
 //! - **Always true**: the same plan and number give the same leaf; a length stays within the range
-//!   that a flora gives for the species, where [`leaf_traits`] has one.
+//!   that a flora gives for the species, where the preset's [traits](super::traits) have one.
 //! - **Left out**: why leaves differ: age, light and place on the shoot.
 
-use super::leaf_traits::{self, LeafTraits};
+use super::traits::Traits;
+use super::{Preset, find};
 use crate::blade::senescence::AgeSource;
 use crate::blade::tissue::MOST_HELD;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::Contour;
 use crate::leaf::venation_plan::VenationPlan;
 use crate::optics::{Constituent, Contents};
-use crate::shape::chance::{Use, bell, uniform};
+use crate::random::{Use, bell, uniform};
 use crate::shape::contour_curve::ContourCurve;
 use crate::venation::plan::Growth;
 
@@ -67,7 +68,7 @@ impl LeafPlan {
         let factor = |cv: f64, of: Trait| (1.0 + cv * z(of)).max(0.3);
         let mut leaf = self.clone();
         leaf.seed = seed;
-        let traits = preset.and_then(traits_of);
+        let traits = preset.and_then(find).and_then(Preset::traits);
         leaf.length_mm = length(self.length_mm, traits, z(Trait::Length));
         let ratio = leaf.length_mm / self.length_mm;
         leaf.scale_veins(ratio);
@@ -157,8 +158,8 @@ impl LeafPlan {
     }
 
     /// A breadth with which the blade is as wide as a flora allows.
-    fn allowed_breadth(&self, breadth: f64, ratio: f64, traits: Option<&LeafTraits>) -> f64 {
-        let Some(traits) = traits else {
+    fn allowed_breadth(&self, breadth: f64, ratio: f64, traits: Option<&Traits>) -> f64 {
+        let Some(width_mm) = traits.and_then(|traits| traits.summer("width")) else {
             return breadth;
         };
         let Ok(outline) = self.outline.grow(self.length_mm, self.seed) else {
@@ -166,7 +167,7 @@ impl LeafPlan {
         };
         let (low, high) = outline.bounds();
         let width = (high.x - low.x) * ratio / self.outline.specimen.breadth;
-        let [least, most] = traits.width_mm.range;
+        let [least, most] = width_mm.range;
         // Sides that differ make it some percent wider or narrower.
         let (least, most) = (1.04 * least / width, 0.96 * most / width);
         if least < most {
@@ -192,14 +193,10 @@ impl LeafPlan {
     }
 }
 
-/// The traits of a preset, or of the green leaf of a coloured one.
-fn traits_of(preset: &str) -> Option<&'static LeafTraits> {
-    leaf_traits::traits(preset).or_else(|| super::colours::coloured(preset).map(|leaf| leaf.green))
-}
-
 /// A length `z` standard deviations from the plan's.
-fn length(usual: f64, traits: Option<&LeafTraits>, z: f64) -> f64 {
-    let range = traits.map(|traits| traits.length_mm.range);
+fn length(usual: f64, traits: Option<&Traits>, z: f64) -> f64 {
+    let range = traits.and_then(|traits| traits.summer("length"));
+    let range = range.map(|length| length.range);
     // A plan of another length is no longer what the flora tells of.
     let range = range.filter(|[least, most]| (*least..=*most).contains(&usual));
     let length = match range {
@@ -242,9 +239,13 @@ mod tests {
     fn twelve_leaves_of_a_tree_differ_and_are_as_long_as_its_flora_says() {
         for name in ["birch", "maple", "red-oak", "willow", "birch-autumn"] {
             let plan = find(name).expect("a preset").plan();
-            let traits = traits_of(name).expect("a species");
+            let traits = find(name).and_then(Preset::traits);
+            let range = |name| {
+                let trait_of_summer = traits.and_then(|traits| traits.summer(name));
+                trait_of_summer.expect("a species").range
+            };
             let leaves: Vec<LeafPlan> = (1..=12).map(|i| plan.individual(Some(name), i)).collect();
-            let [least, most] = traits.length_mm.range;
+            let [least, most] = range("length");
             let lengths: Vec<f64> = leaves.iter().map(|leaf| leaf.length_mm).collect();
             let mean = lengths.iter().sum::<f64>() / 12.0;
             let spread = lengths.iter().map(|l| (l - mean).powi(2)).sum::<f64>() / 12.0;
@@ -256,7 +257,7 @@ mod tests {
                 assert_eq!(leaf, &plan.individual(Some(name), i as u64 + 1));
                 let outline = leaf.grow_outline().expect("a good outline");
                 let (low, high) = outline.bounds();
-                let [narrow, wide] = traits.width_mm.range;
+                let [narrow, wide] = range("width");
                 let width = high.x - low.x;
                 assert!(
                     (narrow..=wide).contains(&width),

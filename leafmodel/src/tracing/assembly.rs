@@ -6,6 +6,8 @@ use std::collections::BinaryHeap;
 use glam::DVec2;
 
 use super::Frame;
+use crate::buckets::Buckets;
+use crate::plane::polyline;
 use crate::venation::network::{NetworkError, VeinEdge, VeinNode, VenationNetwork};
 use crate::venation::order::{Look, orders};
 use crate::venation::topology::Topology;
@@ -40,9 +42,9 @@ pub(super) fn parts(veins: &Veins) -> (Vec<u32>, Vec<f64>) {
         part[first] = number;
         let (mut open, mut doubled) = (vec![first as u32], 0.0);
         while let Some(node) = open.pop() {
-            for &vein in &at[node as usize] {
+            for &vein in at.list(node as usize) {
                 let vein = &veins.list[vein as usize];
-                let length: f64 = vein.points.windows(2).map(|p| p[0].distance(p[1])).sum();
+                let length = polyline::length(&vein.points);
                 doubled += length;
                 for end in vein.ends {
                     if part[end as usize] == u32::MAX {
@@ -57,14 +59,8 @@ pub(super) fn parts(veins: &Veins) -> (Vec<u32>, Vec<f64>) {
     (part, lengths)
 }
 
-fn chains_at(veins: &Veins) -> Vec<Vec<u32>> {
-    let mut at = vec![Vec::new(); veins.nodes.len()];
-    for (number, vein) in (0..).zip(&veins.list) {
-        for end in vein.ends {
-            at[end as usize].push(number);
-        }
-    }
-    at
+fn chains_at(veins: &Veins) -> Buckets {
+    Buckets::around(veins.nodes.len(), veins.list.iter().map(|vein| vein.ends))
 }
 
 /// The resistance of the way from the nearest root to each node by Poiseuille's law, up to a
@@ -95,7 +91,7 @@ fn resistances(veins: &Veins, roots: &[u32]) -> Vec<f64> {
         if f64::from_bits(bits) > least[node as usize] {
             continue;
         }
-        for &vein in &at[node as usize] {
+        for &vein in at.list(node as usize) {
             let [a, b] = veins.list[vein as usize].ends;
             let other = if a == node { b } else { a };
             let there = least[node as usize] + of_vein[vein as usize];

@@ -5,6 +5,7 @@
 //! is cut into even pieces, and further wherever the smooth line is more than a bound off them
 //! (\[douglas1973\]).
 
+use crate::plane::segment;
 use glam::DVec2;
 
 /// Standard deviation of the Gaussian along lines, points.
@@ -101,11 +102,7 @@ pub(super) fn within_bound(
         if from > first && kept.last().is_some_and(|last| *last < from) {
             kept.push(from);
         }
-        let way = points[to] - points[from];
-        let off = |i: usize| {
-            let along = (points[i] - points[from]).dot(way) / way.length_squared().max(1e-300);
-            points[i].distance(points[from] + way * along.clamp(0.0, 1.0))
-        };
+        let off = |i: usize| segment::distance(points[from], points[to], points[i]);
         // The first of the farthest.
         let mut farthest = (bound, None);
         for i in from + 1..to {

@@ -8,8 +8,8 @@ use super::grid::Mask;
 use super::lines::{BOUND, Lines};
 use super::margin::{boundary, simplified};
 use super::{Blade, Settings, TraceError, Traced};
+use crate::plane::{polygon, segment};
 use crate::shape::outline::{Outline, OutlineError};
-use crate::shape::segments::nearest_on_closed;
 
 /// A vein reaches the margin if it comes nearer than this many of its radii.
 const AT_MARGIN: f64 = 1.5;
@@ -104,11 +104,11 @@ pub(super) fn in_millimetres(
         });
         place_px
     });
-    let base = nearest_on_closed(&margin, wanted).at;
+    let base = polygon::nearest(&margin, wanted).at;
     let extent = extent(&margin);
     for (end, given) in [("base", settings.base_px), ("apex", settings.apex_px)] {
         let Some(given) = given else { continue };
-        let off = nearest_on_closed(&margin, given).at.distance(given);
+        let off = polygon::nearest(&margin, given).at.distance(given);
         if off > FAR_OFF * extent {
             findings.push(Finding {
                 kind: FindingKind::Moved {
@@ -121,8 +121,8 @@ pub(super) fn in_millimetres(
         }
     }
     let apex = match (settings.apex_px, &settings.blade) {
-        (Some(apex), _) => nearest_on_closed(&margin, apex).at,
-        (None, Blade::Frame) => nearest_on_closed(&margin, DVec2::new(base.x, 0.0)).at,
+        (Some(apex), _) => polygon::nearest(&margin, apex).at,
+        (None, Blade::Frame) => polygon::nearest(&margin, DVec2::new(base.x, 0.0)).at,
         (None, Blade::Silhouette | Blade::Of(_)) => farthest(&margin, base),
     };
     let frame = Frame {
@@ -231,7 +231,7 @@ fn widest_at_margin(veins: &Veins, margin: &[DVec2]) -> DVec2 {
     let widest = points.first().map_or(0.0, |point| point.0);
     let reaches = |(radius, number, i): &&(f64, usize, usize)| {
         let place = veins.list[*number].points[*i];
-        nearest_on_closed(margin, place).at.distance(place) <= AT_MARGIN * radius + 2.0
+        polygon::nearest(margin, place).at.distance(place) <= AT_MARGIN * radius + 2.0
     };
     let wide = points.iter().take(MOST_WIDE);
     let found = wide
@@ -307,14 +307,8 @@ fn widest_end_at_margin(veins: &Veins, margin: &[DVec2]) -> Option<DVec2> {
 
 /// Where a ray meets a closed line first.
 fn crossing(line: &[DVec2], start: DVec2, way: DVec2) -> Option<DVec2> {
-    let sides = line.iter().zip(line.iter().cycle().skip(1));
-    let meetings = sides.filter_map(|(&a, &b)| {
-        let side = b - a;
-        let turn = way.perp_dot(side);
-        let (far, share) = (
-            (a - start).perp_dot(side) / turn,
-            (a - start).perp_dot(way) / turn,
-        );
+    let meetings = polygon::sides(line).filter_map(|(a, b)| {
+        let (far, share) = segment::meeting(start, way, a, b);
         (far >= 0.0 && (0.0..=1.0).contains(&share)).then_some(far)
     });
     let far = meetings.fold(f64::INFINITY, f64::min);

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::grid::{Mask, beside};
+use crate::plane::polyline;
 
 /// A node: the end of a line, or a group of neighbouring pixels at which lines meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +28,7 @@ pub(super) struct Chain {
 impl Chain {
     /// Its length, pixels.
     pub(super) fn length(&self) -> f64 {
-        self.points.windows(2).map(|p| p[0].distance(p[1])).sum()
+        polyline::length(&self.points)
     }
 
     /// The same chain from its other end.

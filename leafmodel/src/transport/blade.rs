@@ -5,7 +5,9 @@ use glam::DVec2;
 use super::contour::{contour, first_hit, is_inside, place, smoothed};
 use super::leaf::TransportLeaf;
 use super::plan::TransportError;
-use super::vein_style::{VeinStyle, check};
+use super::vein_style::VeinStyle;
+use crate::document::declared::Declared;
+use crate::document::ranges::RangeError;
 use crate::shape::outline::{Outline, OutlineError};
 use crate::venation::network::VenationNetwork;
 
@@ -57,7 +59,7 @@ impl TransportLeaf {
     ///
     /// # Errors
     ///
-    /// [`TransportError::OutOfRange`] for `length_mm`; [`TransportError::Outline`] if the cells
+    /// [`TransportError::Range`] for `length_mm`; [`TransportError::Outline`] if the cells
     /// give no valid margin.
     pub fn outline(&self, length_mm: f64) -> Result<Outline, TransportError> {
         Ok(self.framed(length_mm)?.1)
@@ -76,7 +78,7 @@ impl TransportLeaf {
         style: VeinStyle,
         stages: &[usize],
     ) -> Result<Vec<(Outline, VenationNetwork)>, TransportError> {
-        style.validate()?;
+        style.in_range()?;
         let (grown, _) = self.framed(length_mm)?;
         let widest = self.counts()[0];
         let at = |&stage: &usize| {
@@ -94,8 +96,8 @@ impl TransportLeaf {
 
     /// The blade's frame and outline when its midrib has this length.
     pub(crate) fn framed(&self, length_mm: f64) -> Result<(Frame, Outline), TransportError> {
-        let range = "0.001 to 100000 (millimetres)";
-        check("length_mm", length_mm, 0.001, 100_000.0, range)?;
+        let valid = (0.001..=1e5).contains(&length_mm);
+        RangeError::unless(valid, "length_mm", length_mm, "0.001 to 100000")?;
         self.framed_in(|frame| frame.scale = length_mm / (frame.apex - frame.base).length())
     }
 

@@ -4,6 +4,7 @@
 //! growing leaf keeps the same quantities up to date in a `Tree`; tests compare the two.
 
 use super::cells::{Cell, NONE};
+use crate::buckets::Buckets;
 
 /// `H_β(u, v) = (u · v)^{−β}` of the directions of two steps, infinite from a right angle on.
 ///
@@ -50,15 +51,13 @@ impl<'a> TransportSystem<'a> {
 
     /// The numbers of all cells, each after its parent.
     pub(crate) fn root_to_tip(&self) -> Vec<usize> {
-        let mut children: Vec<Vec<usize>> = vec![Vec::new(); self.cells.len()];
-        for v in 1..self.cells.len() {
-            children[self.parents[v] as usize].push(v);
-        }
+        let children = (1..self.cells.len()).map(|v| (self.parents[v] as usize, v));
+        let children = Buckets::new(self.cells.len(), children);
         let mut order = vec![0];
         let mut next = 0;
         while let Some(&v) = order.get(next) {
             next += 1;
-            order.extend(&children[v]);
+            order.extend(children.list(v));
         }
         order
     }

@@ -15,8 +15,9 @@ use super::contour::place;
 use super::growth::Outgrown;
 use super::leaf::TransportLeaf;
 use super::plan::{Ladder, TransportError, TransportPlan};
-use super::vein_style::{VeinStyle, check};
+use super::vein_style::VeinStyle;
 use super::walls::Walls;
+use crate::document::declared::Declared;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;
 
@@ -27,17 +28,27 @@ const MOST_CELLS: usize = 20_000;
 const RISE: f64 = 1.04;
 
 /// How veins fill a blade as the transport network of its cells.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct FilledPlan {
+    /// α: how little it saves to transport much together.
+    ///
     /// `α`, exponent of the weight in the cost of an edge: the smaller, the more carrying water
-    /// together saves. 0 to 1, both excluded.
+    /// together saves.
+    #[key("alpha", open(0.0, 1.0))]
     pub alpha: f64,
+    /// β: how dearly a change of direction is paid.
+    ///
     /// `β`, exponent of the cost of a turn: the greater, the more a change of direction costs.
     /// Above 0, at most 20.
+    #[key("beta", above(0.0, 20.0))]
     pub beta: f64,
-    /// Cells along the midrib, 4 to 200; the whole blade may have 20 000.
+    /// Cells along the midrib.
+    ///
+    /// Cells along the midrib; the whole blade may have 20 000.
+    #[key("cells_along", 4..=200)]
     pub cells_along: u32,
     /// How veins are drawn.
+    #[key(flat)]
     pub style: VeinStyle,
 }
 
@@ -77,19 +88,16 @@ impl FilledPlan {
     ///
     /// # Errors
     ///
-    /// [`TransportError::OutOfRange`].
+    /// [`TransportError::Range`].
     pub fn validate(&self) -> Result<(), TransportError> {
-        self.growth_plan(1.0, true).validate()?;
-        let along = f64::from(self.cells_along);
-        check("cells_along", along, 4.0, 200.0, "4 to 200")?;
-        self.style.validate()
+        Ok(self.in_range()?)
     }
 
     /// Checks every number, and that the blade does not have too many cells.
     ///
     /// # Errors
     ///
-    /// [`TransportError::OutOfRange`] for a number; [`TransportError::TooFine`] for too many cells.
+    /// [`TransportError::Range`] for a number; [`TransportError::TooFine`] for too many cells.
     pub fn check(&self, outline: &Outline) -> Result<(), TransportError> {
         self.validate()?;
         self.grid(outline)?;
@@ -212,13 +220,13 @@ impl FilledBlade {
     ///
     /// # Errors
     ///
-    /// [`TransportError::OutOfRange`] for the style.
+    /// [`TransportError::Range`] for the style.
     pub fn network(
         &self,
         outline: &Outline,
         style: VeinStyle,
     ) -> Result<VenationNetwork, TransportError> {
-        style.validate()?;
+        style.in_range()?;
         let widest = self.leaf.counts()[0];
         Ok(self.leaf.network_in(&self.frame, outline, style, widest))
     }
@@ -235,7 +243,7 @@ impl FilledBlade {
         style: VeinStyle,
         stages: &[usize],
     ) -> Result<Vec<VenationNetwork>, TransportError> {
-        style.validate()?;
+        style.in_range()?;
         let widest = self.leaf.counts()[0];
         let at = |&stage: &usize| {
             let young = self.leaf.at_stage(stage);

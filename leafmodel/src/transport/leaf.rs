@@ -47,7 +47,7 @@ impl TransportPlan {
     ///
     /// # Errors
     ///
-    /// [`TransportError::OutOfRange`]; [`TransportError::TooManyCells`] as soon as the leaf
+    /// [`TransportError::Range`]; [`TransportError::TooManyCells`] as soon as the leaf
     /// outgrows `most_cells`.
     pub fn grow(&self, seed: u64) -> Result<TransportLeaf, TransportError> {
         self.validate()?;

@@ -2,13 +2,11 @@
 
 use thiserror::Error;
 
+use crate::document::declared::Declared;
+use crate::document::keys::Keys;
+use crate::document::ranges::RangeError;
+use crate::document::value_kind::{Flag, Integer};
 use crate::shape::outline::OutlineError;
-
-/// The greatest `most_cells`.
-const MOST_CELLS: usize = 1_000_000;
-
-/// A number to be checked: key, value, least and greatest value, and the range in words.
-type Check = (&'static str, f64, f64, f64, &'static str);
 
 /// The steps in which the revenue `ε` rises (Definition 3.5 leaves them open).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,32 +18,53 @@ pub enum Ladder {
 }
 
 /// The parameters of a transport leaf.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct TransportPlan {
+    /// α: how little it saves to transport much together; larger is rounder.
+    ///
     /// `α`, exponent of the weight in the cost of an edge: the smaller, the more carrying water
-    /// together saves. 0 to 1, both excluded. Above ½ every leaf stops growing; up to ½ some would
-    /// stop only at `most_cells`, which is an error. Larger values give rounder leaves.
+    /// together saves. Above ½ every leaf stops growing; up to ½ some would stop
+    /// only at `most_cells`, which is an error. Larger values give rounder leaves.
+    #[key("alpha", required, open(0.0, 1.0))]
     pub alpha: f64,
+    /// β: how dearly a change of direction is paid.
+    ///
     /// `β`, exponent of the cost of a turn: the greater, the more a change of direction costs.
     /// Above 0, at most 20.
+    #[key("beta", required, above(0.0, 20.0))]
     pub beta: f64,
+    /// ε: what a full-grown leaf's cell earns per area: larger leaves have more cells.
+    ///
     /// `ε`, revenue per area of the full-grown leaf. Above 0; `ε h^{1−2α}` is at most 100. The
     /// first cell is added at `ε = h^{2α−1}`.
+    #[key("epsilon", required, above(0.0, 1e9))]
     pub epsilon: f64,
+    /// h: edge of a cell in the leaf's own unit.
+    ///
     /// `h`, edge of a cell, in the leaf's own unit, 10⁻⁶ to 10⁶. The length of the leaf in
     /// millimetres is chosen separately.
+    #[key("cell", 1e-6..=1e6)]
     pub cell: f64,
     /// How `ε` rises to its final value.
+    #[key(with = ladder)]
     pub ladder: Ladder,
+    /// Both sides grow as one. Uneven light overrules it.
+    ///
     /// Whether both sides are grown as one, so that they are exact mirror images. Ignored under
     /// uneven light.
+    #[key("mirrored")]
     pub mirrored: bool,
-    /// Uneven light: greatest deviation of a cell's `ε` from its mean, as a share of the mean. At
-    /// least 0, below 1; 0 is even light.
+    /// Uneven light: greatest departure of a cell's ε from its mean, as a share; the leaf's `seed`
+    /// decides where.
+    #[key("noise", 0.0..1.0)]
     pub noise: f64,
-    /// Width of patches of light and shadow, cells, 1 to 1000.
+    /// cells: width of patches of light and shadow.
+    #[key("noise_cells", 1.0..=1000.0)]
     pub noise_cells: f64,
-    /// Greatest number of cells; a larger leaf is an error. 1 to 1 000 000.
+    /// A leaf with more is an error.
+    ///
+    /// Greatest number of cells; a larger leaf is an error. 000 000.
+    #[key("most_cells", 1..=1_000_000)]
     pub most_cells: usize,
 }
 
@@ -65,19 +84,42 @@ impl Default for TransportPlan {
     }
 }
 
+/// The keys of the steps in which the revenue rises.
+fn ladder(plan: &mut TransportPlan, keys: &mut Keys<'_>) {
+    keys.exclude("steps", "events");
+    let (mut steps, mut events) = match plan.ladder {
+        Ladder::Equal(steps) => (steps, false),
+        Ladder::Events => (STEPS, true),
+    };
+    if keys.reader().is_some() && keys.has("steps") {
+        events = false;
+    }
+    let count = Integer::within(1, 10_000);
+    let about = "Equal steps in which ε rises, from where the first cell comes.";
+    if !events || keys.reader().is_some() {
+        keys.key("steps", &mut steps, count, about);
+    }
+    let about = "Instead: one step for each rise that brings a cell, the smallest there are.";
+    // Written alone: both would exclude each other.
+    if events || keys.reader().is_some() || keys.is_description() {
+        keys.key("events", &mut events, Flag, about);
+    }
+    plan.ladder = if events {
+        Ladder::Events
+    } else {
+        Ladder::Equal(steps)
+    };
+}
+
+/// Equal steps in which the revenue rises where nothing is said.
+const STEPS: u32 = 80;
+
 /// Why a plan gives no leaf.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum TransportError {
     /// A number is outside the range in which the model holds.
-    #[error("{key} is {value}, outside {range}")]
-    OutOfRange {
-        /// Which parameter.
-        key: &'static str,
-        /// What it was.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Range(#[from] RangeError),
     /// The leaf would have more cells than its plan allows.
     #[error(
         "the leaf has {cells} cells when most_cells is {limit}; only for alpha above 0.5 is it sure to stop growing (alpha is {alpha})"
@@ -108,54 +150,17 @@ impl TransportPlan {
     ///
     /// # Errors
     ///
-    /// [`TransportError::OutOfRange`], naming the parameter and its range.
+    /// [`TransportError::Range`], naming the parameter and its range.
     pub fn validate(&self) -> Result<(), TransportError> {
-        // Excluded ends are replaced by the neighbouring floating-point numbers.
-        let above_0 = f64::MIN_POSITIVE;
-        let below_1 = 1.0 - f64::EPSILON / 2.0;
-        let steps = match self.ladder {
-            Ladder::Equal(steps) => f64::from(steps),
-            Ladder::Events => 1.0,
-        };
-        let checks: [Check; 8] = [
-            (
-                "alpha",
-                self.alpha,
-                above_0,
-                below_1,
-                "0 to 1, both exclusive",
-            ),
-            ("beta", self.beta, above_0, 20.0, "0, exclusive, to 20"),
-            ("cell", self.cell, 1e-6, 1e6, "0.000001 to 1000000"),
-            ("epsilon", self.epsilon, above_0, f64::MAX, "above 0"),
-            ("ladder", steps, 1.0, 10_000.0, "1 to 10000 steps"),
-            ("noise", self.noise, 0.0, below_1, "0 to 1, exclusive"),
-            (
-                "noise_cells",
-                self.noise_cells,
-                1.0,
-                1000.0,
-                "1 to 1000 cells",
-            ),
-            (
-                "most_cells",
-                self.most_cells as f64,
-                1.0,
-                MOST_CELLS as f64,
-                "1 to 1000000",
-            ),
-        ];
-        for (key, value, low, high, range) in checks {
-            if !(low..=high).contains(&value) {
-                return Err(TransportError::OutOfRange { key, value, range });
-            }
-        }
-        let (key, range) = ("epsilon · cell^(1 − 2 alpha)", "above 0 to 100");
+        self.in_range()?;
         let value = self.in_cells(self.epsilon);
-        if value > 100.0 {
-            return Err(TransportError::OutOfRange { key, value, range });
-        }
-        Ok(())
+        let path = "epsilon · cell^(1 − 2 alpha)";
+        Ok(RangeError::unless(
+            value <= 100.0,
+            path,
+            value,
+            "above 0 to 100",
+        )?)
     }
 
     /// Whether both sides are grown as one.
@@ -180,17 +185,23 @@ mod tests {
         let spoils: [(Spoil, &str); 12] = [
             (
                 |p| p.alpha = 1.0,
-                "alpha is 1, outside 0 to 1, both exclusive",
+                "alpha is 1, outside the values between 0 and 1",
             ),
             (|p| p.alpha = 0.0, "alpha is 0, "),
             (|p| p.alpha = f64::NAN, "alpha is NaN, "),
-            (|p| p.beta = 0.0, "beta is 0, outside 0, exclusive, to 20"),
+            (
+                |p| p.beta = 0.0,
+                "beta is 0, outside the values above 0 and up to 20",
+            ),
             (|p| p.beta = -1.0, "beta is -1, "),
-            (|p| p.epsilon = 0.0, "epsilon is 0, outside above 0"),
-            (|p| p.cell = 0.0, "cell is 0, outside 0.000001 to 1000000"),
+            (
+                |p| p.epsilon = 0.0,
+                "epsilon is 0, outside the values above 0",
+            ),
+            (|p| p.cell = 0.0, "cell is 0, outside 1e-6 to 1000000"),
             (|p| p.cell = -2.0, "cell is -2, "),
-            (|p| p.ladder = Ladder::Equal(0), "ladder is 0, "),
-            (|p| p.noise = 1.0, "noise is 1, outside 0 to 1, exclusive"),
+            (|p| p.ladder = Ladder::Equal(0), "steps is 0, "),
+            (|p| p.noise = 1.0, "noise is 1, outside 0 to below 1"),
             (|p| p.most_cells = 0, "most_cells is 0, "),
             (
                 |p| p.epsilon = 101.0,

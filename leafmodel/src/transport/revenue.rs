@@ -2,7 +2,8 @@
 //! \[xia2007\]).
 
 use super::cells::Cell;
-use crate::venation::chance::{Use, uniform};
+use crate::numeric::smooth_step;
+use crate::random::{Use, uniform};
 
 /// The revenue of each cell, as a factor on `ε`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,8 +37,7 @@ impl Revenue {
             f64::from(cell.n) / self.patch,
         );
         let (left, low) = (m.floor(), n.floor());
-        let smooth = |t: f64| t * t * (3.0 - 2.0 * t);
-        let (right, up) = (smooth(m - left), smooth(n - low));
+        let (right, up) = (smooth_step(m - left), smooth_step(n - low));
         let corner = |dm: i32, dn: i32| {
             let (m, n) = (left as i32 + dm, low as i32 + dn);
             let counter = u64::from(m as u32) << 32 | u64::from(n as u32);

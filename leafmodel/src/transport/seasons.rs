@@ -1,9 +1,9 @@
 //! Autumn: revenue falls, and cells whose revenue no longer covers their cost die (Remark 3.6 of
 //! \[xia2007\]).
 
-use super::cells::NONE;
 use super::leaf::TransportLeaf;
 use super::plan::TransportError;
+use crate::document::ranges::RangeError;
 
 impl TransportLeaf {
     /// For each cell the share of the full-grown leaf's revenue `ε` at which it dies as `ε` falls
@@ -16,18 +16,15 @@ impl TransportLeaf {
     ///
     /// # Errors
     ///
-    /// [`TransportError::OutOfRange`] for `steps`.
+    /// [`TransportError::Range`] for `steps`.
     ///
     /// # Source
     ///
     /// \[xia2007\], Remark 3.6, which says that cells die, not how. The expense of an existing cell
     /// is our definition.
     pub fn deaths(&self, steps: u32) -> Result<Vec<f64>, TransportError> {
-        if !(1..=10_000).contains(&steps) {
-            let (key, range) = ("steps", "1 to 10000");
-            let value = f64::from(steps);
-            return Err(TransportError::OutOfRange { key, value, range });
-        }
+        let valid = (1..=10_000).contains(&steps);
+        RangeError::unless(valid, "steps", f64::from(steps), "1 to 10000")?;
         let plan = self.plan();
         let order = self.root_to_tip();
         let multiples = self.system().multiples();
@@ -73,17 +70,5 @@ impl TransportLeaf {
             }
         }
         Ok(deaths)
-    }
-
-    /// The leaf without the cells that are dead at this share of its revenue; `deaths` is from
-    /// [`TransportLeaf::deaths`].
-    pub fn without_dead(&self, deaths: &[f64], share: f64) -> Self {
-        let mut numbers = vec![NONE; self.cells().len()];
-        let alive = (0..self.cells().len()).filter(|&v| v == 0 || deaths[v] < share);
-        let kept: Vec<usize> = alive.collect();
-        for (number, &v) in (0..).zip(&kept) {
-            numbers[v] = number;
-        }
-        self.part(&kept, |v| self.parent(v).map_or(NONE, |p| numbers[p]))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::cells::Cell;
 use super::leaf::TransportLeaf;
+use crate::buckets::Buckets;
 
 /// A lateral counts as a secondary vein if it supplies at least this share of the cells of the
 /// greatest lateral. That is a quarter of its width, as for vein orders elsewhere.
@@ -28,7 +29,7 @@ impl TransportLeaf {
         let children = self.children();
         for (i, &from) in midrib.iter().enumerate() {
             let next = midrib.get(i + 1);
-            for &v in children[from].iter().filter(|v| Some(*v) != next) {
+            for &v in children.list(from).iter().filter(|v| Some(*v) != next) {
                 let first = self.cells()[v] - self.cells()[from];
                 let way = self.vein(&children, v, first, |_| true);
                 let mut length = first.length();
@@ -59,7 +60,7 @@ impl TransportLeaf {
     /// largest `w^½ (1 + cos φ)`, with the deflection `φ`.
     fn vein(
         &self,
-        children: &[Vec<usize>],
+        children: &Buckets<usize>,
         start: usize,
         step: Cell,
         allowed: impl Fn(usize) -> bool,
@@ -72,7 +73,8 @@ impl TransportLeaf {
                 let cosine = next.dot(step) as f64 / (next.length() * step.length());
                 f64::from(self.counts()[v]).sqrt() * (1.0 + cosine)
             };
-            let next = children[here]
+            let next = children
+                .list(here)
                 .iter()
                 .copied()
                 .filter(|&v| allowed(v))
@@ -83,13 +85,9 @@ impl TransportLeaf {
         }
     }
 
-    fn children(&self) -> Vec<Vec<usize>> {
-        let mut children: Vec<Vec<usize>> = vec![Vec::new(); self.cells().len()];
-        for v in 1..self.cells().len() {
-            if let Some(p) = self.parent(v) {
-                children[p].push(v);
-            }
-        }
-        children
+    fn children(&self) -> Buckets<usize> {
+        let count = self.cells().len();
+        let children = (1..count).filter_map(|v| Some((self.parent(v)?, v)));
+        Buckets::new(count, children)
     }
 }

@@ -13,6 +13,20 @@ use super::leaf::unfolded;
 use super::*;
 use crate::testing::fixed;
 
+impl TransportLeaf {
+    /// The leaf without the cells that are dead at this share of its revenue; `deaths` is from
+    /// [`TransportLeaf::deaths`].
+    fn without_dead(&self, deaths: &[f64], share: f64) -> Self {
+        let mut numbers = vec![NONE; self.cells().len()];
+        let alive = (0..self.cells().len()).filter(|&v| v == 0 || deaths[v] < share);
+        let kept: Vec<usize> = alive.collect();
+        for (number, &v) in (0..).zip(&kept) {
+            numbers[v] = number;
+        }
+        self.part(&kept, |v| self.parent(v).map_or(NONE, |p| numbers[p]))
+    }
+}
+
 /// Sums of a few thousand products, each rounded.
 const ROUNDING: f64 = 1e-10;
 

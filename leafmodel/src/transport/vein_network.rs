@@ -7,6 +7,7 @@ use super::contour::place;
 use super::leaf::TransportLeaf;
 use super::plan::TransportError;
 use super::vein_style::VeinStyle;
+use crate::document::declared::Declared;
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinEdge, VeinNode, VenationNetwork};
 use crate::venation::order;
@@ -33,7 +34,7 @@ impl TransportLeaf {
         length_mm: f64,
         style: VeinStyle,
     ) -> Result<VenationNetwork, TransportError> {
-        style.validate()?;
+        style.in_range()?;
         let (frame, outline) = self.framed(length_mm)?;
         Ok(self.network_in(&frame, &outline, style, self.counts()[0]))
     }

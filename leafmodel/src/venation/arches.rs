@@ -15,8 +15,9 @@
 
 use glam::DVec2;
 
-use super::chance::{Use, uniform};
 use super::plan::MarginClearance;
+use crate::plane::{polygon, polyline, segment};
+use crate::random::{Use, uniform};
 
 /// Greatest random displacement of a place, as a share of the distance between neighbouring places.
 const JITTER: f64 = 0.25;
@@ -37,13 +38,9 @@ struct Side {
 
 impl Side {
     fn new(points: Vec<DVec2>, inward: f64) -> Self {
-        let mut lengths = vec![0.0];
-        for pair in points.windows(2) {
-            lengths.push(lengths[lengths.len() - 1] + (pair[1] - pair[0]).length());
-        }
         Self {
+            lengths: polyline::lengths(&points),
             points,
-            lengths,
             inward,
         }
     }
@@ -51,12 +48,7 @@ impl Side {
     /// The point at a share of the side's length.
     fn at(&self, share: f64) -> DVec2 {
         let wanted = share.clamp(0.0, 1.0) * self.lengths[self.lengths.len() - 1];
-        let i = self
-            .lengths
-            .partition_point(|&length| length <= wanted)
-            .clamp(1, self.points.len() - 1);
-        let (before, after) = (self.lengths[i - 1], self.lengths[i]);
-        let along = (wanted - before) / (after - before);
+        let (i, along) = polyline::piece(&self.lengths, wanted);
         self.points[i - 1] + (self.points[i] - self.points[i - 1]) * along
     }
 
@@ -94,12 +86,7 @@ pub(crate) fn rounds(
     let left = Side::new(left, -1.0);
     let distance = rule.distance * (apex - base).length();
     let clear = |p: &DVec2| {
-        (0..margin.len()).all(|i| {
-            let (a, b) = (margin[i], margin[(i + 1) % margin.len()]);
-            let way = b - a;
-            let along = ((*p - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-            (a + way * along - *p).length() >= 0.6 * distance
-        })
+        polygon::sides(margin).all(|(a, b)| segment::distance(a, b, *p) >= 0.6 * distance)
     };
     let ends = f64::from(rule.arches);
     let up = (apex - base).normalize_or_zero();

@@ -34,10 +34,13 @@ pub(crate) mod tertiaries;
 mod tests;
 
 pub use self::error::ArchitectureError;
-use super::chance::{Use, uniform};
+use crate::document::declared::{Declared, Words};
+use crate::document::limits::Limits;
+use crate::document::value_kind::{ListOf, Number};
+use crate::random::{Use, uniform};
 
 /// How primary veins run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Words)]
 pub enum PrimaryPattern {
     /// One primary vein, the midrib.
     Pinnate,
@@ -55,28 +58,48 @@ pub enum PrimaryPattern {
     Flabellate,
 }
 
+/// Angles of lateral primaries.
+const ANGLES: ListOf<Number> = ListOf {
+    of: Number(Limits::closed(5.0, 175.0)),
+    least: 0,
+    most: 6,
+    wanted: "a list of at most 6 angles",
+};
+
 /// The primary veins.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct Primaries {
-    /// How they run.
+    /// Primary veins: the midrib only (pinnate), several that diverge from one place
+    /// (actinodromous) or from the innermost lateral (palinactinodromous), several in arches that
+    /// converge towards the apex (acrodromous), many beside each other (parallelodromous) or in
+    /// wide arches that turn back at the base (campylodromous), or many that radiate and fork
+    /// (flabellate).
+    #[key("primaries", required, word)]
     pub pattern: PrimaryPattern,
-    /// Angles between the midrib and the lateral primaries of one side, degrees, 5 to 175,
-    /// ascending; both sides have the same. None for pinnate, parallelodromous and campylodromous
-    /// leaves, at most 6. For flabellate leaves those of the veins at the base; the last bounds the
-    /// fan.
+    /// Angles between the midrib and the lateral primaries of one side, ascending; for
+    /// actinodromous, palinactinodromous and acrodromous leaves. Of flabellate ones the veins at
+    /// the base; the last bounds the fan.
+    ///
+    /// Angles between the midrib and the lateral primaries of one side, ascending; both sides have
+    /// the same. None for pinnate, parallelodromous and campylodromous leaves, at most 6. For
+    /// flabellate leaves those of the veins at the base; the last bounds the fan.
+    #[key("lateral_primary_angles_deg", ANGLES)]
     pub lateral_angles_deg: Vec<f64>,
-    /// Lateral primaries a side of parallelodromous and campylodromous leaves, 1 to 30; else 0.
+    /// Lateral primaries a side of parallelodromous and campylodromous leaves.
+    #[key("lateral_primaries", 0..=30)]
     pub laterals: u32,
-    /// Distance between the veins of flabellate leaves, share of the leaf's length, 0.004 to 0.2;
-    /// a vein forks where it is twice that away from the next.
+    /// Distance between the veins of flabellate leaves, share of the leaf's length; a vein forks
+    /// where it is twice that away from the next.
+    #[key("fork_spacing", 0.004..=0.2)]
     pub fork_spacing: f64,
-    /// Where lateral primaries part from the midrib, share of its length, 0 to 0.3; 0 is basal,
-    /// more suprabasal.
+    /// Where lateral primaries part from the midrib, share of its length: 0 is basal, more
+    /// suprabasal.
+    #[key("part_at", 0.0..=0.3)]
     pub part_at: f64,
 }
 
 /// How a secondary vein runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Words)]
 pub enum SecondaryCourse {
     /// Without a bend.
     Straight,
@@ -87,7 +110,7 @@ pub enum SecondaryCourse {
 }
 
 /// How secondary veins follow one another along the midrib.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Words)]
 pub enum SecondarySpacing {
     /// At even distances.
     Regular,
@@ -98,7 +121,7 @@ pub enum SecondarySpacing {
 }
 
 /// How a secondary vein leaves its primary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Words)]
 pub enum Attachment {
     /// At its angle at once.
     Excurrent,
@@ -107,7 +130,7 @@ pub enum Attachment {
 }
 
 /// Where a secondary vein ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Words)]
 pub enum SecondaryEnding {
     /// In a tooth or lobe.
     Craspedodromous,
@@ -146,7 +169,7 @@ impl SecondaryEnding {
 
 /// Which secondaries bear agrophic veins: a comb of two or more veins that leave a basal secondary
 /// on its outer side and run beside each other towards the margin.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Words)]
 pub enum Agrophic {
     /// None of them.
     Absent,
@@ -168,7 +191,7 @@ impl Agrophic {
 }
 
 /// How secondaries of both sides stand to each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Words)]
 pub enum Arrangement {
     /// In pairs.
     Opposite,
@@ -177,36 +200,51 @@ pub enum Arrangement {
 }
 
 /// The secondary veins.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct Secondaries {
-    /// How many a side of the midrib, 1 to 40, or 0 where there are many primaries. Lateral primaries have as many as their length
-    /// allows at the same spacing.
+    /// How many a side of the midrib; lateral primaries bear as many as their length allows at the
+    /// same spacing. None where primaries run beside each other or fork.
+    #[key("pairs", required, 0..=40)]
     pub pairs: u32,
-    /// Angle to the midrib's direction in its lower, middle and upper third, degrees, 10 to 120.
+    /// Angle to the midrib in its lower, middle and upper third.
+    #[key("angles_deg", required, 10.0..=120.0)]
     pub angles_deg: [f64; 3],
-    /// How they run.
-    pub course: SecondaryCourse,
-    /// How they leave their primary.
-    pub attachment: Attachment,
-    /// Where they end.
+    /// Where they end: in teeth or lobes (craspedodromous), in the sinuses between them (sinus),
+    /// joined in arches with branches into teeth (semicraspedodromous), upturned inside the margin
+    /// (eucamptodromous), joined in arches (brochidodromous), the same with a second row of loops
+    /// (festooned).
+    #[key("ending", required, word)]
     pub ending: SecondaryEnding,
-    /// How they follow one another.
+    /// How they leave the primary: at their angle, or beside it at first (decurrent).
+    #[key("attachment", word)]
+    pub attachment: Attachment,
+    /// How they run; upturned ones bend near the margin.
+    #[key("course", word)]
+    pub course: SecondaryCourse,
+    /// How they follow one another; proximally is towards the base.
+    #[key("spacing", word)]
     pub spacing: SecondarySpacing,
     /// How both sides stand to each other.
+    #[key("arrangement", word)]
     pub arrangement: Arrangement,
-    /// Where the lowest and the highest depart, shares of the midrib's length, ascending.
+    /// Where the lowest and the highest leave the midrib, shares of its length.
+    #[key("span", 0.0..=1.0)]
     pub span: [f64; 2],
-    /// Distance of arches and dwindling ends from the margin, share of the leaf's length, 0.005
-    /// to 0.2.
+    /// Distance of arches and of ends without a tooth from the margin, share of the leaf's length.
+    #[key("inset", 0.005..=0.2)]
     pub inset: f64,
-    /// Intersecondary veins to an intercostal area, 0 to 3.
+    /// Shorter veins between two secondaries, on average.
+    #[key("intersecondaries", 0.0..=3.0)]
     pub intersecondaries: f64,
-    /// Which of them bear agrophic veins.
+    /// Agrophic veins, combs of two or more veins on the outer side of the lowest secondary
+    /// (simple) or of the two lowest (compound) of each side; they end as the secondaries do.
+    /// Pinnate leaves only: elsewhere the outer secondaries of lateral primaries are such veins.
+    #[key("agrophic", word)]
     pub agrophic: Agrophic,
 }
 
 /// How tertiary veins run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Words)]
 pub enum TertiaryCourse {
     /// They join in a net; chance lays them out.
     Reticulate,
@@ -221,19 +259,24 @@ pub enum TertiaryCourse {
 }
 
 /// The tertiary veins.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Tertiaries {
-    /// How they run.
+    /// How they run: in a net (reticulate), or across from secondary to secondary, straight
+    /// (opposite), with an offset (alternate), in a wave (sinuous) or with a sharp bend (chevron).
+    #[key("course", word)]
     pub course: TertiaryCourse,
-    /// Distance between neighbours, share of the leaf's length, 0.004 to 0.2. Percurrent only.
+    /// Percurrent only: distance between neighbours, share of the leaf's length.
+    #[key("spacing", 0.004..=0.2)]
     pub spacing: f64,
-    /// Angle to the secondary that they leave, measured from its direction, degrees, 40 to 140.
-    /// Percurrent only.
+    /// Percurrent only: angle to the secondary that they leave.
+    ///
+    /// Angle to the secondary that they leave, measured from its direction Percurrent only.
+    #[key("angle_deg", 40.0..=140.0)]
     pub angle_deg: f64,
 }
 
 /// How quaternary veins run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Words)]
 pub enum QuaternaryCourse {
     /// They join in a net; chance lays them out.
     Reticulate,
@@ -246,29 +289,39 @@ pub enum QuaternaryCourse {
 }
 
 /// The quaternary veins. Unless reticulate, they lie between percurrent tertiaries.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Quaternaries {
-    /// How they run.
+    /// How they run: in a net, as chance has it (reticulate), or between percurrent tertiaries:
+    /// across from one to the next, straight (opposite) or with an offset (alternate), or branched
+    /// and ending between them (freely ramified).
+    #[key("course", word)]
     pub course: QuaternaryCourse,
-    /// Distance between neighbours, share of the leaf's length, 0.002 to 0.1. Unless reticulate.
+    /// Unless reticulate: distance between neighbours, share of the leaf's length.
+    #[key("spacing", 0.002..=0.1)]
     pub spacing: f64,
 }
 
 /// The coarse veins of a species.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct Architecture {
     /// Order 1.
+    #[key(flat)]
     pub primaries: Primaries,
-    /// Order 2.
-    pub secondaries: Secondaries,
-    /// Order 3.
-    pub tertiaries: Tertiaries,
-    /// Order 4.
-    pub quaternaries: Quaternaries,
-    /// Whether a vein runs all along the margin.
-    pub is_fimbrial: bool,
-    /// How far chance moves places, angles and courses, 0 to 1.
+    /// How far chance moves places, angles and courses.
+    #[key("irregularity", 0.0..=1.0)]
     pub irregularity: f64,
+    /// Whether a vein runs all along the margin.
+    #[key("fimbrial")]
+    pub is_fimbrial: bool,
+    /// Secondary veins.
+    #[key("secondaries", required, block)]
+    pub secondaries: Secondaries,
+    /// Tertiary veins.
+    #[key("tertiaries", block)]
+    pub tertiaries: Tertiaries,
+    /// Quaternary veins.
+    #[key("quaternaries", block)]
+    pub quaternaries: Quaternaries,
 }
 
 impl Default for Architecture {

@@ -24,58 +24,78 @@ mod spline;
 #[cfg(test)]
 mod tests;
 
-use std::ops::RangeInclusive;
-
 use glam::DVec2;
 use thiserror::Error;
 
 pub use self::fields::ArcuateFields;
 use self::layout::{Frame, Sides, Vein, lay_out};
 use super::network::{NetworkError, VenationNetwork};
+use crate::document::declared::Declared;
+use crate::document::ranges::RangeError;
 use crate::shape::cubic_margin::{CubicMargin, CubicMarginError};
 use crate::shape::outline::Outline;
 
 /// Primary veins that fan out from the petiole beside the midrib.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct PalmateVeins {
-    /// Number per side, 1 to 12.
+    /// Primaries a side.
+    #[key("per_side", required, 1..=12)]
     pub per_side: u32,
-    /// Distribution of their ends along the margin, 0.05 to 1: 1 spreads them evenly from base to
-    /// tip, smaller values gather them towards the tip.
+    /// How far down the margin they end: 1 spreads them evenly from base to tip.
+    ///
+    /// Distribution of their ends along the margin: 1 spreads them evenly from base to tip, smaller
+    /// values gather them towards the tip.
+    #[key("spread", required, 0.05..=1.0)]
     pub spread: f64,
-    /// How far they bow outwards, as a share of half their length, −0.8 to 0.8: 0 is straight;
-    /// above 0 they follow the margin.
+    /// How much they bow outwards, in shares of half their length.
+    #[key("bow", -0.8..=0.8)]
     pub bow: f64,
 }
 
 /// Parameters of the pattern. Lengths are in units of the leaf's length; the names are the
 /// article's.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct ArcuatePlan {
-    /// `Veins`: number of lateral veins on each side of each primary, 1 to 100.
+    /// Veins: lateral veins a side of each primary.
+    #[key("laterals", 1..=100)]
     pub veins: u32,
-    /// `Seed` of the variation.
+    /// Seed of their irregularity.
+    #[key("seed", 0..=u32::MAX as u64)]
     pub seed: u32,
-    /// `Var`: irregularity of the starts of laterals, 0 to 1.
+    /// How irregular they are.
+    #[key("variation", 0.0..=1.0)]
     pub variation: f64,
-    /// `Width`: half width of the midrib at the base, 0.0001 to 0.5.
+    /// Width: half width of the midrib at the base. The default is the article's, where veins
+    /// merge; a leaf's is about 0.006.
+    #[key("width", 1e-4..=0.5)]
     pub width: f64,
-    /// `NWidth`: distance from veins up to which the finer net reaches, 0 to 1.
+    /// How far from veins the finer net reaches (field `net` only).
+    #[key(
+        "net_width",
+        0.0..=1.0,
+        about = "NWidth: how far from veins the finer net reaches (field `net` only)."
+    )]
     pub net_width: f64,
-    /// `Squish`: distribution of end points over the margin, 0 (all at the tip) to 1 (even).
+    /// Squish: how end points are spread over the margin: 1 evenly (pinnate), 0 all at the tip
+    /// (arcuate).
+    #[key("squish", 0.0..=1.0)]
     pub squish: f64,
-    /// `Squish2`: distribution of control points, 0 (all at the tip) to 1 (even).
+    /// Squish2: the same of control points.
+    #[key("squish2", 0.0..=1.0)]
     pub squish2: f64,
-    /// `Squish3`: distribution of starting points over the midrib, 0 (all near the base) to 1
-    /// (even).
+    /// Squish3: the same of starting points on the midrib; 0 all near the base.
+    #[key("squish3", 0.0..=1.0)]
     pub squish3: f64,
-    /// `Up`: distance of control points from the midrib, as a share of the margin's distance, 0
-    /// to 2.
+    /// Up: how far control points are from the midrib, over the margin's distance.
+    #[key("up", 0.0..=2.0)]
     pub up: f64,
-    /// Width of a vein at its tip as a share of that at its base, 0 to 1. Our extension; the
-    /// article has 0.
+    /// Share of a vein's width that is left at its tip.
+    ///
+    /// Width of a vein at its tip as a share of that at its base Our extension; the article has 0.
+    #[key("tip_width", 0.0..=1.0)]
     pub tip_width: f64,
-    /// Primaries beside the midrib, if any. Our extension.
+    /// Primary veins from the base, beside the midrib.
+    #[key("palmate", block, default = PalmateVeins { per_side: 1, spread: 0.5, bow: 0.0 })]
     pub palmate: Option<PalmateVeins>,
 }
 
@@ -102,15 +122,8 @@ impl Default for ArcuatePlan {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ArcuateError {
     /// A number is out of its range.
-    #[error("{key} is {value}, outside {range}")]
-    OutOfRange {
-        /// Which parameter.
-        key: &'static str,
-        /// What it was.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Range(#[from] RangeError),
     /// The article's margin is not valid.
     #[error(transparent)]
     Margin(#[from] CubicMarginError),
@@ -135,24 +148,9 @@ impl ArcuatePlan {
     ///
     /// # Errors
     ///
-    /// [`ArcuateError::OutOfRange`] for the first number that is out of range.
+    /// [`ArcuateError::Range`] for the first number that is out of range.
     pub fn validate(&self) -> Result<(), ArcuateError> {
-        in_range("veins", f64::from(self.veins), 1.0..=100.0, "1 to 100")?;
-        in_range("variation", self.variation, 0.0..=1.0, "0 to 1")?;
-        in_range("width", self.width, 1e-4..=0.5, "0.0001 to 0.5")?;
-        in_range("net_width", self.net_width, 0.0..=1.0, "0 to 1")?;
-        in_range("squish", self.squish, 0.0..=1.0, "0 to 1")?;
-        in_range("squish2", self.squish2, 0.0..=1.0, "0 to 1")?;
-        in_range("squish3", self.squish3, 0.0..=1.0, "0 to 1")?;
-        in_range("up", self.up, 0.0..=2.0, "0 to 2")?;
-        in_range("tip_width", self.tip_width, 0.0..=1.0, "0 to 1")?;
-        if let Some(palmate) = &self.palmate {
-            let per_side = f64::from(palmate.per_side);
-            in_range("palmate.per_side", per_side, 1.0..=12.0, "1 to 12")?;
-            in_range("palmate.spread", palmate.spread, 0.05..=1.0, "0.05 to 1")?;
-            in_range("palmate.bow", palmate.bow, -0.8..=0.8, "-0.8 to 0.8")?;
-        }
-        Ok(())
+        Ok(self.in_range()?)
     }
 
     /// The network on the article's margin, with places on the margin given by the spline's own
@@ -197,7 +195,7 @@ impl ArcuatePlan {
     ) -> Result<ArcuateVeins, ArcuateError> {
         self.validate()?;
         let blade = match margin.grow(length_mm) {
-            Err(error @ CubicMarginError::OutOfRange { .. }) => return Err(error.into()),
+            Err(error @ CubicMarginError::Range(_)) => return Err(error.into()),
             Err(CubicMarginError::Margin(_)) => None,
             Ok(outline) => Some(outline),
         };
@@ -209,7 +207,7 @@ impl ArcuatePlan {
     ///
     /// # Errors
     ///
-    /// [`ArcuateError::OutOfRange`].
+    /// [`ArcuateError::Range`].
     pub fn veins_on(&self, outline: &Outline) -> Result<ArcuateVeins, ArcuateError> {
         self.validate()?;
         let frame = Frame::of(outline);
@@ -236,7 +234,7 @@ impl ArcuatePlan {
     ///
     /// # Errors
     ///
-    /// [`ArcuateError::OutOfRange`].
+    /// [`ArcuateError::Range`].
     pub fn primaries_laid(&self, outline: &Outline) -> Result<Vec<f64>, ArcuateError> {
         Ok(graph::primaries_laid(&self.veins_on(outline)?, outline))
     }
@@ -255,23 +253,5 @@ impl ArcuateVeins {
     pub(crate) fn lateral(&self, index: usize) -> Option<[DVec2; 3]> {
         let vein = self.laterals.get(index)?;
         Some(vein.curve.0.map(|p| self.frame.to_mm(p)))
-    }
-}
-
-/// Refuses a `value` outside `range`; NaN is outside every range.
-fn in_range(
-    key: &'static str,
-    value: f64,
-    range: RangeInclusive<f64>,
-    words: &'static str,
-) -> Result<(), ArcuateError> {
-    if range.contains(&value) {
-        Ok(())
-    } else {
-        Err(ArcuateError::OutOfRange {
-            key,
-            value,
-            range: words,
-        })
     }
 }

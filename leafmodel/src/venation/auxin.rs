@@ -7,11 +7,11 @@
 
 use glam::DVec2;
 
-use super::chance::{Use, uniform};
 use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
 use super::plan::{AuxinPlan, FreeEndings, Growth};
 use super::point_tree::PointTree;
+use crate::random::{Use, uniform};
 
 /// Number of darts per square of the birth distance beyond which further darts find almost no room.
 const SATURATION: f64 = 20.0;

@@ -20,11 +20,12 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-use super::chance::{Use, uniform};
 use super::fresh_nodes::FreshNodes;
 use super::influence::Surroundings;
 use super::point_tree::PointTree;
-use super::probe::{Probe, SLACK, distance_squared};
+use super::probe::{Probe, SLACK};
+use crate::plane::rectangle_distance_squared;
+use crate::random::{Use, uniform};
 
 /// Cosine of the cones' half-angle, 35°.
 const CONE: f64 = 0.819_152_044_288_991_8;
@@ -139,7 +140,7 @@ struct Nearest {
 
 impl Probe for Nearest {
     fn enters(&self, low: DVec2, high: DVec2) -> bool {
-        let squared = distance_squared(low, high, self.source);
+        let squared = rectangle_distance_squared(low, high, self.source);
         self.node
             .is_none_or(|(node, _)| squared <= node.distance_squared * SLACK)
     }
@@ -162,7 +163,7 @@ struct Search<'a>(&'a mut Bipolar);
 impl Probe for Search<'_> {
     fn enters(&self, low: DVec2, high: DVec2) -> bool {
         let Bipolar { source, axis, .. } = *self.0;
-        let squared = distance_squared(low, high, source);
+        let squared = rectangle_distance_squared(low, high, source);
         let within =
             |node: Option<Pole>| node.is_none_or(|node| squared <= node.distance_squared * SLACK);
         // How far the box reaches along the axis and against it.

@@ -8,6 +8,7 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 
 use super::probe::Probe;
+use crate::plane::bounds;
 
 /// Greatest number of nodes in a box that is not divided.
 const CAPACITY: usize = 6;
@@ -55,12 +56,7 @@ impl<'a> FreshNodes<'a> {
     fn divide(&mut self, from: usize, to: usize) {
         let positions = self.positions;
         let range = &mut self.sorted[from..to];
-        let (low, high) = range
-            .iter()
-            .map(|&i| positions[i as usize])
-            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| {
-                (low.min(p), high.max(p))
-            });
+        let (low, high) = bounds(range.iter().map(|&i| positions[i as usize]));
         let number = self.boxes.len();
         let is_divided = to - from > CAPACITY;
         self.boxes.push(NodeBox {
@@ -114,8 +110,8 @@ impl<'a> FreshNodes<'a> {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::probe::distance_squared;
     use super::*;
+    use crate::plane::rectangle_distance_squared;
     use crate::testing::fixed;
 
     /// Gathers the nodes in a circle.
@@ -127,7 +123,7 @@ mod tests {
 
     impl Probe for Circle {
         fn enters(&self, low: DVec2, high: DVec2) -> bool {
-            distance_squared(low, high, self.centre) <= self.squared
+            rectangle_distance_squared(low, high, self.centre) <= self.squared
         }
 
         fn meet(&mut self, id: u32, p: DVec2) -> ControlFlow<()> {

@@ -8,6 +8,7 @@ use glam::DVec2;
 
 use super::conformal_map::ConformalMap;
 use super::plan::AuxinPlan;
+use crate::plane::bounds;
 use crate::shape::growth::TissueMap;
 use crate::shape::outline::Outline;
 
@@ -43,12 +44,7 @@ impl<'a> Lamina<'a> {
     pub(crate) fn carry(&mut self, now: TissueMap) {
         if let Some((current, _)) = &mut self.carried {
             *current = now;
-            self.bounds = self
-                .margin_now()
-                .into_iter()
-                .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| {
-                    (low.min(p), high.max(p))
-                });
+            self.bounds = bounds(self.margin_now());
         }
     }
 

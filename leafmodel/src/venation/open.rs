@@ -5,10 +5,11 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-use super::chance::{Use, bits};
 use super::fresh_nodes::FreshNodes;
 use super::influence::{Fate, Influence, Surroundings};
-use super::probe::{Probe, SLACK, distance_squared};
+use super::probe::{Probe, SLACK};
+use crate::plane::rectangle_distance_squared;
+use crate::random::{Use, bits};
 
 /// The node nearest to a source.
 #[derive(Clone, Debug)]
@@ -34,7 +35,8 @@ struct Look<'a> {
 
 impl Probe for Look<'_> {
     fn enters(&self, low: DVec2, high: DVec2) -> bool {
-        distance_squared(low, high, self.nearest.place) <= self.nearest.distance_squared * SLACK
+        rectangle_distance_squared(low, high, self.nearest.place)
+            <= self.nearest.distance_squared * SLACK
     }
 
     fn meet(&mut self, node: u32, position: DVec2) -> ControlFlow<()> {

@@ -21,6 +21,7 @@ use glam::DVec2;
 pub(crate) use self::grid::EdgeGrid;
 use self::grid::Lattice;
 use super::network::{VeinEdge, VenationNetwork};
+use crate::buckets::Buckets;
 
 /// A network whose edges meet at nodes only.
 #[derive(Clone, Debug)]
@@ -96,53 +97,20 @@ impl PlaneGraph {
 fn in_rows(network: &VenationNetwork) -> (Vec<DVec2>, Vec<VeinEdge>) {
     let count = network.nodes().len();
     let lattice = Lattice::around(network.nodes().iter().map(|n| n.position), count, 0.0);
-    let cells: Vec<u32> = network
-        .nodes()
-        .iter()
-        .map(|node| lattice.cell(node.position) as u32)
-        .collect();
-    let mut next = vec![0_u32; lattice.cells() + 1];
-    for &cell in &cells {
-        next[cell as usize + 1] += 1;
+    let places = network.nodes().iter().map(|node| node.position);
+    let cells = places.map(|place| lattice.cell(place));
+    let order = Buckets::new(lattice.cells(), cells.zip(0_u32..)).into_members();
+    let mut ranks = vec![0_u32; count];
+    let mut nodes = Vec::with_capacity(count);
+    for (rank, &node) in (0..).zip(&order) {
+        ranks[node as usize] = rank;
+        nodes.push(network.nodes()[node as usize].position);
     }
-    for cell in 1..next.len() {
-        next[cell] += next[cell - 1];
-    }
-    let mut nodes = vec![DVec2::ZERO; count];
-    let mut ranks = cells;
-    for (rank, node) in ranks.iter_mut().zip(network.nodes()) {
-        let at = &mut next[*rank as usize];
-        *rank = *at;
-        nodes[*at as usize] = node.position;
-        *at += 1;
-    }
-    let edges: Vec<VeinEdge> = network
-        .edges()
-        .iter()
-        .map(|edge| VeinEdge {
-            from: ranks[edge.from as usize],
-            to: ranks[edge.to as usize],
-            ..*edge
-        })
-        .collect();
-    let edges = by_from(count, &edges);
-    (nodes, edges)
-}
-
-/// Counting sort of edges by the node from which they come.
-fn by_from(count: usize, edges: &[VeinEdge]) -> Vec<VeinEdge> {
-    let mut next = vec![0_u32; count + 1];
-    for edge in edges {
-        next[edge.from as usize + 1] += 1;
-    }
-    for node in 0..count {
-        next[node + 1] += next[node];
-    }
-    let mut sorted = edges.to_vec();
-    for edge in edges {
-        let at = &mut next[edge.from as usize];
-        sorted[*at as usize] = *edge;
-        *at += 1;
-    }
-    sorted
+    let edges = network.edges().iter().map(|edge| VeinEdge {
+        from: ranks[edge.from as usize],
+        to: ranks[edge.to as usize],
+        ..*edge
+    });
+    let by_start = Buckets::new(count, edges.map(|edge| (edge.from as usize, edge)));
+    (nodes, by_start.into_members())
 }

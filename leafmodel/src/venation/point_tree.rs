@@ -10,7 +10,8 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-use super::probe::{Probe, SLACK, distance_squared};
+use super::probe::{Probe, SLACK};
+use crate::plane::rectangle_distance_squared;
 
 /// Greatest number of points in a cell before it splits.
 const CAPACITY: usize = 16;
@@ -291,7 +292,7 @@ struct Within {
 
 impl Probe for Within {
     fn enters(&self, low: DVec2, high: DVec2) -> bool {
-        distance_squared(low, high, self.p) <= self.radius_squared * SLACK
+        rectangle_distance_squared(low, high, self.p) <= self.radius_squared * SLACK
     }
 
     fn meet(&mut self, _id: u32, position: DVec2) -> ControlFlow<()> {
@@ -314,7 +315,8 @@ impl Probe for Lune {
     fn enters(&self, low: DVec2, high: DVec2) -> bool {
         let reach = self.squared * SLACK;
         let [p, q] = self.ends;
-        distance_squared(low, high, p) <= reach && distance_squared(low, high, q) <= reach
+        rectangle_distance_squared(low, high, p) <= reach
+            && rectangle_distance_squared(low, high, q) <= reach
     }
 
     fn meet(&mut self, id: u32, position: DVec2) -> ControlFlow<()> {

@@ -14,11 +14,6 @@ pub(crate) trait Probe {
     fn meet(&mut self, id: u32, position: DVec2) -> ControlFlow<()>;
 }
 
-/// Squared distance from `p` to the nearest point between these corners, 0 if it lies there itself.
-pub(crate) fn distance_squared(low: DVec2, high: DVec2, p: DVec2) -> f64 {
-    (low - p).max(p - high).max(DVec2::ZERO).length_squared()
-}
-
 /// Safety factor on squared distances to boxes. Entering a box in vain costs little, whereas a
 /// point in a skipped box would be missed.
 pub(crate) const SLACK: f64 = 1.0 + 1e-9;

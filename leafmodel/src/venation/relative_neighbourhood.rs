@@ -20,7 +20,8 @@ use glam::DVec2;
 use super::fresh_nodes::FreshNodes;
 use super::horizon::Horizon;
 use super::point_tree::PointTree;
-use super::probe::{Probe, SLACK, distance_squared};
+use super::probe::{Probe, SLACK};
+use crate::plane::rectangle_distance_squared;
 
 /// A relative neighbour, or a node that may turn out to be one.
 #[derive(Clone, Copy, Debug)]
@@ -126,11 +127,12 @@ struct Update<'a>(&'a mut RelativeNeighbourhood);
 impl Probe for Update<'_> {
     fn enters(&self, low: DVec2, high: DVec2) -> bool {
         let source = self.0.source;
-        let from_source = distance_squared(low, high, source);
+        let from_source = rectangle_distance_squared(low, high, source);
         self.0.horizon.shows_any_in(low - source, high - source)
             || self.0.neighbours.iter().any(|node| {
                 let reach = node.distance_squared * SLACK;
-                from_source <= reach && distance_squared(low, high, node.position) <= reach
+                from_source <= reach
+                    && rectangle_distance_squared(low, high, node.position) <= reach
             })
     }
 

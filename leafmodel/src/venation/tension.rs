@@ -15,6 +15,7 @@ use rayon::prelude::*;
 use super::network::VeinEdge;
 use super::planar::EdgeGrid;
 use super::topology::Topology;
+use crate::plane::{bounds, segment};
 use net::{Net, reach, steps};
 
 mod net;
@@ -256,11 +257,7 @@ fn crossings_of(positions: &[DVec2], edges: &[VeinEdge], nodes: &[u32]) -> Vec<[
     for &node in nodes {
         is_one[node as usize] = true;
     }
-    let all = || positions.iter().copied();
-    let (low, high) = (
-        all().fold(DVec2::INFINITY, DVec2::min),
-        all().fold(-DVec2::INFINITY, DVec2::max),
-    );
+    let (low, high) = bounds(positions.iter().copied());
     let size = high - low;
     let cell = (4.0 * mean_length(positions, edges)).max(size.max_element() / 2000.0);
     let columns = (size.x / cell) as usize + 1;
@@ -296,8 +293,7 @@ fn ends(positions: &[DVec2], edges: &[VeinEdge], pair: [u32; 2]) -> [DVec2; 4] {
 
 /// Whether the way from the first to the second place crosses that from the third to the fourth.
 fn cross([a, b, c, d]: [DVec2; 4]) -> bool {
-    let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
-    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+    segment::cross(a, b, c, d)
 }
 
 #[cfg(test)]

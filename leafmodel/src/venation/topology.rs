@@ -1,25 +1,25 @@
 //! Adjacency in a network of directed edges.
 
+use crate::buckets::Buckets;
+
 /// The numbers of the edges that leave and enter each node.
 pub(crate) struct Topology<'a> {
     edges: &'a [[u32; 2]],
-    out_starts: Vec<u32>,
-    out_edges: Vec<u32>,
-    in_starts: Vec<u32>,
-    in_edges: Vec<u32>,
+    leaving: Buckets,
+    entering: Buckets,
 }
 
 impl<'a> Topology<'a> {
     /// Sorts edges (from, to) by the nodes 0 to `count` − 1 at their ends.
     pub(crate) fn new(count: usize, edges: &'a [[u32; 2]]) -> Self {
-        let (out_starts, out_edges) = by_end(count, edges, 0);
-        let (in_starts, in_edges) = by_end(count, edges, 1);
+        let by_end = |end: usize| {
+            let ends = edges.iter().map(|edge| edge[end] as usize);
+            Buckets::new(count, ends.zip(0..))
+        };
         Self {
             edges,
-            out_starts,
-            out_edges,
-            in_starts,
-            in_edges,
+            leaving: by_end(0),
+            entering: by_end(1),
         }
     }
 
@@ -30,12 +30,12 @@ impl<'a> Topology<'a> {
 
     /// Edges that lead away from a node, ascending.
     pub(crate) fn leaving(&self, node: u32) -> &[u32] {
-        list(&self.out_starts, &self.out_edges, node)
+        self.leaving.list(node as usize)
     }
 
     /// Edges that lead to a node, ascending.
     pub(crate) fn entering(&self, node: u32) -> &[u32] {
-        list(&self.in_starts, &self.in_edges, node)
+        self.entering.list(node as usize)
     }
 
     /// Number of edges.
@@ -45,7 +45,7 @@ impl<'a> Topology<'a> {
 
     /// Number of nodes.
     pub(crate) fn nodes(&self) -> usize {
-        self.out_starts.len() - 1
+        self.leaving.count()
     }
 
     /// All nodes, each after those that lead to it.
@@ -76,30 +76,6 @@ impl<'a> Topology<'a> {
             None => Ok(order),
         }
     }
-}
-
-/// Counting sort of edges by one of their ends.
-fn by_end(count: usize, edges: &[[u32; 2]], end: usize) -> (Vec<u32>, Vec<u32>) {
-    let mut starts = vec![0; count + 1];
-    for edge in edges {
-        starts[edge[end] as usize + 1] += 1;
-    }
-    for node in 0..count {
-        starts[node + 1] += starts[node];
-    }
-    let mut next = starts.clone();
-    let mut sorted = vec![0; edges.len()];
-    for (i, edge) in edges.iter().enumerate() {
-        let at = &mut next[edge[end] as usize];
-        sorted[*at as usize] = i as u32;
-        *at += 1;
-    }
-    (starts, sorted)
-}
-
-fn list<'a>(starts: &[u32], edges: &'a [u32], node: u32) -> &'a [u32] {
-    let node = node as usize;
-    &edges[starts[node] as usize..starts[node + 1] as usize]
 }
 
 #[cfg(test)]

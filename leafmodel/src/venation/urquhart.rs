@@ -16,7 +16,8 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 
 use super::point_tree::PointTree;
-use super::probe::{Probe, SLACK, distance_squared};
+use super::probe::{Probe, SLACK};
+use crate::plane::rectangle_distance_squared;
 
 /// Half the side of that square over the size of the lamina.
 pub(crate) const SURROUNDINGS: f64 = 64.0;
@@ -184,9 +185,10 @@ impl Probe for UrquhartNeighbourhood {
     fn enters(&self, low: DVec2, high: DVec2) -> bool {
         let (low, high) = (low - self.source, high - self.source);
         // A node cuts off the corners that are nearer to it than to the source.
-        let cuts =
-            |corner: DVec2| distance_squared(low, high, corner) <= corner.length_squared() * SLACK;
-        distance_squared(low, high, DVec2::ZERO) <= self.reach_squared()
+        let cuts = |corner: DVec2| {
+            rectangle_distance_squared(low, high, corner) <= corner.length_squared() * SLACK
+        };
+        rectangle_distance_squared(low, high, DVec2::ZERO) <= self.reach_squared()
             && self.sides.iter().any(|side| cuts(side.corner))
     }
 

@@ -4,6 +4,8 @@ use glam::{Vec2, Vec3};
 
 use crate::bsdf::fresnel;
 use crate::bsdf::ggx::Ggx;
+use crate::bsdf::sample::BsdfSample;
+use crate::spectrum::Lanes;
 
 /// Reflection and refraction at a boundary; the medium lies on the side −z.
 ///
@@ -17,19 +19,6 @@ pub struct Dielectric {
     pub eta: f32,
     /// GGX roughness; 0 is smooth.
     pub alpha: f32,
-}
-
-/// A sampled direction; the weight is the same for all wavelengths.
-#[derive(Clone, Copy, Debug)]
-pub struct DielectricSample {
-    /// Direction of the light, local.
-    pub wi: Vec3,
-    /// `f · |cos| / pdf`.
-    pub weight: f32,
-    /// Density over solid angle.
-    pub pdf: f32,
-    /// Whether the boundary is smooth.
-    pub specular: bool,
 }
 
 impl Dielectric {
@@ -71,49 +60,36 @@ impl Dielectric {
         (wo.dot(h) > 0.0 && wi.dot(h) * wi.z > 0.0).then_some(h)
     }
 
-    /// `f(wo, wi)`, sr⁻¹; zero for a smooth boundary.
-    pub fn eval(self, wo: Vec3, wi: Vec3) -> f32 {
+    /// `f(wo, wi)`, sr⁻¹, and the density of [`Dielectric::sample`], sr⁻¹; zero for a smooth boundary.
+    #[inline]
+    pub fn scatter(self, wo: Vec3, wi: Vec3) -> (f32, f32) {
         if self.is_smooth() || wo.z == 0.0 || wi.z == 0.0 {
-            return 0.0;
+            return (0.0, 0.0);
         }
         let eta = self.relative_eta(wo);
         let (wo, wi) = flip(wo, wi);
         let Some(h) = Self::half_vector(wo, wi, eta) else {
-            return 0.0;
+            return (0.0, 0.0);
         };
         let ggx = self.ggx();
         let reflected = fresnel::dielectric(wo.dot(h), eta);
+        let visible = ggx.visible_density(wo, h);
         if wi.z > 0.0 {
-            return ggx.d(h) * ggx.g1(wo) * ggx.g1(wi) * reflected / (4.0 * wo.z * wi.z);
+            let f = ggx.d(h) * ggx.g1(wo) * ggx.g1(wi) * reflected / (4.0 * wo.z * wi.z);
+            return (f, reflected * visible / (4.0 * wo.dot(h)));
         }
         let denominator = wo.dot(h) + eta * wi.dot(h);
         let jacobian =
             wo.dot(h) * wi.dot(h).abs() / (wo.z * wi.z.abs() * denominator * denominator);
         // η² of the density of normals and 1/η² of the radiance's compression cancel.
-        (1.0 - reflected) * ggx.d(h) * ggx.g1(wo) * ggx.g1(-wi) * jacobian
-    }
-
-    /// Density of [`Dielectric::sample`], sr⁻¹; zero for a smooth boundary.
-    pub fn pdf(self, wo: Vec3, wi: Vec3) -> f32 {
-        if self.is_smooth() || wo.z == 0.0 || wi.z == 0.0 {
-            return 0.0;
-        }
-        let eta = self.relative_eta(wo);
-        let (wo, wi) = flip(wo, wi);
-        let Some(h) = Self::half_vector(wo, wi, eta) else {
-            return 0.0;
-        };
-        let reflected = fresnel::dielectric(wo.dot(h), eta);
-        let visible = self.ggx().visible_density(wo, h);
-        if wi.z > 0.0 {
-            return reflected * visible / (4.0 * wo.dot(h));
-        }
-        let denominator = wo.dot(h) + eta * wi.dot(h);
-        (1.0 - reflected) * visible * eta * eta * wi.dot(h).abs() / (denominator * denominator)
+        let f = (1.0 - reflected) * ggx.d(h) * ggx.g1(wo) * ggx.g1(-wi) * jacobian;
+        let pdf =
+            (1.0 - reflected) * visible * eta * eta * wi.dot(h).abs() / (denominator * denominator);
+        (f, pdf)
     }
 
     /// Samples reflection or refraction in proportion to their Fresnel shares.
-    pub fn sample(self, wo: Vec3, lobe: f32, u: Vec2) -> Option<DielectricSample> {
+    pub fn sample<const N: usize>(self, wo: Vec3, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
         if wo.z == 0.0 {
             return None;
         }
@@ -143,18 +119,18 @@ impl Dielectric {
         };
         let wi = Vec3::new(wi.x, wi.y, wi.z * side);
         if self.is_smooth() {
-            return Some(DielectricSample {
+            return Some(BsdfSample {
                 wi,
-                weight: smooth_weight,
+                weight: Lanes::splat(smooth_weight),
                 pdf: 1.0,
                 specular: true,
             });
         }
         let wi = wi.normalize();
-        let pdf = self.pdf(wo, wi);
-        (pdf > 0.0).then(|| DielectricSample {
+        let (f, pdf) = self.scatter(wo, wi);
+        (pdf > 0.0).then(|| BsdfSample {
             wi,
-            weight: self.eval(wo, wi) * wi.z.abs() / pdf,
+            weight: Lanes::splat(f * wi.z.abs() / pdf),
             pdf,
             specular: false,
         })
@@ -184,11 +160,10 @@ mod tests {
             Vec3::new(0.6, 0.0, 0.8),
             Vec3::new(0.3, 0.1, -0.9).normalize(),
         ] {
-            let sample = glass
-                .sample(wo, 0.99, Vec2::splat(0.5))
-                .expect("it is refracted");
+            let sample = glass.sample::<1>(wo, 0.99, Vec2::splat(0.5));
+            let sample = sample.expect("it is refracted");
             assert!(wo.z * sample.wi.z < 0.0);
-            let flux = sample.weight * glass.flux_over_radiance(wo, sample.wi);
+            let flux = sample.weight.0[0] * glass.flux_over_radiance(wo, sample.wi);
             assert!((flux - 1.0).abs() < 1e-6, "{flux}");
             assert_eq!(glass.flux_over_radiance(wo, wo), 1.0);
         }

@@ -8,7 +8,7 @@ use std::f32::consts::FRAC_1_PI;
 use glam::{Vec2, Vec3};
 
 use crate::bsdf::coat::Coat;
-use crate::bsdf::{BsdfSample, Scattered};
+use crate::bsdf::sample::{BsdfSample, Scattered};
 use crate::sampling::warp;
 use crate::spectrum::Lanes;
 
@@ -63,12 +63,6 @@ impl<'a> FluorescenceView<'a> {
     pub fn sample<const N: usize>(&self, u: Vec2) -> Option<BsdfSample<N>> {
         let up = warp::cosine_hemisphere(u);
         let wi = Vec3::new(up.x, up.y, self.lit * up.z);
-        let Scattered { f, pdf } = self.scatter(wi);
-        (pdf > 0.0).then(|| BsdfSample {
-            wi,
-            weight: f * (wi.z.abs() / pdf),
-            pdf,
-            specular: false,
-        })
+        self.scatter(wi).drawn(wi)
     }
 }

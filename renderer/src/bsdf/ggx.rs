@@ -38,11 +38,6 @@ impl Ggx {
         1.0 / (1.0 + self.lambda(w))
     }
 
-    /// Masking and shadowing of two directions on the same side, height-correlated.
-    pub fn g2(&self, wo: Vec3, wi: Vec3) -> f32 {
-        1.0 / (1.0 + self.lambda(wo) + self.lambda(wi))
-    }
-
     /// A microfacet normal drawn from those visible from `wo` (Heitz, JCGT 7(4), 2018).
     pub fn sample_visible(&self, wo: Vec3, u: Vec2) -> Vec3 {
         self.seen_from(wo).normal(warp::disc(u))

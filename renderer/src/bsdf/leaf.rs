@@ -8,7 +8,7 @@ use glam::{Vec2, Vec3};
 
 pub use crate::bsdf::coat::Coat;
 pub use crate::bsdf::leaf_tissue::{Tissue, usual_abaxial_ratio};
-use crate::bsdf::{BsdfSample, Scattered};
+use crate::bsdf::sample::{BsdfSample, Scattered};
 use crate::sampling::warp;
 use crate::spectrum::Lanes;
 
@@ -172,12 +172,6 @@ impl<const N: usize> LeafView<'_, N> {
         let through = lobe >= coat + reflected;
         let side = 1.0_f32.copysign(self.wo.z);
         let wi = Vec3::new(up.x, up.y, if through { -side * up.z } else { side * up.z });
-        let Scattered { f, pdf } = self.scatter(wi);
-        (pdf > 0.0).then(|| BsdfSample {
-            wi,
-            weight: f * (wi.z.abs() / pdf),
-            pdf,
-            specular: false,
-        })
+        self.scatter(wi).drawn(wi)
     }
 }

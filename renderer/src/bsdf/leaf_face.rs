@@ -6,8 +6,9 @@
 use glam::{Vec2, Vec3};
 
 use crate::bsdf::dielectric::Dielectric;
+use crate::bsdf::fresnel;
 use crate::bsdf::ggx::Ggx;
-use crate::bsdf::{BsdfSample, Scattered, fresnel};
+use crate::bsdf::sample::{BsdfSample, Scattered};
 use crate::spectrum::Lanes;
 
 /// Facets that light meets before it is let go whatever their shadows say.
@@ -250,7 +251,7 @@ impl<const N: usize> FaceView<N> {
     fn flux(&self, wi: Vec3) -> Option<(Lanes<N>, f32)> {
         let (boundary, drawn) = (self.boundary(), self.likelihood.drawn);
         let wo = self.wo[drawn];
-        let own = boundary.eval(wo, wi) * wi.z.abs() * boundary.flux_over_radiance(wo, wi);
+        let own = boundary.scatter(wo, wi).0 * wi.z.abs() * boundary.flux_over_radiance(wo, wi);
         if own <= 0.0 {
             return None;
         }
@@ -294,7 +295,7 @@ impl<const N: usize> FaceView<N> {
     /// A direction by one facet, into air alone.
     pub(super) fn sample(&self, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let wo = self.wo[self.likelihood.drawn];
-        let sample = self.boundary().sample(wo, lobe, u)?;
+        let sample = self.boundary().sample::<N>(wo, lobe, u)?;
         let Scattered { f, .. } = self.scatter(sample.wi);
         (sample.wi.z > 0.0).then(|| BsdfSample {
             wi: sample.wi,

@@ -10,8 +10,9 @@ use glam::{Vec2, Vec3};
 
 use super::coat::facets;
 use super::coat_table::LocalCoat;
+use super::fresnel;
 use super::relief::{Tilt, given_back, lowered, normal_of};
-use super::{BsdfSample, Scattered, fresnel};
+use super::sample::{BsdfSample, Scattered};
 use crate::sampling::warp;
 use crate::spectrum::Lanes;
 
@@ -169,13 +170,7 @@ impl<const N: usize> MetallicView<'_, N> {
         let wi = self
             .frame
             .to_mesh(Vec3::new(up.x, up.y, up.z.copysign(self.wo.z)));
-        let Scattered { f, pdf } = self.scatter(wi);
-        (pdf > 0.0).then(|| BsdfSample {
-            wi,
-            weight: f * (wi.z.abs() / pdf),
-            pdf,
-            specular: false,
-        })
+        self.scatter(wi).drawn(wi)
     }
 }
 

@@ -13,7 +13,7 @@ use super::coat::Coat;
 use super::coat_table::LocalCoat;
 use super::dust::{LocalDust, between};
 use super::leaf::LeafBsdf;
-use super::{BsdfSample, Scattered};
+use super::sample::{BsdfSample, Scattered};
 use crate::sampling::warp;
 use crate::spectrum::Lanes;
 
@@ -324,13 +324,7 @@ impl<const N: usize> ReliefView<'_, N> {
         if (wi.z * self.wo.z < 0.0) != through {
             return None;
         }
-        let Scattered { f, pdf } = self.scatter(wi);
-        (pdf > 0.0).then(|| BsdfSample {
-            wi,
-            weight: f * (wi.z.abs() / pdf),
-            pdf,
-            specular: false,
-        })
+        self.scatter(wi).drawn(wi)
     }
 }
 

@@ -10,6 +10,7 @@
 //! which is the thin-lens law for `τ = 0`. `docs/src/theory/camera.md` derives it.
 
 use glam::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Smallest and greatest angle from the lower to the upper edge of a picture, degrees.
@@ -49,7 +50,7 @@ pub enum Opening {
 }
 
 /// The shape of the opening.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct Iris {
     /// Number of straight blades, at least 3; 0 is a circle.
     pub blades: u32,
@@ -74,7 +75,7 @@ pub enum Focus {
 }
 
 /// A lens with its focus set. Lengths are in metres, angles in radians.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct ThinLens {
     /// Angle from the lower to the upper edge of the picture.
     pub vertical_fov: f64,

@@ -1,11 +1,12 @@
 //! The view of a scene.
 
 use glam::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
 
 use super::thin_lens::ThinLens;
 
 /// The view of a scene, with everything known that rays need.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct View {
     /// Middle of the lens, or of the plane from which parallel rays start, m.
     pub position: DVec3,
@@ -21,7 +22,7 @@ pub struct View {
 
 /// Where the rays of a view are traced in single precision: near what is seen, wherever the camera
 /// is. The world that is seen decides it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct Near {
     /// The point of the scene that is the origin of rays, m.
     pub origin: DVec3,
@@ -30,7 +31,7 @@ pub struct Near {
 }
 
 /// How points come to the film.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub enum Projection {
     /// Through a thin lens.
     Perspective(ThinLens),

@@ -260,6 +260,41 @@ fn damaged_files_are_errors_wherever_the_damage_is() {
 }
 
 #[test]
+fn a_part_of_an_older_program_is_refused_with_the_version_to_use() {
+    let path = folder();
+    let path = path.path().join("old.part");
+    std::fs::write(&path, include_bytes!("kept/0.1.0.part")).expect("the folder can be written");
+    let wanted = format!(
+        "{} was written by Lamina 0.1.0: continue it, or merge it, with that version",
+        path.display()
+    );
+    let refused = read(&path).map(|_| ()).expect_err("it is older");
+    assert_eq!(refused.to_string(), wanted);
+    let refused = merge(&[path]).map(|_| ()).expect_err("it is older");
+    assert_eq!(refused.to_string(), wanted);
+}
+
+#[test]
+fn a_view_and_bands_come_back_as_they_were() {
+    let stage = Stage::new(8, Some(0.5));
+    let mut heading = stage.heading.clone();
+    heading.caption.kind = FilmKind::Spectral {
+        bands: vec![crate::spectrum::recorded::Band {
+            center_nm: 550.0,
+            width_nm: 10.0,
+        }],
+    };
+    let bytes = heading.to_bytes(&Progress::of(&stage.begin()));
+    let (read, _) = Heading::from_bytes(&bytes).expect("they were just written");
+    assert_eq!(read.caption.camera, heading.caption.camera);
+    assert_eq!(
+        format!("{:?}", read.caption.kind),
+        format!("{:?}", heading.caption.kind)
+    );
+    assert_eq!((read.aim, read.whole), (heading.aim, heading.whole));
+}
+
+#[test]
 fn a_file_is_at_most_twice_the_memory_of_its_picture() {
     let folder = folder();
     let path = folder.path().join("x.checkpoint");

@@ -1,48 +1,28 @@
 //! `lamina fit`: what leaves hold, from their reflectance and transmittance.
 
 mod input;
-mod plot;
-mod tables;
 
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
-
-use leafmodel::optics::inversion::{self, Determined, Found, INTERVAL, Inversion};
+use leafmodel::optics::inversion::{self, Inversion};
 use leafmodel::optics::prospect_d::{FIRST_NM, LAST_NM};
 use leafmodel::optics::{Constituent, Contents};
 use rayon::prelude::*;
 
-pub(super) use self::tables::quoted;
-use self::tables::{contents, covariances, fitted_spectra, report};
 use crate::cli::arguments::FitArguments;
-use crate::cli::columns::in_columns;
-use crate::cli::places::check_outputs;
+use crate::cli::places::{check_outputs, is_json_not_csv, require_ending, write_and_say};
 use crate::cli::progress::Patience;
 use crate::cli::{Failure, say};
-use crate::image::atomic;
 use crate::measured::spectra::Leaf;
+use crate::report::fit::{
+    Fitted, Rounded, contents, covariances, fitted_spectra, human, report, shown, svg,
+};
 
 /// Least number of wavelengths from which contents can be told.
 const LEAST_WAVELENGTHS: usize = 8;
 
-/// A leaf and what it was found to hold.
-struct Fitted<'a> {
-    leaf: &'a Leaf,
-    found: Found,
-}
-
 pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
     let out = arguments.out.as_deref();
-    let is_json = match out.map(|file| file.extension().and_then(|ending| ending.to_str())) {
-        None | Some(Some("csv")) => false,
-        Some(Some("json")) => true,
-        Some(_) => {
-            return Err(Failure::bad(
-                "--out writes csv or json: the ending says which",
-            ));
-        }
-    };
-    for (file, ending, flag) in [
+    let is_json = is_json_not_csv(out)?;
+    let others = [
         (
             &arguments.spectra_out,
             "csv",
@@ -54,21 +34,13 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
             "csv",
             "--covariance-out writes a table",
         ),
-    ] {
-        let has = |file: &&PathBuf| file.extension().is_some_and(|own| own == ending);
-        if let Some(file) = file.as_ref().filter(|file| !has(file)) {
-            let file = file.display();
-            return Err(Failure::bad(format!("{flag}: let {file} end in .{ending}")));
-        }
-    }
-    let others = [
-        &arguments.spectra_out,
-        &arguments.plot,
-        &arguments.covariance_out,
     ];
-    let outputs = others.into_iter().filter_map(|file| file.as_deref());
-    let outputs: Vec<&Path> = out.into_iter().chain(outputs).collect();
-    check_outputs(&outputs, &input::files(arguments), "the command")?;
+    for (file, ending, what) in others {
+        require_ending(file, ending, what)?;
+    }
+    let outputs = others.into_iter().filter_map(|(file, ..)| file.as_ref());
+    let outputs = arguments.out.iter().chain(outputs);
+    check_outputs(outputs, &input::files(arguments), "the command")?;
     let (free, fixed) = wanted(arguments)?;
     let range = arguments
         .range
@@ -104,16 +76,16 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
         } else {
             contents(&fitted, &free)
         };
-        write(file, &text)?;
+        write_and_say(file, text)?;
     }
     if let Some(file) = &arguments.spectra_out {
-        write(file, &fitted_spectra(&fitted))?;
+        write_and_say(file, fitted_spectra(&fitted))?;
     }
     if let Some(file) = &arguments.plot {
-        write(file, &plot::svg(&fitted))?;
+        write_and_say(file, svg(&fitted))?;
     }
     if let Some(file) = &arguments.covariance_out {
-        write(file, &covariances(&fitted))?;
+        write_and_say(file, covariances(&fitted))?;
     }
     for fitted in &fitted {
         say_correlation(fitted);
@@ -218,15 +190,6 @@ fn keep(leaf: &mut Leaf, [low, high]: [f64; 2]) {
     lines.retain(|_| kept.next().copied().unwrap_or(true));
 }
 
-/// A leaf's name in messages and tables.
-fn shown(leaf: &Leaf) -> &str {
-    if leaf.name.is_empty() {
-        "the leaf"
-    } else {
-        &leaf.name
-    }
-}
-
 fn spectra(leaf: &Leaf) -> inversion::Spectra<'_> {
     let there = |values: &'_ Vec<f64>| !values.is_empty();
     inversion::Spectra {
@@ -254,66 +217,6 @@ fn say_correlation(Fitted { leaf, found }: &Fitted<'_>) {
             Rounded(correlation.length_nm)
         );
     }
-}
-
-/// What a reader of the terminal sees.
-fn human(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
-    let mut lines = Vec::new();
-    for Fitted { leaf, found } in fitted {
-        let rms = found.rms();
-        lines.push(format!(
-            "{}: {} values, rms {rms:.2e}",
-            shown(leaf),
-            found.values()
-        ));
-        let told = |words: &str, value: f64, unit: &str, known: Determined| {
-            let error = match known {
-                Determined::Within(error) => format!("± {:.2}", Rounded(INTERVAL * error)),
-                Determined::Given | Determined::AtEnd | Determined::Not(_) => {
-                    known.reason().unwrap_or_default().to_owned()
-                }
-            };
-            let value = if known.has_value() {
-                format!("{:.4} {unit}", Rounded(value))
-                    .trim_end()
-                    .to_owned()
-            } else {
-                "not determined".to_owned()
-            };
-            [words.to_owned(), value, error]
-        };
-        let contents = free
-            .iter()
-            .map(|&of| told(of.words(), found.contents[of], of.unit(), found.known[of]));
-        let contrast = found
-            .contrast
-            .map(|contrast| told("contrast of the faces", contrast.value, "", contrast.known));
-        let rows: Vec<[String; 3]> = contents.chain(contrast).collect();
-        lines.push(in_columns(&rows));
-    }
-    lines.push("± is half of the interval of 95 %".to_owned());
-    lines.join("\n")
-}
-
-/// A number with so many digits that count.
-struct Rounded(f64);
-
-impl std::fmt::Display for Rounded {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let digits = f.precision().unwrap_or(3) as i32;
-        if self.0 == 0.0 {
-            return f.write_str("0");
-        }
-        let before = libm::floor(libm::log10(self.0.abs())) as i32 + 1;
-        let places = (digits - before).clamp(0, 12) as usize;
-        write!(f, "{:.places$}", self.0)
-    }
-}
-
-fn write(file: &Path, text: &str) -> Result<(), Failure> {
-    atomic::replace(file, |out| out.write_all(text.as_bytes())).map_err(Failure::system)?;
-    say(file.display());
-    Ok(())
 }
 
 #[cfg(test)]

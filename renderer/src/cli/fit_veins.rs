@@ -2,11 +2,7 @@
 
 mod free;
 mod observed;
-mod picture;
-mod report;
 mod simulations;
-
-use std::path::Path;
 
 use leafmodel::inference::{FitError, Problem, fit};
 
@@ -15,10 +11,10 @@ use self::observed::Observed;
 use self::simulations::Simulations;
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::FitVeinsArguments;
-use crate::cli::places::Lock;
+use crate::cli::places::{Lock, write_whole};
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, check_writable, note, say, stats};
-use crate::image::atomic;
+use crate::cli::{Failure, check_writable, note, on_threads, say, stats};
+use crate::report::vein_fit;
 use crate::scene::fingerprint::fnv1a;
 
 pub(super) fn run(arguments: &FitVeinsArguments) -> Result<(), Failure> {
@@ -54,15 +50,7 @@ pub(super) fn run(arguments: &FitVeinsArguments) -> Result<(), Failure> {
             simulations.carry_out(draws, &grower, &signals)
         })
     };
-    let found = match arguments.threads {
-        None => work(),
-        Some(threads) => rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.into())
-            .build()
-            .map_err(Failure::system)?
-            .install(work),
-    };
-    let found = match found {
+    let found = match on_threads(arguments.threads, || Ok(work()))? {
         Ok(found) => found,
         Err(FitError::Stopped(failure)) => return Err(failure),
         Err(error @ (FitError::TooFew { .. } | FitError::NothingVaries)) => {
@@ -71,13 +59,15 @@ pub(super) fn run(arguments: &FitVeinsArguments) -> Result<(), Failure> {
         }
     };
     simulations.save()?;
-    write(&sample, &report::sample(&problem, &found)?)?;
-    stats::write(
-        &json,
-        &report::json(arguments, grower.name(), &problem, &found),
-    )?;
-    write(&picture, picture::marginals(&problem, &found).as_bytes())?;
-    eprint!("{}", report::table(&found));
+    write_whole(&sample, vein_fit::sample(&problem, &found))?;
+    let mut report = vein_fit::json(&problem, &found);
+    report["leaf"] = grower.name().into();
+    report["measures"] = arguments.measures.display().to_string().into();
+    let settings = arguments.set.iter().chain(&arguments.overrides);
+    report["settings"] = settings.map(String::as_str).collect();
+    stats::write(&json, &report)?;
+    write_whole(&picture, vein_fit::marginals(&problem, &found))?;
+    eprint!("{}", vein_fit::table(&found));
     for path in [&json, &sample, &picture, &table] {
         say(path.display());
     }
@@ -113,9 +103,4 @@ fn reason(error: &FitError<Failure>) -> String {
             text + ": let --free begin and end nearer to the leaf, or name other measures by --fit"
         }
     }
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    use std::io::Write as _;
-    atomic::replace(path, |file| file.write_all(bytes)).map_err(Failure::system)
 }

@@ -2,9 +2,7 @@
 
 mod about;
 mod ages;
-mod blade_files;
 mod choice;
-mod colours;
 mod drawings;
 mod fields;
 mod films;
@@ -13,9 +11,7 @@ mod grown;
 mod individuals;
 mod maps;
 mod outputs;
-mod warnings;
 
-use std::io::Write as _;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -30,7 +26,6 @@ use leafmodel::species::PRESETS;
 use leafmodel::species::diagnosis::findings;
 use serde_json::json;
 
-use self::blade_files::Parts;
 use self::choice::Chosen;
 pub(super) use self::choice::{NotChosen, Wish, is_word, unknown_preset};
 use self::drawings::{Look, without_sources};
@@ -39,17 +34,18 @@ use self::grown::Grown;
 use self::outputs::{Kind, Outputs};
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::GrowArguments;
+use crate::cli::places::write_whole;
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, needs, say, stats};
-use crate::image::atomic;
+use crate::cli::{Failure, needs, on_threads, say, stats};
+use crate::export::blade::{self, Parts};
 
 pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     if arguments.list {
         let longest = PRESETS.iter().map(|preset| preset.name.len()).max();
         for preset in PRESETS {
             let width = longest.unwrap_or(0);
-            say(format!("{:<width$}  {}", preset.name, preset.about));
+            say(format!("{:<width$}  {}", preset.name, preset.about()));
         }
         return Ok(());
     }
@@ -94,14 +90,7 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
             started,
         )
     };
-    match arguments.threads {
-        None => work(),
-        Some(threads) => rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.into())
-            .build()
-            .map_err(Failure::system)?
-            .install(work),
-    }
+    on_threads(arguments.threads, work)
 }
 
 /// Fails if the growth of a leaf needs more memory than `allowed`; a blade is made and painted only
@@ -168,8 +157,8 @@ fn carry_out(
                 look.file(*kind, without_sources(outlines, all_veins), None)?
             }
             Kind::Ply | Kind::Obj => match &grown {
-                Grown::Whole(leaf) if *kind == Kind::Ply => blade_files::ply(&Parts::of(leaf)),
-                Grown::Whole(leaf) => blade_files::obj(&Parts::of(leaf)).into_bytes(),
+                Grown::Whole(leaf) if *kind == Kind::Ply => blade::ply(&Parts::of(leaf)),
+                Grown::Whole(leaf) => blade::obj(&Parts::of(leaf)).into_bytes(),
                 Grown::Flat { .. } => continue,
             },
             Kind::Gif | Kind::Apng | Kind::Mp4 | Kind::Toml => continue,
@@ -212,7 +201,7 @@ fn carry_out(
             "leaf": name,
             "seconds": seconds,
             "build_seconds": build_seconds,
-            "peak_mib": stats::peak_mib(),
+            "peak_mib": needs::peak_mib(),
             "nodes": all_veins.nodes().len(),
             "sources": all_veins.sources(),
             "steps": all_veins.steps(),
@@ -317,11 +306,7 @@ fn finish(path: &Path, bytes: &[u8], stop: &AtomicBool) -> Result<(), Failure> {
     if stop.load(Ordering::Relaxed) {
         return Err(Failure::Interrupted);
     }
-    write(path, bytes)?;
+    write_whole(path, bytes)?;
     say(path.display());
     Ok(())
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    atomic::replace(path, |file| file.write_all(bytes)).map_err(Failure::system)
 }

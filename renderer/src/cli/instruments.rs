@@ -1,22 +1,19 @@
 //! `lamina instruments`: figures of a scene's instruments as tables.
 
-mod plot;
-mod table;
-
-use std::io::Write as _;
-use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::cli::arguments::InstrumentsArguments;
-use crate::cli::progress::{BETWEEN_LINES, Patience};
+use crate::cli::places::{
+    check_outputs, has_ending, is_json_not_csv, require_ending, write_and_say,
+};
+use crate::cli::progress::{Clock, Patience};
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, needs, note, places, say, warn};
-use crate::image::atomic;
+use crate::cli::{Failure, needs, note, on_threads, warn};
 use crate::instruments::{
     Budget, CutPaths, Effort, MOST_TURNS, Row, Watch, notes, read_out_watched, sets_of,
 };
+use crate::report::instruments as report;
 use crate::scene::description::Description;
 use crate::scene::load;
 use crate::scene::plant_cache::PlantCache;
@@ -36,13 +33,13 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
     let scene = loaded.description;
     let mut inputs = loaded.inputs;
     inputs.push(given.scene.clone());
-    check_outputs(arguments, &inputs)?;
+    for path in &arguments.out {
+        is_json_not_csv(Some(path))?;
+    }
+    require_ending(&arguments.plot, "svg", "--plot draws")?;
+    let outputs = arguments.out.iter().chain(&arguments.plot);
+    check_outputs(outputs, &inputs, "the command")?;
     let chosen = choose(arguments, &scene)?;
-    let threads = arguments.threads.map_or(0, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(Failure::system)?;
     let most = if arguments.error.is_some() {
         MOST_RAYS
     } else {
@@ -53,8 +50,9 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
         error: arguments.error,
         seed: arguments.seed,
     };
-    let Measured { rows, cuts, ended } =
-        pool.install(|| measure(arguments, &scene, &chosen, &budget, &signals))?;
+    let Measured { rows, cuts, ended } = on_threads(arguments.threads, || {
+        measure(arguments, &scene, &chosen, &budget, &signals)
+    })?;
     let ended = match ended {
         // Nothing was measured: what older runs wrote stays.
         Err(Ended::Failed(failure)) if rows.is_empty() => return Err(failure),
@@ -62,24 +60,21 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
     };
     for path in &arguments.out {
         let text = if has_ending(path, "json") {
-            table::json(&scene, &budget, (&rows, &cuts), ended.is_ok())
+            report::json(&scene, &budget, (&rows, &cuts), ended.is_ok())
         } else {
-            table::csv(&rows)
+            report::csv(&rows)
         };
-        atomic::replace(path, |file| file.write_all(text.as_bytes())).map_err(Failure::system)?;
-        say(path.display());
+        write_and_say(path, text)?;
     }
     if let Some(path) = &arguments.plot {
-        let drawing = plot::svg(&rows).ok_or_else(|| {
+        let drawing = report::svg(&rows).ok_or_else(|| {
             Failure::bad(format!(
                 "{}: there is nothing to draw: a line needs figures at two wavelengths, view angles \
                  or depths",
                 path.display()
             ))
         })?;
-        atomic::replace(path, |file| file.write_all(drawing.as_bytes()))
-            .map_err(Failure::system)?;
-        say(path.display());
+        write_and_say(path, drawing)?;
     }
     match ended {
         Err(Ended::Failed(failure)) => Err(failure),
@@ -249,19 +244,16 @@ fn report_cuts(name: &str, cut: &CutPaths, most_events: u32) {
 struct Rays<'a> {
     name: &'a str,
     budget: &'a Budget,
-    started: Instant,
-    last_line: Mutex<Instant>,
+    clock: Clock,
     followed: AtomicU64,
 }
 
 impl<'a> Rays<'a> {
     fn new(name: &'a str, budget: &'a Budget) -> Self {
-        let started = Instant::now();
         Self {
             name,
             budget,
-            started,
-            last_line: Mutex::new(started),
+            clock: Clock::new(),
             followed: AtomicU64::new(0),
         }
     }
@@ -272,22 +264,17 @@ impl<'a> Rays<'a> {
 
     fn tell(&self, rays: u64) {
         self.followed.store(rays, Ordering::Relaxed);
-        let mut last = self
-            .last_line
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        if last.elapsed() < BETWEEN_LINES {
+        if !self.clock.is_due() {
             return;
         }
-        *last = Instant::now();
-        let (name, seconds) = (self.name, self.started.elapsed().as_secs_f64());
+        let (name, all) = (self.name, self.budget.rays);
         if let Some(error) = self.budget.error {
+            let seconds = self.clock.seconds();
             eprintln!("{name}: {rays} rays after {seconds:.0} s, until --error {error}");
-            return;
+        } else {
+            let after = self.clock.after(rays.max(1) as f64 / all as f64);
+            eprintln!("{name}: {rays} of {all} rays {after}");
         }
-        let all = self.budget.rays;
-        let left = seconds * (all as f64 / rays.max(1) as f64 - 1.0).max(0.0);
-        eprintln!("{name}: {rays} of {all} rays after {seconds:.0} s, about {left:.0} s to go");
     }
 }
 
@@ -305,41 +292,4 @@ fn build(
         ..patience.options()
     };
     World::build_with(scene, &options).map_err(Failure::bad)
-}
-
-/// Fails if files cannot be written, are named twice or read, or end in what is not written.
-fn check_outputs(
-    arguments: &InstrumentsArguments,
-    inputs: &[std::path::PathBuf],
-) -> Result<(), Failure> {
-    for path in &arguments.out {
-        if !has_ending(path, "csv") && !has_ending(path, "json") {
-            return Err(Failure::bad(format!(
-                "{}: --out writes tables: let its name end in .csv or .json",
-                path.display()
-            )));
-        }
-    }
-    if let Some(path) = arguments
-        .plot
-        .as_ref()
-        .filter(|path| !has_ending(path, "svg"))
-    {
-        return Err(Failure::bad(format!(
-            "{}: --plot draws: let its name end in .svg",
-            path.display()
-        )));
-    }
-    let outputs: Vec<&Path> = arguments
-        .out
-        .iter()
-        .chain(&arguments.plot)
-        .map(std::path::PathBuf::as_path)
-        .collect();
-    places::check_outputs(&outputs, inputs, "the command")
-}
-
-fn has_ending(path: &Path, ending: &str) -> bool {
-    path.extension()
-        .is_some_and(|given| given.eq_ignore_ascii_case(ending))
 }

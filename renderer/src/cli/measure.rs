@@ -1,27 +1,26 @@
 //! `lamina measure`: measures of a network of veins from a file.
 
 mod input;
-mod report;
 
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use leafmodel::measure::Subject;
 
 pub(super) use self::input::Input;
-use self::report::Report;
-pub(super) use self::report::{by_order, measured};
 use crate::cli::arguments::MeasureArguments;
+use crate::cli::places::{
+    check_outputs, has_ending, is_json_not_csv, require_ending, write_and_say,
+};
 use crate::cli::progress::Patience;
-use crate::cli::{Failure, places, say, trace};
-use crate::image::atomic;
+use crate::cli::{Failure, trace};
+use crate::report::measures::{Report, measured};
 
 /// Most areoles that the bootstrap draws, which takes up to a minute of a processor.
 const MOST_DRAWN: u64 = 2_000_000_000;
 
 pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
-    check_outputs(arguments)?;
+    check_files(arguments)?;
     let _patience = Patience::about("measuring");
     let started = Instant::now();
     let input = Input::read(&arguments.file, &arguments.reading)?;
@@ -33,8 +32,20 @@ pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
     let measuring = Instant::now();
     let subject = Subject::new(blade, &input.network, input.known);
     check_draws(arguments.bootstrap, subject.areoles().len())?;
-    let report = Report::new(arguments, &input, &subject);
-    let density = report.number("vein_density_mm_per_mm2");
+    let asked = [&arguments.structure_factor, &arguments.cuts].map(Option::is_some);
+    let (measures, structure, supply) = measured(&subject, arguments.measuring.wanted(asked));
+    let report = Report {
+        file: arguments.file.display().to_string(),
+        network: &input.network,
+        known: input.known,
+        faults: &input.faults,
+        subject: &subject,
+        measures,
+        structure,
+        supply,
+        intervals: subject.confidence(arguments.bootstrap, arguments.seed),
+    };
+    let density = report.measures.number("vein_density_mm_per_mm2");
     let scale = "--mm-per-unit, --mm-per-pixel, --area or --outline";
     if let Some(warning) = trace::implausible_density(density, scale) {
         eprintln!("{warning}");
@@ -42,14 +53,24 @@ pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
     let seconds = measuring.elapsed().as_secs_f64();
     eprint!("{}", report.table());
     for path in &arguments.out {
-        let text = if is_json(path) {
+        let text = if has_ending(path, "json") {
             report.json()
         } else {
             report.csv()
         };
-        write(path, &text)?;
+        write_and_say(path, text)?;
     }
-    report.write_tables(arguments)?;
+    let tables: [(_, &dyn Fn() -> String); 4] = [
+        (&arguments.distributions, &|| report.samples()),
+        (&arguments.structure_factor, &|| report.structure_table()),
+        (&arguments.loop_tree, &|| report.loops()),
+        (&arguments.cuts, &|| report.cuts()),
+    ];
+    for (path, table) in tables {
+        if let Some(path) = path {
+            write_and_say(path, table())?;
+        }
+    }
     let network = &input.network;
     eprintln!(
         "{}: {} nodes, {} edges, {} areoles; read in {read_seconds:.2} s, measured in {seconds:.2} s",
@@ -75,52 +96,23 @@ fn check_draws(draws: u32, areoles: usize) -> Result<(), Failure> {
 }
 
 /// Fails if files cannot be written, are named twice or read, or end in what is not written.
-fn check_outputs(arguments: &MeasureArguments) -> Result<(), Failure> {
+fn check_files(arguments: &MeasureArguments) -> Result<(), Failure> {
     let tables = [
         &arguments.distributions,
         &arguments.structure_factor,
         &arguments.loop_tree,
         &arguments.cuts,
     ];
-    let tables: Vec<&PathBuf> = tables.into_iter().flatten().collect();
+    let tables = tables.into_iter().flatten();
     for path in &arguments.out {
-        if !is_json(path) && !has_ending(path, "csv") {
-            return Err(Failure::bad(format!(
-                "{}: --out writes tables: let its name end in .csv or .json",
-                path.display()
-            )));
-        }
+        is_json_not_csv(Some(path))?;
     }
-    for path in &tables {
-        if !has_ending(path, "csv") {
-            return Err(Failure::bad(format!(
-                "{}: a table is written as csv: let its name end in .csv",
-                path.display()
-            )));
-        }
-    }
+    require_ending(tables.clone(), "csv", "a table is written as csv")?;
     let read = [
         Some(&arguments.file),
         arguments.reading.nodes.as_ref(),
         arguments.reading.outline.as_ref(),
     ];
     let inputs: Vec<PathBuf> = read.into_iter().flatten().cloned().collect();
-    let outputs = arguments.out.iter().chain(tables);
-    let outputs: Vec<&Path> = outputs.map(PathBuf::as_path).collect();
-    places::check_outputs(&outputs, &inputs, "the command")
-}
-
-pub(super) fn is_json(path: &Path) -> bool {
-    has_ending(path, "json")
-}
-
-pub(super) fn has_ending(path: &Path, ending: &str) -> bool {
-    path.extension()
-        .is_some_and(|given| given.eq_ignore_ascii_case(ending))
-}
-
-fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    atomic::replace(path, |file| file.write_all(text.as_bytes())).map_err(Failure::system)?;
-    say(path.display());
-    Ok(())
+    check_outputs(arguments.out.iter().chain(tables), &inputs, "the command")
 }

@@ -1,15 +1,10 @@
 //! `lamina optics`: R and T of a leaf by PROSPECT-D as a table, and their colours; both faces of the
 //! leaf as layers.
 
-mod angles;
-mod colour;
-mod figures;
-mod layers;
 mod leaf;
 mod table;
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::Path;
 
 use leafmodel::optics::{Contents, ProspectD, presets};
@@ -18,9 +13,10 @@ use serde_json::json;
 use self::leaf::Chosen;
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::OpticsArguments;
+use crate::cli::places::{require_ending, write_and_say};
 use crate::cli::progress::Patience;
 use crate::cli::{Failure, check_writable, say};
-use crate::image::atomic;
+use crate::report::optics::{angles, colour, figures, layers};
 
 pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     if arguments.list {
@@ -60,13 +56,14 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
         ("--angles", angles_out),
     ];
     for (option, file) in tables {
-        if let Some(file) = file.filter(|file| !is_stdout(file)) {
-            check_ending(file, "csv", &format!("{option} writes a table"))?;
-        }
+        let file = file.filter(|file| !is_stdout(file));
+        require_ending(file, "csv", &format!("{option} writes a table"))?;
     }
-    if let Some(Some(file)) = &arguments.colour {
-        check_ending(file, "json", "--colour writes JSON")?;
-    }
+    require_ending(
+        arguments.colour.iter().flatten(),
+        "json",
+        "--colour writes JSON",
+    )?;
     for file in files.into_iter().flatten().filter(|file| !is_stdout(file)) {
         check_writable(file)?;
     }
@@ -101,7 +98,7 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
                     "contents": chosen.json(),
                     "colours": colours.json(),
                 });
-                write(file, format!("{report:#}\n").as_bytes())?;
+                write_and_say(file, format!("{report:#}\n"))?;
             }
             None => say(colours.table()),
         }
@@ -138,26 +135,12 @@ fn hand_over(file: &Path, table: &str) -> Result<(), Failure> {
         say(table.trim_end());
         return Ok(());
     }
-    write(file, table.as_bytes())
+    write_and_say(file, table)
 }
 
 /// Whether a file's name stands for the standard output.
 fn is_stdout(file: &Path) -> bool {
     file.as_os_str() == "-"
-}
-
-/// Fails if a file's ending does not match what is written.
-fn check_ending(file: &Path, ending: &str, what: &str) -> Result<(), Failure> {
-    if file
-        .extension()
-        .is_some_and(|given| given.eq_ignore_ascii_case(ending))
-    {
-        return Ok(());
-    }
-    let file = file.display();
-    Err(Failure::bad(format!(
-        "{file}: {what}: let its name end in .{ending}"
-    )))
 }
 
 /// R and T at every nanometre of PROSPECT-D's table; a comment says what wrote it, of which leaf.
@@ -174,10 +157,4 @@ fn spectrum(contents: &Contents, leaf: &str) -> String {
         );
     }
     table
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    atomic::replace(path, |file| file.write_all(bytes)).map_err(Failure::system)?;
-    say(path.display());
-    Ok(())
 }

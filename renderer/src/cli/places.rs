@@ -6,8 +6,8 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::cli::Failure;
 use crate::cli::signals::Signals;
+use crate::cli::{Failure, say};
 use crate::image::atomic::{self, Destination, destination, folder_of};
 
 /// Fails if `path` could not be written, before any work is done. Half files of programs that were
@@ -52,8 +52,8 @@ fn check_stream(path: &Path) -> std::io::Result<()> {
 
 /// As [`check_writable`] for all outputs of a command; none may be one of the inputs, which `reader`
 /// reads, or be written twice.
-pub(super) fn check_outputs(
-    outputs: &[&Path],
+pub(super) fn check_outputs<'a, P: AsRef<Path> + ?Sized + 'a>(
+    outputs: impl IntoIterator<Item = &'a P>,
     inputs: &[PathBuf],
     reader: &str,
 ) -> Result<(), Failure> {
@@ -62,7 +62,7 @@ pub(super) fn check_outputs(
         .map(|file| fs::canonicalize(file).unwrap_or_else(|_| file.clone()))
         .collect();
     let mut seen: BTreeMap<PathBuf, &Path> = BTreeMap::new();
-    for &output in outputs {
+    for output in outputs.into_iter().map(AsRef::as_ref) {
         check_writable(output)?;
         let Some(place) = place_of(output) else {
             continue;
@@ -82,6 +82,52 @@ pub(super) fn check_outputs(
             });
         }
     }
+    Ok(())
+}
+
+/// Whether a file has an ending, in letters of any size.
+pub(super) fn has_ending(path: &Path, ending: &str) -> bool {
+    path.extension()
+        .is_some_and(|given| given.eq_ignore_ascii_case(ending))
+}
+
+/// Fails if a file, where there is one, has another ending than what is written into it.
+pub(super) fn require_ending<'a, P: AsRef<Path> + ?Sized + 'a>(
+    file: impl IntoIterator<Item = &'a P>,
+    ending: &str,
+    what: &str,
+) -> Result<(), Failure> {
+    let mut files = file.into_iter().map(AsRef::as_ref);
+    match files.find(|path| !has_ending(path, ending)) {
+        None => Ok(()),
+        Some(path) => Err(Failure::bad(format!(
+            "{}: {what}: let its name end in .{ending}",
+            path.display()
+        ))),
+    }
+}
+
+/// Whether the ending of an output asks for JSON, not for CSV as without one; others are refused.
+pub(super) fn is_json_not_csv(out: Option<&Path>) -> Result<bool, Failure> {
+    match out {
+        Some(path) if has_ending(path, "json") => Ok(true),
+        Some(path) if !has_ending(path, "csv") => Err(Failure::bad(format!(
+            "{}: --out writes tables: let its name end in .csv or .json",
+            path.display()
+        ))),
+        Some(_) | None => Ok(false),
+    }
+}
+
+/// Writes a file whole or not at all.
+pub(super) fn write_whole(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
+    atomic::replace(path, |file| file.write_all(bytes.as_ref())).map_err(Failure::system)
+}
+
+/// As [`write_whole`], and prints the path.
+pub(super) fn write_and_say(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
+    write_whole(path, bytes)?;
+    say(path.display());
     Ok(())
 }
 
@@ -192,24 +238,24 @@ mod tests {
         fs::create_dir(at("sub")).expect("the folder can be written");
         fs::write(at("scene.toml"), b"").expect("the folder can be written");
         let (exr, again) = (at("a.exr"), at("sub/../a.exr"));
-        assert!(check_outputs(&[&exr, &at("a.png")], &[at("scene.toml")], "the test").is_ok());
-        assert!(check_outputs(&[&exr, &again], &[], "the test").is_err());
-        assert!(check_outputs(&[&exr, &exr], &[], "the test").is_err());
+        assert!(check_outputs([&exr, &at("a.png")], &[at("scene.toml")], "the test").is_ok());
+        assert!(check_outputs([&exr, &again], &[], "the test").is_err());
+        assert!(check_outputs([&exr, &exr], &[], "the test").is_err());
         assert!(
-            check_outputs(&[&at("scene.toml")], &[at("sub/../scene.toml")], "the test").is_err()
+            check_outputs([&at("scene.toml")], &[at("sub/../scene.toml")], "the test").is_err()
         );
-        assert!(check_outputs(&[&at("none/a.exr")], &[], "the test").is_err());
+        assert!(check_outputs([&at("none/a.exr")], &[], "the test").is_err());
     }
 
     #[cfg(target_os = "linux")]
     #[test]
     fn devices_may_take_several_outputs_and_links_count_as_what_they_lead_to() {
         let null = Path::new("/dev/null");
-        assert!(check_outputs(&[null, null], &[], "the test").is_ok());
+        assert!(check_outputs([null, null], &[], "the test").is_ok());
         let folder = tempfile::tempdir().expect("a folder");
         let [link, file] = ["link", "file"].map(|name| folder.path().join(name));
         std::os::unix::fs::symlink("file", &link).expect("the folder can be written");
-        assert!(check_outputs(&[&link, &file], &[], "the test").is_err());
+        assert!(check_outputs([&link, &file], &[], "the test").is_err());
     }
 
     #[cfg(unix)]

@@ -14,10 +14,53 @@ use crate::scene::world::BuildOptions;
 /// A bar on a terminal, a line every ten seconds elsewhere.
 pub(super) struct Reporter {
     bar: Option<ProgressBar>,
-    started: Instant,
+    clock: Clock,
     /// Time that the render may take.
     time: Option<Duration>,
+}
+
+/// Time between two lines where there is no terminal.
+const BETWEEN_LINES: Duration = Duration::from_secs(10);
+
+/// Says when a line about progress is due, every ten seconds, and how long work will take.
+#[derive(Debug)]
+pub(super) struct Clock {
+    started: Instant,
     last_line: Mutex<Instant>,
+}
+
+impl Clock {
+    pub(super) fn new() -> Self {
+        let started = Instant::now();
+        Self {
+            started,
+            last_line: Mutex::new(started),
+        }
+    }
+
+    /// Whether a line is due, which is then taken as printed. A thread that cannot lock at once has
+    /// nothing new to report.
+    pub(super) fn is_due(&self) -> bool {
+        self.last_line.try_lock().is_ok_and(|mut last| {
+            let is_due = last.elapsed() >= BETWEEN_LINES;
+            if is_due {
+                *last = Instant::now();
+            }
+            is_due
+        })
+    }
+
+    /// How long work has taken, s.
+    pub(super) fn seconds(&self) -> f64 {
+        self.started.elapsed().as_secs_f64()
+    }
+
+    /// How long work has taken of which this fraction is done, and how long the rest will take.
+    pub(super) fn after(&self, fraction: f64) -> String {
+        let seconds = self.seconds();
+        let left = seconds * ((1.0 - fraction) / fraction).max(0.0);
+        format!("after {seconds:.0} s, about {left:.0} s to go")
+    }
 }
 
 /// Prints a line every ten seconds about work whose length nobody knows, until it is dropped.
@@ -102,43 +145,29 @@ pub(super) struct Steps {
     what: &'static str,
     all: u32,
     done: u32,
-    started: Instant,
-    last_line: Instant,
+    clock: Clock,
 }
 
 impl Steps {
     pub(super) fn new(what: &'static str, all: u32) -> Self {
-        let now = Instant::now();
         Self {
             what,
             all,
             done: 0,
-            started: now,
-            last_line: now,
+            clock: Clock::new(),
         }
     }
 
     /// So many more are done.
-    pub(super) fn tell(&mut self, more: usize) {
+    pub(super) fn add(&mut self, more: usize) {
         self.done += more as u32;
-        if self.last_line.elapsed() < BETWEEN_LINES {
-            return;
+        if self.clock.is_due() {
+            let (done, all, what) = (self.done, self.all, self.what);
+            let after = self.clock.after(f64::from(done.max(1)) / f64::from(all));
+            eprintln!("{done} of {all} {what} {after}");
         }
-        self.last_line = Instant::now();
-        let elapsed = self.started.elapsed().as_secs_f64();
-        let left = f64::from(self.all.saturating_sub(self.done));
-        eprintln!(
-            "{} of {} {} after {elapsed:.0} s, about {:.0} s to go",
-            self.done,
-            self.all,
-            self.what,
-            elapsed * left / f64::from(self.done.max(1))
-        );
     }
 }
-
-/// Time between two lines where there is no terminal.
-pub(super) const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
 impl Reporter {
     pub(super) fn new(time: Option<Duration>) -> Self {
@@ -149,46 +178,29 @@ impl Reporter {
             .expect("the template is well formed");
             ProgressBar::new(0).with_style(style)
         });
-        let now = Instant::now();
         Self {
             bar,
-            started: now,
+            clock: Clock::new(),
             time,
-            last_line: Mutex::new(now),
         }
     }
 
     pub(super) fn tell(&self, progress: Progress) {
         if let Some(bar) = &self.bar {
-            let share = self.share(progress, self.started.elapsed());
             // The expected total: fewer paths than asked for if the time is up before.
-            bar.set_length((progress.paths as f64 / share) as u64);
+            bar.set_length((progress.paths as f64 / self.fraction(progress)) as u64);
             bar.set_position(progress.paths);
-            return;
+        } else if progress.paths > 0 && self.clock.is_due() {
+            let fraction = self.fraction(progress);
+            eprintln!("{:.1} % {}", 100.0 * fraction, self.clock.after(fraction));
         }
-        // A thread that cannot lock at once has nothing new to report.
-        let Ok(mut last) = self.last_line.try_lock() else {
-            return;
-        };
-        if last.elapsed() < BETWEEN_LINES || progress.paths == 0 {
-            return;
-        }
-        *last = Instant::now();
-        let elapsed = self.started.elapsed();
-        let share = self.share(progress, elapsed);
-        let elapsed = elapsed.as_secs_f64();
-        eprintln!(
-            "{:.1} % after {elapsed:.0} s, about {:.0} s to go",
-            100.0 * share,
-            elapsed * (1.0 - share) / share
-        );
     }
 
-    /// Share of the render that is done, of its paths or of its time, whichever ends it first.
-    fn share(&self, progress: Progress, elapsed: Duration) -> f64 {
+    /// Fraction of the render that is done, of its paths or of its time, whichever ends it first.
+    fn fraction(&self, progress: Progress) -> f64 {
         let of_paths = progress.paths as f64 / progress.total.max(1) as f64;
         let of_time = self.time.map_or(0.0, |time| {
-            elapsed.as_secs_f64() / time.as_secs_f64().max(1e-9)
+            self.clock.seconds() / time.as_secs_f64().max(1e-9)
         });
         of_paths.max(of_time).clamp(1e-9, 1.0)
     }

@@ -1,13 +1,12 @@
 //! `lamina schema`: the schema of scene files, for editors and for the book.
 
 use std::fs;
-use std::io::Write as _;
 
 use leafmodel::document::schema::filled;
 
 use crate::cli::arguments::SchemaArguments;
+use crate::cli::places::write_and_say;
 use crate::cli::{Failure, check_writable, say};
-use crate::image::atomic;
 use crate::scene::load;
 
 pub(super) fn run(arguments: &SchemaArguments) -> Result<(), Failure> {
@@ -18,9 +17,7 @@ pub(super) fn run(arguments: &SchemaArguments) -> Result<(), Failure> {
         let filled = filled(&text, &schema)
             .map_err(|problem| Failure::bad(format!("{}: {problem}", page.display())))?;
         if filled != text {
-            atomic::replace(page, |file| file.write_all(filled.as_bytes()))
-                .map_err(Failure::system)?;
-            say(page.display());
+            write_and_say(page, filled)?;
         }
     }
     if !arguments.pages.is_empty() {
@@ -32,9 +29,7 @@ pub(super) fn run(arguments: &SchemaArguments) -> Result<(), Failure> {
         None => say(text.trim_end()),
         Some(path) => {
             check_writable(path)?;
-            atomic::replace(path, |file| file.write_all(text.as_bytes()))
-                .map_err(Failure::system)?;
-            say(path.display());
+            write_and_say(path, text)?;
         }
     }
     Ok(())

@@ -1,14 +1,13 @@
 //! `lamina completions` and `lamina man`: what shells and `man` want to know of the command line.
 
 use std::fs;
-use std::io::Write as _;
 
 use clap::CommandFactory;
 use clap_mangen::Man;
 
 use crate::cli::arguments::{Arguments, CompletionsArguments, ManArguments};
+use crate::cli::places::write_and_say;
 use crate::cli::{Failure, say};
-use crate::image::atomic;
 
 pub(super) fn completions(arguments: &CompletionsArguments) {
     let mut script = Vec::new();
@@ -33,9 +32,7 @@ pub(super) fn man(arguments: &ManArguments) -> Result<(), Failure> {
             open.push((name, inner.clone()));
         }
         let path = folder.join(format!("{name}.1"));
-        let text = page(command.display_name(name))?;
-        atomic::replace(&path, |file| file.write_all(text.as_bytes())).map_err(Failure::system)?;
-        say(path.display());
+        write_and_say(&path, page(command.display_name(name))?)?;
     }
     Ok(())
 }

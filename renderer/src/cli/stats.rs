@@ -1,22 +1,12 @@
 //! Times, memory and speed, for people and for scripts.
 
-use std::io::Write as _;
 use std::path::Path;
 
 use serde_json::Value;
 
 use crate::checkpoint::PROGRAM;
 use crate::cli::Failure;
-use crate::image::atomic;
-
-/// Greatest resident memory of this process so far, MiB; `None` where the system does not report
-/// it.
-pub(super) fn peak_mib() -> Option<f64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    let kib: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
-    Some(kib / 1024.0)
-}
+use crate::cli::places::write_whole;
 
 /// Writes a JSON object atomically, with the version of the program as `program`.
 pub(super) fn write(path: &Path, stats: &Value) -> Result<(), Failure> {
@@ -24,6 +14,5 @@ pub(super) fn write(path: &Path, stats: &Value) -> Result<(), Failure> {
     if let Some(members) = stats.as_object_mut() {
         members.insert("program".to_owned(), PROGRAM.into());
     }
-    let text = format!("{stats:#}\n");
-    atomic::replace(path, |file| file.write_all(text.as_bytes())).map_err(Failure::system)
+    write_whole(path, format!("{stats:#}\n"))
 }

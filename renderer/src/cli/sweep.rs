@@ -12,12 +12,11 @@ mod table;
 mod tasks;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Write as _;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use leafmodel::species;
 use serde_json::json;
@@ -27,9 +26,9 @@ use self::record::Record;
 use self::table::{Row, State};
 use self::tasks::{hexadecimal, words_of};
 use crate::cli::arguments::{SweepArguments, file_and_leaf};
+use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
 use crate::cli::{Failure, check_writable, grow, say, stats};
-use crate::image::atomic;
 use crate::sweep::{Sweep, Target, Words, is_sweep_file};
 
 pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
@@ -54,11 +53,10 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         return list::print(&sweep, arguments, range);
     };
     let mut identities = Vec::new();
-    let mut said = Instant::now();
+    let clock = Clock::new();
     tasks::identities(&sweep, range.clone(), |_, identity| {
         identities.push(identity);
-        if said.elapsed() >= BETWEEN_LINES {
-            said = Instant::now();
+        if clock.is_due() {
             eprintln!("{} of {} tasks are read", identities.len(), range.len());
         }
         true
@@ -66,6 +64,7 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let made = folder.join("tasks");
     let refused = |error| Failure::system(format!("{}: {error}", made.display()));
     std::fs::create_dir_all(&made).map_err(refused)?;
+    record::check_version(&made)?;
     let table = folder.join(match arguments.tasks {
         None => "sweep.csv".to_owned(),
         Some(_) => format!("sweep-{}-{}.csv", range.start, range.end),
@@ -143,9 +142,6 @@ struct Outcome {
     interrupted: bool,
 }
 
-/// Time between two lines about tasks that went well, if they are many.
-const BETWEEN_LINES: Duration = Duration::from_secs(10);
-
 impl Work<'_> {
     fn carry_out(&self) -> Outcome {
         let is_open = |identity: &u64| !Record::is_there(&self.made, *identity);
@@ -173,7 +169,7 @@ impl Work<'_> {
             eprintln!("{before} of {} tasks are done already", self.range.len());
         }
         let next = AtomicUsize::new(0);
-        let said = Mutex::new(Instant::now());
+        let clock = Clock::new();
         let jobs = usize::from(self.arguments.jobs).min(open.len());
         std::thread::scope(|scope| {
             for _ in 0..jobs {
@@ -195,7 +191,7 @@ impl Work<'_> {
                             &outcome,
                             [count, open.len()],
                             began,
-                            &said,
+                            &clock,
                         );
                     }
                 });
@@ -235,7 +231,7 @@ impl Work<'_> {
         outcome: &Outcome,
         [count, all]: [usize; 2],
         began: Instant,
-        said: &Mutex<Instant>,
+        clock: &Clock,
     ) {
         let task = self.sweep.task(number);
         let mut settings: Vec<String> = task.overrides().collect();
@@ -245,9 +241,7 @@ impl Work<'_> {
             eprintln!("task {number} failed: {settings}\n{}", problem.trim_end());
             return;
         }
-        let mut said = said.lock().unwrap_or_else(PoisonError::into_inner);
-        if all <= 100 || said.elapsed() >= BETWEEN_LINES || count == all {
-            *said = Instant::now();
+        if all <= 100 || clock.is_due() || count == all {
             let seconds = began.elapsed().as_secs_f64();
             eprintln!("{count} of {all}: task {number}, {seconds:.1} s  {settings}");
         }
@@ -336,9 +330,4 @@ impl Outcome {
         }
         Ok(())
     }
-}
-
-/// Writes bytes whole or not at all.
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    atomic::replace(path, |file| file.write_all(bytes)).map_err(Failure::system)
 }

@@ -1,6 +1,5 @@
 //! `lamina trace`: the margin and the veins of a picture as files.
 
-use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
@@ -13,12 +12,12 @@ use leafmodel::tracing::{
 use serde_json::json;
 
 use crate::cli::arguments::{ThresholdKind, TraceArguments};
-use crate::cli::places::check_outputs;
+use crate::cli::places::{check_outputs, write_and_say};
 use crate::cli::progress::Patience;
-use crate::cli::{Failure, needs, say, stats};
+use crate::cli::{Failure, needs, on_threads, say, stats};
 use crate::export::drawing::{Drawing, Style, Subject, draw_within};
 use crate::export::overlay::draw_over;
-use crate::image::{ImageError, atomic, portable_network, scan};
+use crate::image::{portable_network, scan};
 
 /// Memory that tracing takes for a pixel, bytes; measured with pictures of 12 and 42 megapixels.
 const BYTES_A_PIXEL: f64 = 60.0;
@@ -99,22 +98,14 @@ pub(super) fn run(arguments: &TraceArguments) -> Result<(), Failure> {
     }
     let reports = [&arguments.measure, &arguments.overlay, &arguments.findings];
     let outputs = arguments.out.iter().chain(reports.into_iter().flatten());
-    let outputs: Vec<&Path> = outputs.map(std::path::PathBuf::as_path).collect();
-    if outputs.is_empty() {
+    if outputs.clone().next().is_none() {
         return Err(Failure::bad(
             "nothing is to be written: give --out, --measure, --overlay or --findings",
         ));
     }
     let inputs = std::iter::once(arguments.picture.clone()).chain(arguments.margin.clone());
-    check_outputs(&outputs, &inputs.collect::<Vec<_>>(), "the command")?;
-    match arguments.threads {
-        None => carry_out(arguments, &kinds, started),
-        Some(threads) => rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.into())
-            .build()
-            .map_err(Failure::system)?
-            .install(|| carry_out(arguments, &kinds, started)),
-    }
+    check_outputs(outputs, &inputs.collect::<Vec<_>>(), "the command")?;
+    on_threads(arguments.threads, || carry_out(arguments, &kinds, started))
 }
 
 fn carry_out(arguments: &TraceArguments, kinds: &[Kind], started: Instant) -> Result<(), Failure> {
@@ -131,11 +122,11 @@ fn carry_out(arguments: &TraceArguments, kinds: &[Kind], started: Instant) -> Re
         eprintln!("{warning}");
     }
     for (path, kind) in arguments.out.iter().zip(kinds) {
-        write(path, &kind.bytes(&traced, arguments.size)?)?;
+        write_and_say(path, kind.bytes(&traced, arguments.size)?)?;
     }
     if let Some(path) = &arguments.overlay {
         let drawing = draw_over(&picture, &traced, arguments.size).map_err(Failure::bad)?;
-        write(path, &png(&drawing)?)?;
+        write_and_say(path, png(&drawing)?)?;
     }
     if let Some(path) = &arguments.findings {
         stats::write(path, &report(&traced))?;
@@ -321,13 +312,6 @@ fn read(path: &Path, allowed: Option<f64>) -> Result<Raster, Failure> {
 
 fn png(drawing: &Drawing) -> Result<Vec<u8>, Failure> {
     portable_network::encoded(drawing.width, drawing.height, &drawing.rgb).map_err(Failure::bad)
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let result: Result<(), ImageError> = atomic::replace(path, |file| file.write_all(bytes));
-    result.map_err(Failure::system)?;
-    say(path.display());
-    Ok(())
 }
 
 #[cfg(test)]

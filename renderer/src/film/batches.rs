@@ -140,13 +140,6 @@ impl OpenBatches {
         }
     }
 
-    /// Adds those of another film's block.
-    pub(super) fn merge(&mut self, other: &Self) {
-        for open in &other.0 {
-            self.add_all(open.number, open.count, &open.sums);
-        }
-    }
-
     /// Adds a part of a batch that all pixels of a block have.
     pub(super) fn add_all(&mut self, number: u32, count: u32, sums: &[i64]) {
         let open = self.of(number, sums.len());
@@ -189,6 +182,25 @@ pub(super) fn variance_of_mean(squares: f64, batches: u32, mean: f64, samples: u
     let count = f64::from(batches);
     let of_batch = (squares - count * mean * mean).max(0.0) / (count - 1.0);
     Some(of_batch * f64::from(BATCH) / f64::from(samples))
+}
+
+/// A number whose mean and variance a film knows for each pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Series {
+    /// The sum of the channels by their shares.
+    Luminance,
+    /// A channel.
+    Channel(usize),
+}
+
+impl Series {
+    /// What sums of batches and halves hold of 1 of it: a single channel is kept as luminance.
+    pub(super) fn scale(self, luminance: &[f32]) -> f64 {
+        match (self, luminance) {
+            (Self::Channel(_), [share]) => f64::from(*share),
+            (Self::Channel(_) | Self::Luminance, _) => 1.0,
+        }
+    }
 }
 
 #[cfg(test)]

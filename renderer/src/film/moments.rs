@@ -32,12 +32,6 @@ impl Moments {
         self.squares = self.squares.saturating_add(squares);
     }
 
-    /// Adds the samples of another.
-    pub fn merge(&mut self, other: &Self) {
-        self.sum += other.sum;
-        self.squares = self.squares.saturating_add(other.squares);
-    }
-
     /// The bits of both sums, as they are stored.
     pub(super) fn bits(&self) -> [i128; 2] {
         [self.sum, self.squares as i128]

@@ -2,7 +2,7 @@
 //!
 //! - **In**: the sums of a row of blocks; or bytes that [`Film::packed_row`] made.
 //! - **Out**: bytes; or the sums of both films.
-//! - **Always true**: nothing is rounded, and adding is that of [`Film::merge`]. Damaged bytes are
+//! - **Always true**: nothing is rounded, and sums add up exactly. Damaged bytes are
 //!   an error, never a panic; what they added until then must be thrown away.
 //! - **Left out**: checksums, which the file has.
 //!
@@ -13,10 +13,11 @@
 use rayon::prelude::*;
 
 use super::batches::{BATCH, OpenBatches, Squares, series_of};
+use super::block::BLOCK_SIDE;
 use super::features::Words;
 use super::halves::{Halves, octave_of};
 use super::moments::Moments;
-use super::{BLOCK_SIDE, Film, MOST_SAMPLES, chunks_or_nothing};
+use super::sums::{Film, MOST_SAMPLES, chunks_or_nothing};
 
 /// Bytes that are not those of a row of this film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -384,6 +385,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::film::tests::added;
     use crate::film::{Series, Sum};
     use crate::testing::fixed;
 
@@ -411,14 +413,6 @@ mod tests {
             });
         });
         film
-    }
-
-    fn added(film: &mut Film, other: &Film) {
-        let rows: Vec<_> = (0..other.rows()).map(|row| other.packed_row(row)).collect();
-        film.add_rows(|row, sums| sums.add(&rows[row]))
-            .expect("rows of the same film");
-        film.add_fault_counts(&other.fault_counts())
-            .expect("the film has these pixels");
     }
 
     #[test]

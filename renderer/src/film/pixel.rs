@@ -1,9 +1,8 @@
 //! Reading access to a pixel's sums.
 
-use super::batches::{BATCH, OpenBatches, Squares, variance_of_mean};
+use super::batches::{BATCH, OpenBatches, Series, Squares, variance_of_mean};
 use super::features::{Coverage, Words};
 use super::moments::Moments;
-use super::variance::Series;
 
 /// Sums of one pixel.
 #[derive(Clone, Copy, Debug)]

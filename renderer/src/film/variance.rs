@@ -17,27 +17,9 @@
 
 use rayon::prelude::*;
 
-use super::batches::sum_of;
-use super::{BLOCK_SIDE, Film};
-
-/// A number whose mean and variance a film knows for each pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Series {
-    /// The sum of the channels by their shares.
-    Luminance,
-    /// A channel.
-    Channel(usize),
-}
-
-impl Series {
-    /// What sums of batches and halves hold of 1 of it: a single channel is kept as luminance.
-    pub(super) fn scale(self, luminance: &[f32]) -> f64 {
-        match (self, luminance) {
-            (Self::Channel(_), [share]) => f64::from(*share),
-            (Self::Channel(_) | Self::Luminance, _) => 1.0,
-        }
-    }
-}
+use super::batches::{Series, sum_of};
+use super::block::BLOCK_SIDE;
+use super::sums::Film;
 
 /// Sums of halves wrap around where a row's brightness times its samples is beyond this.
 const MOST_OF_ROW: f64 = (1_u64 << 30) as f64;

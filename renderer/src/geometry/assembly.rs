@@ -5,6 +5,8 @@ use std::sync::Arc;
 use glam::{Affine3A, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
+use self::joining::{Joined, MOST_REPEATED};
+use self::triangle_tree::TriangleTree;
 use super::bounds::Bounds;
 pub use super::error::GeometryError;
 use super::error::MOST_INSTANCES;
@@ -12,14 +14,10 @@ pub use super::hit::Hit;
 use super::instance::Instance;
 use super::mesh::TriangleMesh;
 use super::placement::{Carrier, Placement};
-use super::ray::Ray;
 use super::slab;
 use super::surface::{self, SurfacePoint, TextureScale};
 use super::wide_tree::{LeafItems, WideTree};
 use crate::simd::{LANES, Level};
-use joining::{Joined, MOST_REPEATED};
-use search::{AnyHit, NearestHit, Search};
-use triangle_tree::TriangleTree;
 
 mod joining;
 mod search;
@@ -199,22 +197,8 @@ impl Geometry {
         self
     }
 
-    /// The nearest hit with `t_min ≤ t ≤ t_max`; of equal distances the smaller (instance,
-    /// triangle).
-    ///
-    /// `None` also for a ray that is not finite or has no direction.
-    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        self.level.run(Search::<NearestHit>::new(self, ray))
-    }
-
-    /// Whether anything is hit with `t_min ≤ t ≤ t_max`, that is, whether [`Geometry::intersect`]
-    /// finds a hit.
-    pub fn occluded(&self, ray: &Ray) -> bool {
-        self.level.run(Search::<AnyHit>::new(self, ray))
-    }
-
-    /// The surface at a hit; `_ray` is the ray that found it.
-    pub fn surface(&self, _ray: &Ray, hit: &Hit) -> SurfacePoint {
+    /// The surface at a hit.
+    pub fn surface(&self, hit: &Hit) -> SurfacePoint {
         let placement = &self.placements[hit.instance as usize];
         let mesh = &self.meshes[placement.instance.mesh as usize];
         let corners = self.corners(placement, hit);

@@ -7,7 +7,7 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
 use super::binary_tree::BinaryNode;
 use super::bounds::Bounds;
-use super::scramble::scramble;
+use crate::sampling::mixer::scramble;
 
 /// Share of the nodes that are reinserted at another place after clustering.
 const REINSERTION: f32 = 0.02;

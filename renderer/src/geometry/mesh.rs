@@ -8,7 +8,7 @@ use glam::{DVec3, Vec2, Vec3};
 use thiserror::Error;
 
 use super::bounds::Bounds;
-use super::scramble::scramble;
+use crate::sampling::mixer::scramble;
 
 /// Greatest coordinate, m. Beyond it `f32` resolves no useful detail, and squares approach
 /// overflow.

@@ -2,8 +2,8 @@
 
 use glam::{Affine3A, DVec3, EulerRot, Mat3, Quat, Vec2, Vec3};
 
-use super::scramble::scramble;
 use super::{Geometry, Instance, Ray, TriangleMesh};
+use crate::sampling::mixer::scramble;
 
 /// Pseudo-random numbers, the same on every run.
 pub(super) struct Numbers(u64);

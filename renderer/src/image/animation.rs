@@ -27,6 +27,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use color_quant::NeuQuant;
 use rayon::prelude::*;
 
+use super::portable_network::encoder;
 use super::{ImageError, MOST_BYTES, check_size};
 
 /// The unit of delays in a GIF: a hundredth of a second.
@@ -127,14 +128,11 @@ impl Animation {
                 Encoder::Gif(encoder)
             }
             Format::Apng => {
-                let mut encoder = png::Encoder::new(bytes.clone(), width, height);
-                encoder.set_color(png::ColorType::Rgb);
-                encoder.set_depth(png::BitDepth::Eight);
-                encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-                let writer = encoder
-                    .add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())
-                    .and_then(|()| encoder.set_animated(count, 0))
-                    .and_then(|()| encoder.write_header());
+                let kind = (png::ColorType::Rgb, png::BitDepth::Eight);
+                let writer = encoder(bytes.clone(), size, kind).and_then(|mut encoder| {
+                    encoder.set_animated(count, 0)?;
+                    encoder.write_header()
+                });
                 Encoder::Apng(Box::new(writer.map_err(inconsistent)?))
             }
         };
@@ -245,9 +243,6 @@ impl Animation {
         Ok(self.bytes.take())
     }
 }
-
-/// What has written the file.
-const SOFTWARE: &str = concat!("Lamina ", env!("CARGO_PKG_VERSION"));
 
 fn inconsistent(what: impl std::fmt::Display) -> ImageError {
     ImageError::Inconsistent {

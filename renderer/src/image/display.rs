@@ -8,6 +8,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::card;
 use super::colours::{mapped, to_rec709};
@@ -20,7 +21,7 @@ use crate::spectrum::observer::Observer;
 use crate::spectrum::{Share, WavelengthSampler};
 
 /// Settings of `[picture]`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Display {
     /// Exposure: a factor of 2^EV on radiance.
     pub exposure_ev: f64,

@@ -11,6 +11,7 @@ use image::{
 
 use super::encoding::{Encoding, Stored};
 use super::pixels::{Depth, Pixels};
+use super::portable_network::SOFTWARE;
 use super::{ImageError, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, check_size};
 
 /// Quality of 1 to 100 at which fine veins show no blocks.
@@ -21,7 +22,7 @@ const AFTER_START: usize = 2;
 
 /// A comment segment (COM) that says what has written the file.
 fn comment() -> Vec<u8> {
-    const TEXT: &[u8] = concat!("Lamina ", env!("CARGO_PKG_VERSION")).as_bytes();
+    const TEXT: &[u8] = SOFTWARE.as_bytes();
     let mut segment = vec![0xff, 0xfe];
     // The length counts itself.
     segment.extend((TEXT.len() as u16 + 2).to_be_bytes());

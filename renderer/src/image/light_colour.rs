@@ -10,6 +10,7 @@
 use leafmodel::document::context::QUOTED;
 use leafmodel::document::nearest::nearest;
 use leafmodel::document::source::escaped;
+use serde::{Deserialize, Serialize};
 
 use super::white::is_balanceable;
 use super::{Attribute, ImageError, Picture, luminance};
@@ -18,7 +19,7 @@ use super::{Attribute, ImageError, Picture, luminance};
 const NAME: &str = "lamina:lights";
 
 /// A light's name and the colour of its spectrum.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct LightColour {
     /// Name in the scene; daylight has the parts `NAME.sun` and `NAME.sky` too.
     pub name: String,

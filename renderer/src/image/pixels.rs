@@ -1,7 +1,9 @@
 //! Pixels of a display: what files for looking at hold.
 
+use serde::{Deserialize, Serialize};
+
 /// Bits of a value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
 pub enum Depth {
     /// 0 to 255.
     Eight,

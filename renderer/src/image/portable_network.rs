@@ -3,9 +3,9 @@
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-use image::codecs::png::PngEncoder;
 use image::metadata::Orientation;
-use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageFormat, ImageReader, Limits};
+use png::{BitDepth, ColorType, ScaledFloat, SourceChromaticities};
 
 use super::encoding::{Encoding, Stored};
 use super::pixels::{Depth, Pixels};
@@ -15,16 +15,11 @@ use super::{
     check_size,
 };
 
-/// White D65 and the primaries of Rec. 709, x and y of each times 100 000: what sRGB means.
-const CHROMATICITIES: [u32; 8] = [31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000];
 /// The exponent 1/2.2 times 100 000, which stands for the curve of sRGB where it is not known.
 const GAMMA: u32 = 45455;
 
 /// Greatest size of a profile of colours, bytes.
 pub(super) const MOST_PROFILE: u64 = 64 << 20;
-
-/// Where the first chunk ends: signature 8, then the header chunk of 13 + 12 bytes.
-const AFTER_HEADER: usize = 8 + 25;
 
 /// Writes 8-bit sRGB values, interleaved, by row from the top.
 ///
@@ -42,7 +37,13 @@ pub fn write(path: &Path, width: u32, height: u32, rgb: &[u8]) -> Result<(), Ima
 ///
 /// [`ImageError::Inconsistent`] unless there are 3 · width · height values.
 pub fn encoded(width: u32, height: u32, rgb: &[u8]) -> Result<Vec<u8>, ImageError> {
-    encode(width, height, rgb, rgb.len(), ExtendedColorType::Rgb8)
+    let values = rgb.len() as u64;
+    encode(
+        [width, height],
+        rgb,
+        values,
+        (ColorType::Rgb, BitDepth::Eight),
+    )
 }
 
 /// The bytes of a file with the pixels of a display: 8 or 16 bits, with or without alpha.
@@ -51,77 +52,83 @@ pub fn encoded(width: u32, height: u32, rgb: &[u8]) -> Result<Vec<u8>, ImageErro
 ///
 /// [`ImageError::Inconsistent`] unless the number of values is that of the pixels.
 pub fn encoded_pixels(pixels: &Pixels) -> Result<Vec<u8>, ImageError> {
-    let (values, kind): (Vec<u8>, _) = match pixels.depth {
-        Depth::Eight => {
-            let values = pixels.values.iter().map(|&value| value as u8);
-            let kind = match pixels.channels {
-                4 => ExtendedColorType::Rgba8,
-                _ => ExtendedColorType::Rgb8,
-            };
-            (values.collect(), kind)
-        }
+    let values = pixels.values.iter();
+    let (bytes, depth): (Vec<u8>, _) = match pixels.depth {
+        Depth::Eight => (values.map(|&value| value as u8).collect(), BitDepth::Eight),
         Depth::Sixteen => {
-            // The encoder takes the machine's byte order and writes the file's.
-            let values = pixels.values.iter().flat_map(|value| value.to_ne_bytes());
-            let kind = match pixels.channels {
-                4 => ExtendedColorType::Rgba16,
-                _ => ExtendedColorType::Rgb16,
-            };
-            (values.collect(), kind)
+            let bytes = values.flat_map(|value| value.to_be_bytes());
+            (bytes.collect(), BitDepth::Sixteen)
         }
     };
-    let count = pixels.values.len();
-    encode(pixels.width, pixels.height, &values, count, kind)
+    let colour = match pixels.channels {
+        4 => ColorType::Rgba,
+        _ => ColorType::Rgb,
+    };
+    let size = [pixels.width, pixels.height];
+    encode(size, &bytes, pixels.values.len() as u64, (colour, depth))
 }
 
-/// What has written the file: keyword and text of a `tEXt` chunk.
-const SOFTWARE: &[u8] = concat!("Software\0Lamina ", env!("CARGO_PKG_VERSION")).as_bytes();
+/// What has written a file.
+pub(super) const SOFTWARE: &str = concat!("Lamina ", env!("CARGO_PKG_VERSION"));
 
-/// The chunks that tell the colours: sRGB (rendering intent: perceptual), and gamma and primaries
-/// for programs that do not know that one; then the program.
-fn leading_chunks() -> Vec<u8> {
-    let primaries: Vec<u8> = CHROMATICITIES
-        .iter()
-        .flat_map(|c| c.to_be_bytes())
-        .collect();
-    let chunks: [(&[u8; 4], &[u8]); 4] = [
-        (b"sRGB", &[0]),
-        (b"gAMA", &GAMMA.to_be_bytes()),
-        (b"cHRM", &primaries),
-        (b"tEXt", SOFTWARE),
-    ];
-    let mut bytes = Vec::new();
-    for (name, data) in chunks {
-        bytes.extend((data.len() as u32).to_be_bytes());
-        let start = bytes.len();
-        bytes.extend(name);
-        bytes.extend(data);
-        let checksum = crc32fast::hash(&bytes[start..]);
-        bytes.extend(checksum.to_be_bytes());
+/// An encoder whose file says that its values are sRGB, and what has written it.
+pub(super) fn encoder<W: Write>(
+    out: W,
+    [width, height]: [u32; 2],
+    (colour, depth): (ColorType, BitDepth),
+) -> Result<png::Encoder<'static, W>, png::EncodingError> {
+    let mut encoder = png::Encoder::new(out, width, height);
+    encoder.set_color(colour);
+    encoder.set_depth(depth);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
+    Ok(encoder)
+}
+
+/// White D65 and the primaries of Rec. 709, which sRGB has.
+fn rec709() -> SourceChromaticities {
+    let [red, green, blue, white] = [
+        [64000, 33000],
+        [30000, 60000],
+        [15000, 6000],
+        [31270, 32900],
+    ]
+    .map(|point: [u32; 2]| point.map(ScaledFloat::from_scaled).into());
+    SourceChromaticities {
+        red,
+        green,
+        blue,
+        white,
     }
-    bytes
 }
 
 fn encode(
-    width: u32,
-    height: u32,
+    [width, height]: [u32; 2],
     values: &[u8],
-    count: usize,
-    kind: ExtendedColorType,
+    count: u64,
+    kind: (ColorType, BitDepth),
 ) -> Result<Vec<u8>, ImageError> {
-    let inconsistent = |what: String| ImageError::Inconsistent { what };
     check_size(u64::from(width), u64::from(height), 3, 12, MOST_BYTES)?;
-    let channels = u64::from(kind.channel_count());
-    if count as u64 != u64::from(width) * u64::from(height) * channels {
-        return Err(inconsistent(format!(
-            "{count} values for {width} × {height} pixels of {channels}"
-        )));
+    let channels = kind.0.samples() as u64;
+    if count != u64::from(width) * u64::from(height) * channels {
+        return Err(ImageError::Inconsistent {
+            what: format!("{count} values for {width} × {height} pixels of {channels}"),
+        });
     }
     let mut bytes = Vec::new();
-    PngEncoder::new(&mut bytes)
-        .write_image(values, width, height, kind)
-        .map_err(|error| inconsistent(error.to_string()))?;
-    bytes.splice(AFTER_HEADER..AFTER_HEADER, leading_chunks());
+    let written = encoder(&mut bytes, [width, height], kind).and_then(|mut encoder| {
+        // For programs that do not know the chunk of sRGB.
+        encoder.set_source_gamma(ScaledFloat::from_scaled(GAMMA));
+        encoder.set_source_chromaticities(rec709());
+        encoder.set_compression(png::Compression::Fast);
+        encoder.set_filter(png::Filter::Adaptive);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(values)?;
+        writer.finish()
+    });
+    written.map_err(|error| ImageError::Inconsistent {
+        what: error.to_string(),
+    })?;
     Ok(bytes)
 }
 
@@ -325,15 +332,18 @@ mod tests {
     #[test]
     fn sixteen_bits_come_back_as_the_light_they_stand_for() {
         let rgb = [0, 1, 258, 40_000, 65_534, 65_535_u16];
-        // The encoder takes the machine's byte order and writes the file's.
-        let native: Vec<u8> = rgb.iter().flat_map(|value| value.to_ne_bytes()).collect();
-        let bytes = encode(2, 1, &native, 6, ExtendedColorType::Rgb16).expect("two pixels");
+        let bytes = rgb.map(u16::to_be_bytes).concat();
+        let kind = (ColorType::Rgb, BitDepth::Sixteen);
+        let bytes = encode([2, 1], &bytes, 6, kind).expect("two pixels");
         let picture = decode(&bytes).expect("it was just encoded");
         for (i, value) in rgb.into_iter().enumerate() {
             let expected = from_srgb(f64::from(value) / 65535.0) as f32;
             assert_eq!(picture.layers[i % 3].data[i / 3], expected);
         }
     }
+
+    /// Where the first chunk ends: signature 8, then the header chunk of 13 + 12 bytes.
+    const AFTER_HEADER: usize = 8 + 25;
 
     /// A chunk with its checksum.
     fn chunk(name: [u8; 4], data: &[u8]) -> Vec<u8> {
@@ -346,9 +356,10 @@ mod tests {
 
     /// A file of six grey or coloured values in which these chunks alone say what they mean.
     fn tagged(rgb: [u8; 6], chunks: &[Vec<u8>]) -> Vec<u8> {
-        let mut bytes = encode(2, 1, &rgb, 6, ExtendedColorType::Rgb8).expect("two pixels");
-        let leading = leading_chunks().len();
-        bytes.splice(AFTER_HEADER..AFTER_HEADER + leading, chunks.concat());
+        let mut bytes = encoded(2, 1, &rgb).expect("two pixels");
+        let pixels = bytes.windows(4).position(|name| name == b"IDAT");
+        let pixels = pixels.expect("a picture has pixels") - 4;
+        bytes.splice(AFTER_HEADER..pixels, chunks.concat());
         bytes
     }
 
@@ -411,12 +422,13 @@ mod tests {
     #[test]
     fn a_profile_of_a_file_is_used() {
         use image::ImageEncoder as _;
+        use image::codecs::png::PngEncoder;
         let profile = moxcms::ColorProfile::new_display_p3().encode();
         let mut bytes = Vec::new();
         let mut encoder = PngEncoder::new(&mut bytes);
         let profile = profile.expect("a good profile");
         encoder.set_icc_profile(profile).expect("PNG has profiles");
-        let written = encoder.write_image(&[255, 0, 0], 1, 1, ExtendedColorType::Rgb8);
+        let written = encoder.write_image(&[255, 0, 0], 1, 1, image::ExtendedColorType::Rgb8);
         written.expect("one pixel");
         assert!(
             (points(&bytes)[0][0] - 0.68).abs() < 0.01,
@@ -446,12 +458,13 @@ mod tests {
 
     #[test]
     fn the_file_says_that_it_is_srgb_with_right_checksums() {
-        let bytes = encode(1, 1, &[1, 2, 3], 3, ExtendedColorType::Rgb8).expect("one pixel");
+        let bytes = encoded(1, 1, &[1, 2, 3]).expect("one pixel");
+        let points = [31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000_u32];
         let mut at = AFTER_HEADER;
         for (name, data) in [
             (b"sRGB", vec![0_u8]),
             (b"gAMA", 45455_u32.to_be_bytes().to_vec()),
-            (b"cHRM", CHROMATICITIES.map(u32::to_be_bytes).concat()),
+            (b"cHRM", points.map(u32::to_be_bytes).concat()),
         ] {
             let length = bytes[at..at + 4].try_into().map(u32::from_be_bytes);
             let end = at + 8 + length.expect("four bytes") as usize;
@@ -515,8 +528,7 @@ mod tests {
 
     #[test]
     fn a_header_that_claims_too_much_and_damaged_files_are_refused() {
-        let whole =
-            encode(8, 8, &[90; 192], 192, ExtendedColorType::Rgb8).expect("a small picture");
+        let whole = encoded(8, 8, &[90; 192]).expect("a small picture");
         for size in [60_000_u32, 0x7fff_ffff] {
             let mut bomb = whole.clone();
             bomb[16..20].copy_from_slice(&size.to_be_bytes());

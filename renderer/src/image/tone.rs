@@ -8,12 +8,13 @@
 mod agx;
 mod gamut;
 mod oklab;
+use serde::{Deserialize, Serialize};
 
 use self::gamut::Gamut;
 use self::oklab::Oklab;
 
 /// How light becomes what a display shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
 pub enum Tone {
     /// A photograph's curve over 16.5 stops, with the hue kept: `agx.rs`.
     Agx,

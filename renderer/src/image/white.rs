@@ -4,12 +4,13 @@
 //! - **Out**: linear sRGB in which the light of [`White`] is neutral.
 
 use glam::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
 
 use crate::spectrum::cie::{XYZ_TO_SRGB, xyz_of};
 use crate::spectrum::planck;
 
 /// The light that comes out white.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub enum White {
     /// CIE illuminant D65, in which nothing is changed.
     D65,

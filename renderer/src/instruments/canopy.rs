@@ -8,15 +8,15 @@ use glam::{DVec3, Vec2, Vec3};
 
 use super::batches::{Effort, Experiment, estimates};
 use super::detector::{self, Detectors, angles};
+use super::error::{InstrumentError, Problem};
 use super::fluorescence::{self, Illumination, Manner};
+use super::flux::{Escaped, Event, Flux, LANES, Scattering, Witness};
 use super::lamp::{directions, towards};
 use super::ledger::{Ledger, REFLECTED, TRANSMITTED, UNCOLLIDED, add};
 use super::period::Period;
-use super::row::Direction;
+use super::row::{Direction, Reading};
 use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
-use super::walk::{Escaped, Event, Scattering, Walk, Witness};
-use super::{InstrumentError, LANES, Reading};
 use crate::geometry::Ray;
 use crate::geometry::frame::Frame;
 use crate::sampling::stream::Stream;
@@ -61,7 +61,7 @@ impl Experiment for Lit<'_> {
     fn shoot(&self, stream: &mut Stream, sums: &mut [f64]) {
         let ray = self.ray(stream);
         sums[0] += 1.0;
-        let walk = Walk {
+        let flux = Flux {
             stage: self.stage,
             course: &self.period,
             wavelengths: &self.wavelengths,
@@ -72,7 +72,7 @@ impl Experiment for Lit<'_> {
             sums,
             is_untouched: true,
         };
-        walk.follow(ray, stream, &mut tally);
+        flux.of_lamp(ray, stream, &mut tally);
     }
 }
 
@@ -276,7 +276,7 @@ fn check(
     at: &str,
 ) -> Result<(), InstrumentError> {
     if ledger.objects.1.is_empty() {
-        return Err(InstrumentError::NoLeaves { at: at.to_owned() });
+        return Err(Problem::NoLeaves.at(at));
     }
     let untold = [
         (
@@ -293,20 +293,16 @@ fn check(
     }
     for (asked, problem) in untold {
         if let (true, Some(object)) = (asked, stage.filled()) {
-            return Err(InstrumentError::Inside {
-                at: at.to_owned(),
-                object: scene.objects[object].name.clone(),
-                problem,
-            });
+            return Err(Problem::inside(&scene.objects[object].name, problem).at(at));
         }
     }
     if let Some(soil) = canopy.soil
         && !is_covered(stage, period, soil)
     {
-        return Err(InstrumentError::SoilTooSmall {
-            at: at.to_owned(),
+        return Err(Problem::SoilTooSmall {
             object: scene.objects[soil].name.clone(),
-        });
+        }
+        .at(at));
     }
     Ok(())
 }
@@ -320,11 +316,11 @@ fn check_size(
 ) -> Result<(), InstrumentError> {
     let figures = ledger.quantities.len() * experiments;
     if canopy.instances && figures > MOST_FIGURES {
-        return Err(InstrumentError::TooManyInstances {
-            at: at.to_owned(),
+        return Err(Problem::TooManyInstances {
             figures,
             most: MOST_FIGURES,
-        });
+        }
+        .at(at));
     }
     Ok(())
 }

@@ -7,9 +7,8 @@
 
 use leafmodel::optics::{Constituent, Texel};
 
-use super::LANES;
+use super::flux::{Event, LANES};
 use super::stage::Stage;
-use super::walk::Event;
 use crate::material::Material;
 use crate::spectrum::{Lanes, Wavelengths};
 

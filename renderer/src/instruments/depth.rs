@@ -9,11 +9,11 @@ use leafmodel::optics::layers::{Face, Incidence, LayeredLeaf};
 use rayon::prelude::*;
 
 use super::batches::Estimate;
+use super::error::{InstrumentError, Problem};
 use super::lamp::{FACES, directions};
-use super::row::Direction;
+use super::row::{Direction, Reading};
 use super::spectral::{Series, plain, rows};
 use super::stage::CutPaths;
-use super::{InstrumentError, Reading};
 use crate::material::Tissue;
 use crate::scene::description::{DepthProfile, Description, Instrument, Named};
 use crate::scene::world::World;
@@ -44,10 +44,12 @@ pub(super) fn read_out(
     scene: &Description,
     (instrument, depth): (&Named<Instrument>, &DepthProfile),
 ) -> Result<Reading, InstrumentError> {
-    let refuse = |problem: String| InstrumentError::NoContents {
-        at: instrument.value.at.clone(),
-        object: scene.objects[depth.object].name.clone(),
-        problem,
+    let refuse = |problem: String| {
+        Problem::NoContents {
+            object: scene.objects[depth.object].name.clone(),
+            problem,
+        }
+        .at(&instrument.value.at)
     };
     let tissue = tissue_of(world, depth.object);
     let Some((tissue, held)) = tissue.and_then(|tissue| Some((tissue, tissue.held?))) else {

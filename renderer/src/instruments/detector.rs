@@ -13,10 +13,10 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, Vec2};
 
+use super::error::{InstrumentError, Problem};
+use super::flux::{Course, Escaped, LANES, Scattering, Staged};
 use super::row::ViewAngles;
 use super::stage::Stage;
-use super::walk::{Course, Escaped, Scattering, Staged};
-use super::{InstrumentError, LANES};
 use crate::bsdf::Scattered;
 use crate::geometry::frame::Frame;
 use crate::sampling::warp;
@@ -31,12 +31,11 @@ pub(super) fn check_layers(
     constituents: bool,
 ) -> Result<(), InstrumentError> {
     match stage.layered() {
-        Some(object) if constituents => Err(InstrumentError::Inside {
-            at: instrument.at.clone(),
-            object: scene.objects[object].name.clone(),
-            problem: "is a leaf of layers, whose absorption is not split by constituents: leave out \
-                      `constituents`",
-        }),
+        Some(object) if constituents => {
+            let problem = "is a leaf of layers, whose absorption is not split by constituents: leave out \
+                           `constituents`";
+            Err(Problem::inside(&scene.objects[object].name, problem).at(&instrument.at))
+        }
         Some(_) | None => Ok(()),
     }
 }
@@ -68,11 +67,7 @@ pub(super) fn check(
     ];
     for (object, problem) in unseen {
         if let (true, Some(object)) = (detector.has_next_events(), object) {
-            return Err(InstrumentError::Inside {
-                at: at.to_owned(),
-                object: scene.objects[object].name.clone(),
-                problem,
-            });
+            return Err(Problem::inside(&scene.objects[object].name, problem).at(at));
         }
     }
     Ok(())

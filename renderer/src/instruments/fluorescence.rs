@@ -7,31 +7,24 @@
 
 use glam::{Vec2, Vec3};
 
-use super::LANES;
 use super::batches::{Effort, Experiment, estimates};
+use super::flux::{Course, Escaped, Event, Flux, LANES, Passage, Staged, Struck, Witness};
 use super::row::{Direction, Row};
 use super::stage::Stage;
-use super::walk::{Course, Escaped, Event, Passage, Staged, Struck, Walk, Witness};
 use crate::bsdf::fluorescence::{sent_out, taken_in};
 use crate::geometry::Ray;
 use crate::geometry::frame::Frame;
 use crate::geometry::surface::SurfacePoint;
-use crate::integrator::facet::{Facet, Surroundings};
 use crate::material::leaf::LeafMaterial;
+use crate::sampling::dimensions::instrument as sets;
 use crate::sampling::stream::Stream;
 use crate::sampling::warp;
 use crate::scene::description::{ExcitationLight, FluorescenceReading};
 use crate::spectrum::{Curve, Lanes, Share, Wavelengths};
+use crate::walk::facet::{Facet, Surroundings};
 
 /// Step by which a spectrum is resolved, nm.
 const STEP_NM: f64 = 5.0;
-/// The set of random numbers that chooses among packets of a spectrum, which no event of light that
-/// is followed owns.
-const PACKET_SET: u32 = 1 << 30;
-/// Sets of random numbers from one start of emitted light to the next.
-const SETS_OF_A_START: u32 = 1024;
-/// Starts with random numbers of their own; later ones share the last one's.
-const MOST_STARTS: u32 = 64;
 
 const EMITTED: usize = 0;
 const BACK: usize = 1;
@@ -125,8 +118,8 @@ struct Reading<'a, L, C> {
 }
 
 impl<L: Illumination, C: Course + Sync> Reading<'_, L, C> {
-    fn walk<'w>(&'w self, wavelengths: &'w Wavelengths<LANES>, ways: u32) -> Walk<'w, C> {
-        Walk {
+    fn flux<'w>(&'w self, wavelengths: &'w Wavelengths<LANES>, ways: u32) -> Flux<'w, C> {
+        Flux {
             stage: self.stage,
             course: self.course,
             wavelengths,
@@ -151,7 +144,7 @@ impl<L: Illumination, C: Course + Sync> Experiment for Reading<'_, L, C> {
     fn shoot(&self, stream: &mut Stream, sums: &mut [f64]) {
         let ray = self.light.ray(stream);
         let count = self.packets.len();
-        stream.seek(PACKET_SET);
+        stream.seek(sets::PACKET.of(0));
         let which = (stream.next4()[0] * count as f32) as usize;
         let packet = &self.packets[which.min(count - 1)];
         let mut exciting = Exciting {
@@ -160,18 +153,17 @@ impl<L: Illumination, C: Course + Sync> Experiment for Reading<'_, L, C> {
             is_lit: false,
             starts: Vec::new(),
         };
-        self.walk(&packet.wavelengths, self.manner.ways)
-            .follow(ray, stream, &mut exciting);
+        self.flux(&packet.wavelengths, self.manner.ways)
+            .of_lamp(ray, stream, &mut exciting);
         if !exciting.is_lit && !self.manner.counts_misses {
             return;
         }
         sums[0] += 1.0;
-        let walk = self.walk(&self.emission, 1);
+        let flux = self.flux(&self.emission, 1);
         let around = Staged(self.stage, self.course);
         for (number, start) in exciting.starts.iter().enumerate() {
-            let number = (number as u32).min(MOST_STARTS - 1);
-            let first = SETS_OF_A_START * (1 + number);
-            stream.seek(first);
+            let mut stream = stream.nested(number as u32);
+            stream.seek(sets::START.of(0));
             let Some((ray, weights)) = start.ray(&around, stream.next4()) else {
                 continue;
             };
@@ -186,7 +178,7 @@ impl<L: Illumination, C: Course + Sync> Experiment for Reading<'_, L, C> {
                 sums: &mut *sums,
             };
             emitted.add(EMITTED, |lane| f64::from(weight.0[lane]));
-            walk.follow_on((ray, start.passage), weight, first, stream, &mut emitted);
+            flux.of_surface((ray, start.passage), weight, &stream, &mut emitted);
         }
     }
 }

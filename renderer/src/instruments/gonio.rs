@@ -8,12 +8,12 @@ use std::f64::consts::FRAC_1_PI;
 
 use super::batches::{Effort, Estimate, Experiment, estimates};
 use super::detector::{self, Detectors, angles};
+use super::error::{InstrumentError, Problem};
+use super::flux::{Escaped, Event, Flux, LANES, Scattering, Straight, Witness};
 use super::lamp::{Bench, FACES, Lamp};
-use super::row::Direction;
+use super::row::{Direction, Reading};
 use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
-use super::walk::{Escaped, Event, Scattering, Straight, Walk, Witness};
-use super::{InstrumentError, LANES, Reading};
 use crate::sampling::stream::Stream;
 use crate::scene::description::{Description, Gonio, Instrument, Named};
 use crate::scene::world::World;
@@ -43,7 +43,7 @@ impl Experiment for Lit<'_> {
 
     fn shoot(&self, stream: &mut Stream, sums: &mut [f64]) {
         let ray = self.lamp.ray(stream);
-        let walk = Walk {
+        let flux = Flux {
             stage: self.stage,
             course: &Straight,
             wavelengths: &self.wavelengths,
@@ -54,7 +54,7 @@ impl Experiment for Lit<'_> {
             sums,
             is_lit: false,
         };
-        walk.follow(ray, stream, &mut tally);
+        flux.of_lamp(ray, stream, &mut tally);
         if tally.is_lit {
             sums[0] += 1.0;
         }
@@ -152,10 +152,10 @@ pub(super) fn read_out(
         .collect();
     let found = estimates(&lit, effort);
     if found.iter().any(|figures| figures[0].value.is_nan()) {
-        return Err(InstrumentError::NothingLit {
-            at: at.clone(),
+        return Err(Problem::NothingLit {
             object: scene.objects[gonio.sample.object].name.clone(),
-        });
+        }
+        .at(at));
     }
     let views = angles(&gonio.detector);
     let mut all = Vec::new();

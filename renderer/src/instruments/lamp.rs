@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use super::InstrumentError;
+use super::error::{InstrumentError, Problem};
 use super::row::Direction;
 use super::spot::{Port, axes_of, ports};
 use super::stage::Stage;
@@ -58,19 +58,16 @@ impl<'w> Bench<'w> {
         at: &str,
     ) -> Result<Self, InstrumentError> {
         let object = &scene.objects[sample.object];
-        let stage =
-            Stage::of_object(world, sample.object).map_err(|source| InstrumentError::Geometry {
-                at: at.to_owned(),
-                source,
-            })?;
+        let stage = Stage::of_object(world, sample.object)
+            .map_err(|source| Problem::Geometry(source).at(at))?;
         let [x, _, z] = axes_of(&object.value);
         let openings = if let Some(spot) = &sample.spot {
             let ports = ports(&stage, (&object.name, &object.value), spot)?;
             if sample.faces[1] && ports[1].faces_a_surface(&stage.geometry) {
-                return Err(InstrumentError::PortInside {
-                    at: spot.at.clone(),
+                return Err(Problem::PortInside {
                     object: object.name.clone(),
-                });
+                }
+                .at(&spot.at));
             }
             ports.map(Opening::Port)
         } else {

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::LANES;
 use super::constituents;
+use super::flux::{Event, LANES};
 use super::stage::Stage;
-use super::walk::Event;
 use crate::scene::description::{Canopy, Description};
 use crate::spectrum::Wavelengths;
 

@@ -5,13 +5,14 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
+use super::error::{InstrumentError, Problem};
+use super::flux::{Course, LANES, Straight};
 use super::stage::Stage;
-use super::walk::{Ahead, Course, Straight};
-use super::{InstrumentError, LANES};
 use crate::geometry::{GeometryError, Ray, origin_near};
 use crate::scene::description::Description;
 use crate::scene::world::World;
 use crate::spectrum::Lanes;
+use crate::walk::Ahead;
 
 /// Most times that a ray passes the sides of the box from one surface to the next; then it is cut. In
 /// a box as high as wide these are rays within a thousandth of a degree of the horizon.
@@ -226,25 +227,22 @@ impl Period {
             places.extend(own.into_iter().map(|by| (number, by)));
         }
         if places.is_empty() {
-            return Err(InstrumentError::NoLeaves { at: at.to_owned() });
+            return Err(Problem::NoLeaves.at(at));
         }
         let side = (within[1] - within[0]).min_element();
         if heights[1] - heights[0] > MOST_HEIGHT * side {
             let object = world.objects[tallest.1 as usize].object;
-            return Err(InstrumentError::TooHigh {
-                at: at.to_owned(),
+            return Err(Problem::TooHigh {
                 heights,
                 side,
                 most: MOST_HEIGHT,
                 object: scene.objects[object].name.clone(),
-            });
+            }
+            .at(at));
         }
         let middle = 0.5 * (within[0] + within[1]);
         let middle = middle.extend(0.5 * (heights[0] + heights[1]));
-        let refuse = |source: GeometryError| InstrumentError::Geometry {
-            at: at.to_owned(),
-            source,
-        };
+        let refuse = |source: GeometryError| Problem::Geometry(source).at(at);
         let stage = Stage::new(world, &places, middle).map_err(refuse)?;
         let (low, high) = stage.geometry.bounds();
         let origin = stage.geometry.origin().truncate();

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::stage::CutPaths;
+
 /// The light of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Direction {
@@ -89,4 +91,14 @@ impl Row {
             unit: "1",
         }
     }
+}
+
+/// What an instrument reads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// Its figures.
+    pub rows: Vec<Row>,
+    /// Paths that were cut; what they carried counts as absorbed, or is missing from the figures of a
+    /// canopy.
+    pub cut: CutPaths,
 }

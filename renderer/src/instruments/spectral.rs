@@ -3,8 +3,8 @@
 //! Means over a band, indices and photon fluxes are made of the same batches as the figures that
 //! they are made of, so their errors count how those move together.
 
-use super::LANES;
 use super::batches::Estimate;
+use super::flux::LANES;
 use super::row::{Direction, Row};
 use crate::scene::description::{Amount, Incident, Instrument};
 use crate::spectrum::{Curve, Share};

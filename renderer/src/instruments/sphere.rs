@@ -10,12 +10,13 @@ use glam::Vec3;
 use super::batches::{Effort, Estimate, Experiment, estimates};
 use super::constituents::{self, PARTS};
 use super::detector::check_layers;
+use super::error::{InstrumentError, Problem};
 use super::fluorescence::{self, Illumination, Manner};
+use super::flux::{Escaped, Event, Flux, LANES, Straight, Witness};
 use super::lamp::{Bench, FACES, Lamp};
+use super::row::Reading;
 use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
-use super::walk::{Escaped, Event, Straight, Walk, Witness};
-use super::{InstrumentError, LANES, Reading};
 use crate::geometry::Ray;
 use crate::sampling::stream::Stream;
 use crate::scene::description::{Description, Instrument, Named, Sample};
@@ -85,13 +86,13 @@ impl Experiment for Lit<'_> {
             is_lit: false,
             flux: [[0.0; LANES]; 2],
         };
-        let walk = Walk {
+        let flux = Flux {
             stage: self.stage,
             course: &Straight,
             wavelengths: &self.wavelengths,
             ways: WAYS,
         };
-        walk.follow(ray, stream, &mut gathered);
+        flux.of_lamp(ray, stream, &mut gathered);
         if !gathered.is_lit {
             return;
         }
@@ -165,10 +166,10 @@ pub(super) fn read_out(
         .collect();
     let found = estimates(&lit, effort);
     if found.iter().any(|figures| figures[0].value.is_nan()) {
-        return Err(InstrumentError::NothingLit {
-            at: at.clone(),
+        return Err(Problem::NothingLit {
             object: scene.objects[sample.object].name.clone(),
-        });
+        }
+        .at(at));
     }
     let mut all = Vec::new();
     for (figures, lamp) in found.chunks(sets).zip(&lamps) {

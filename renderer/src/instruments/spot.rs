@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec2, DVec3, Vec2, Vec3};
 
-use super::InstrumentError;
+use super::error::{InstrumentError, Problem};
 use super::stage::Stage;
 use crate::geometry::{Geometry, Ray};
 use crate::scene::description::{Object, Spot, SpotMiddle};
@@ -61,20 +61,22 @@ pub(super) fn ports(
         SpotMiddle::Point(at) => at_point(stage, object, at),
         SpotMiddle::Uv(uv) => at_uv(&stage.geometry, uv.as_vec2()),
     };
-    let (middle, normal) = found.ok_or_else(|| InstrumentError::OffTheObject {
-        at: spot.at.clone(),
-        object: name.to_owned(),
-        place: match spot.middle {
+    let (middle, normal) = found.ok_or_else(|| {
+        let place = match spot.middle {
             SpotMiddle::Point(at) => format!("`at_mm = [{}, {}]`", 1e3 * at.x, 1e3 * at.y),
             SpotMiddle::Uv(uv) => format!("`at_uv = [{}, {}]`", uv.x, uv.y),
-        },
+        };
+        let object = name.to_owned();
+        Problem::OffTheObject { object, place }.at(&spot.at)
     })?;
     let radius = 0.5 * spot.diameter as f32;
     let probe = |normal: Vec3| Probe::new(&stage.geometry, middle, normal, radius);
-    let refuse = |share: f64| InstrumentError::NotCovered {
-        at: spot.at.clone(),
-        object: name.to_owned(),
-        share: 100.0 * share,
+    let refuse = |share: f64| {
+        Problem::NotCovered {
+            object: name.to_owned(),
+            share: 100.0 * share,
+        }
+        .at(&spot.at)
     };
     // The port lies along the mean of the surface.
     let first = probe(normal);
@@ -129,7 +131,7 @@ impl Probe {
                     probe.missing += 1.0;
                     continue;
                 };
-                let surface = geometry.surface(&ray, &hit);
+                let surface = geometry.surface(&hit);
                 let height = (surface.position - middle).dot(normal);
                 probe.highest = probe.highest.max(height);
                 probe.lowest = probe.lowest.min(height);
@@ -159,7 +161,7 @@ fn at_point(stage: &Stage<'_>, object: &Object, at: DVec2) -> Option<(Vec3, Vec3
     let height = (middle - to_world(0.0)).dot(along) + 2.0 * reach;
     let ray = Ray::new(to_world(0.0) + along * height, down);
     let hit = geometry.intersect(&ray)?;
-    let surface = geometry.surface(&ray, &hit);
+    let surface = geometry.surface(&hit);
     Some((surface.position, surface.geometric_normal))
 }
 

@@ -1,11 +1,13 @@
 //! What a picture tells of its scene, besides light.
 
+use serde::{Deserialize, Serialize};
+
 use crate::camera::view::View;
 use crate::image::light_colour::LightColour;
 use crate::scene::description::{Description, FilmKind, Picture};
 
 /// What is needed to make a picture of sums without the scene's files.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Caption {
     /// The scene's name.
     pub name: String,

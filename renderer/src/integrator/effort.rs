@@ -1,7 +1,9 @@
 //! The amount of work of a path at its first vertex and after it.
 
+use serde::{Deserialize, Serialize};
+
 /// The amount of work of a path at its first vertex and after it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Effort {
     /// Throughput below which Russian roulette is applied; 0 switches it off.
     pub roulette_below: f32,

@@ -8,38 +8,27 @@
 
 use leafmodel::optics::fluorescence::EXCITED_NM;
 
+use super::path::PathResult;
 use super::path::lamps::sampled_light;
-use super::path::media::Passage;
-use super::path::scatterer::Scatterer;
-use super::path::{Leg, PathResult, Paths, Vertex};
+use super::path::passage::Passage;
+use super::path::paths::{Leg, Paths};
+use super::path::vertex::Vertex;
 use crate::bsdf::View;
 use crate::bsdf::fluorescence::FluorescenceView;
 use crate::geometry::surface::SurfacePoint;
-use crate::integrator::encounter::Encounter;
 use crate::light::Receiver;
-use crate::material::Material;
 use crate::material::leaf::LeafMaterial;
+use crate::sampling::dimensions::excitation as sets;
 use crate::sampling::stream::Stream;
 use crate::spectrum::{Lanes, Wavelengths};
+use crate::walk::encounter::Encounter;
+use crate::walk::{Scatterer, Walk};
 
 /// Probability of a path of excitation at a leaf that the camera does not see directly. At the first
 /// leaf there always is one.
 const BEYOND_THE_FIRST: f32 = 0.25;
 
-/// Sets of random numbers from one path of excitation to the next, which a path never uses up.
-const SETS_OF_A_PATH: u32 = 1 << 16;
-/// Number of vertices whose paths of excitation have sets of their own.
-const MOST_DEPTH: u32 = 254;
-/// Flights through media from the sets of which a path of excitation has its own.
-const FLIGHTS_OF_A_PATH: u32 = 1 << 22;
-
 impl<const N: usize> Paths<'_, N> {
-    /// The leaf that a material is, if that fluoresces on this path.
-    pub(super) fn fluorescing<'m>(&self, material: &'m Material) -> Option<&'m LeafMaterial> {
-        let may = self.world.fluoresces && self.excitation_sets.is_none();
-        may.then(|| material.fluorescing()).flatten()
-    }
-
     /// What a leaf emits towards where a path comes from, at the path's wavelengths. The path was
     /// scattered `depth` times before.
     pub(super) fn emitted(
@@ -52,10 +41,8 @@ impl<const N: usize> Paths<'_, N> {
     ) -> PathResult<N> {
         let surface: &SurfacePoint = &encounter.surface;
         let emitting = leaf.emitting(surface.uv, self.wavelengths);
-        // Below the sets of flights; deeper vertices share the last ones.
-        let first_set = SETS_OF_A_PATH * (1 + depth.min(MOST_DEPTH));
-        let mut stream = stream.clone();
-        stream.seek(first_set);
+        let mut stream = stream.nested(depth);
+        stream.seek(sets::START.of(0));
         let [coin, wavelength, side, _] = stream.next4();
         let chance = if depth == 0 { 1.0 } else { BEYOND_THE_FIRST };
         if coin >= chance || emitting.is_nothing() || encounter.wo.z == 0.0 {
@@ -89,7 +76,7 @@ impl<const N: usize> Paths<'_, N> {
         let found = self.exciting(
             leaf,
             (encounter, way),
-            (&wavelengths, first_set, depth),
+            (&wavelengths, depth),
             is_through,
             &mut stream,
         );
@@ -122,7 +109,7 @@ impl<const N: usize> Paths<'_, N> {
         &self,
         leaf: &LeafMaterial,
         (encounter, (leg, passage)): (&Encounter<'_, N>, (&Leg<N>, &Passage)),
-        (wavelengths, first_set, depth): (&Wavelengths<N>, u32, u32),
+        (wavelengths, depth): (&Wavelengths<N>, u32),
         is_through: bool,
         stream: &mut Stream,
     ) -> PathResult<N> {
@@ -131,7 +118,7 @@ impl<const N: usize> Paths<'_, N> {
             world: self.world,
             effort: self.effort,
             wavelengths,
-            excitation_sets: Some(first_set),
+            excites: true,
         };
         let view = View::Fluorescence(FluorescenceView::new(
             leaf.coats(),
@@ -154,12 +141,13 @@ impl<const N: usize> Paths<'_, N> {
             throughput: Lanes::ONE,
             width: encounter.width,
             gathered: Lanes::ZERO,
-            inside: &passage.inside,
+            inside: &passage.around.inside,
             // A leaf is a sheet, no boundary of a body.
             boundary: None,
             cap: None,
         };
         let mut result = PathResult::NOTHING;
+        stream.seek(sets::LEAF.of(0));
         let numbers = stream.next4();
         let [_, x, y, _] = numbers;
         let (light, rays) = sampled_light(self.world, &vertex, wavelengths, [x, y], stream);
@@ -174,7 +162,6 @@ impl<const N: usize> Paths<'_, N> {
                 encounter.wo,
             );
             let passage = Passage {
-                flights: passage.flights + FLIGHTS_OF_A_PATH,
                 drops: (drops.film()).map_or(drops, |film| film.leave(drops, place, &mut leg)),
                 ..*passage
             };

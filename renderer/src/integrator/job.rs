@@ -1,7 +1,9 @@
 //! The size, samples and seed of a picture.
 
+use serde::{Deserialize, Serialize};
+
 /// The size, samples and seed of a picture.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 pub struct Job {
     /// Pixels across.
     pub width: u32,

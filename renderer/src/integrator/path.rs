@@ -3,40 +3,33 @@
 pub(super) mod drops;
 mod found;
 pub(super) mod lamps;
-pub(super) mod media;
+pub(super) mod passage;
+pub(super) mod paths;
 mod result;
-pub(super) mod scatterer;
 mod through_leaf;
-mod vertex;
+pub(super) mod vertex;
 
 use glam::{Vec2, Vec3};
 
 use self::found::{emission, from_infinity};
 use self::lamps::sampled_light;
-use self::media::{Collision, Met, Passage};
+use self::passage::Passage;
+use self::paths::{Bounce, Leg, Paths};
 pub use self::result::{FirstHit, PathResult};
-use self::scatterer::Scatterer;
-pub(super) use self::vertex::Vertex;
+use self::vertex::Vertex;
 use crate::camera::FilmRay;
-use crate::geometry::Hit;
 use crate::geometry::ray::Ray;
-use crate::integrator::cone::Cone;
+use crate::geometry::{Geometry, Hit};
 use crate::integrator::effort::Effort;
-use crate::integrator::encounter::Encounter;
 use crate::light::Receiver;
-use crate::light::selection::LightSelection;
+use crate::material::Material;
+use crate::sampling::dimensions::{Sets, picture as sets};
 use crate::sampling::stream::Stream;
-use crate::scene::world::World;
+use crate::scene::world::{World, WorldObjects};
 use crate::spectrum::{Lanes, Wavelengths};
-
-/// Number of sets of four random numbers before those of the vertices: one for the places on film
-/// and lens, one for the wavelengths (without a lens the first set holds both), and one for suns.
-pub const CAMERA_SETS: u32 = 3;
-/// The set for suns at the first vertex, if paths may branch there.
-const FIRST_SUNS: u32 = 2;
-/// Number of sets of four random numbers that a vertex owns, used or not: one for the bounce, one
-/// for the chosen light.
-const VERTEX_SETS: u32 = 2;
+use crate::walk::cone::Cone;
+use crate::walk::encounter::Encounter;
+use crate::walk::{Ahead, Arrival, Collision, Scatterer, Walk};
 
 /// Adds to `result` what a path through a random place in a pixel finds; `stream` gives the random
 /// numbers. Returns its wavelengths.
@@ -48,8 +41,10 @@ pub fn of_pixel<const N: usize>(
     result: &mut PathResult<N>,
 ) -> Wavelengths<N> {
     // Place and lens are stratified together, since blur is in both; without a lens one set does.
+    stream.seek(sets::PLACE.of(0));
     let [film_x, film_y, third, lens_y] = stream.next4();
     let wavelength = if world.camera.has_lens() {
+        stream.seek(sets::WAVELENGTHS.of(0));
         stream.next4()[0]
     } else {
         third
@@ -82,7 +77,7 @@ pub fn trace<const N: usize>(
 ) {
     let mut from_camera = Leg {
         throughput: Lanes::ONE * weight,
-        bounce: Bounce {
+        origin: Bounce {
             pdf: f32::INFINITY,
             from: Receiver {
                 position: ray.origin(),
@@ -97,189 +92,217 @@ pub fn trace<const N: usize>(
         world,
         effort,
         wavelengths,
-        excitation_sets: None,
+        excites: false,
     };
     let passage = Passage::of_camera(world);
     paths.follow(&mut from_camera, passage, 0, stream, result);
 }
 
-/// A ray of a path and its origin.
-#[derive(Clone, Copy)]
-pub(super) struct Leg<const N: usize> {
-    ray: Ray,
-    cone: Cone,
-    /// Factor on radiance along the ray, up to the camera.
-    throughput: Lanes<N>,
-    bounce: Bounce,
-}
+impl<'w, const N: usize> Walk<'w, N, PathResult<N>> for Paths<'w, N> {
+    type Origin = Bounce;
+    type Passage = Passage;
 
-/// Data that all legs of a path share.
-pub(super) struct Paths<'a, const N: usize> {
-    pub(super) world: &'a World,
-    pub(super) effort: Effort,
-    pub(super) wavelengths: &'a Wavelengths<N>,
-    /// Of a path that excites fluorescence, whose wavelengths are not of the film, the first of its
-    /// sets of random numbers.
-    pub(super) excitation_sets: Option<u32>,
-}
+    const FLIGHTS: Sets = sets::FLIGHT;
+    const COUNTS_FLIGHTS: bool = false;
 
-impl<const N: usize> Paths<'_, N> {
-    /// Adds the radiance that a path finds from a leg on, which becomes its last. Its ray was
-    /// scattered `from` times before; `passage` is where it starts, in scenes with media.
-    pub(super) fn follow(
-        &self,
-        leg: &mut Leg<N>,
-        mut passage: Passage,
-        from: u32,
-        stream: &mut Stream,
-        result: &mut PathResult<N>,
-    ) {
-        let (world, wavelengths) = (self.world, self.wavelengths);
-        let lights = (&world.lights[..], self.selection());
-        for depth in from..world.integrator.max_events {
-            let is_last = world.integrator.max_depth.is_some_and(|most| depth >= most);
-            let found = if world.media.are_present {
-                match self.advance(leg, &mut passage, depth == 0, stream, result) {
-                    Met::Surface(hit) => Some(hit),
-                    Met::Nothing => None,
-                    Met::Medium(collision) => {
-                        if leg.throughput.is_zero() || is_last {
-                            result.end_early(leg.throughput);
-                            return;
-                        }
-                        if !self.collide(leg, &passage, &collision, depth, stream, result) {
-                            return;
-                        }
-                        continue;
-                    }
-                }
-            } else {
-                self.meet(&leg.ray, depth == 0, result)
-            };
-            let Some(hit) = &found else {
-                let way = leg.ray.direction();
-                result.radiance +=
-                    leg.throughput * from_infinity(lights, way, &leg.bounce, wavelengths);
-                return;
-            };
-            let material = world.material_of(hit.instance);
-            let mut encounter = Encounter::new(
-                &world.geometry,
-                material,
-                (&leg.ray, &leg.cone),
-                hit,
-                wavelengths,
-            );
-            let Ok(film) = self.film_over(leg, passage.drops, &mut encounter, hit) else {
-                continue;
-            };
-            let Leg {
-                ray,
-                throughput,
-                bounce,
-                ..
-            } = &*leg;
-            let (surface, frame, bsdf) = (&encounter.surface, &encounter.frame, &encounter.bsdf);
-            let (wo, width) = (encounter.wo, encounter.width);
-            if let Some(number) = world.objects[surface.instance as usize].light {
-                let found = emission(lights, number, ray, surface, bounce, wavelengths);
-                result.radiance += *throughput * found;
-            }
-            if depth == 0 && result.first.is_none() {
-                result.first = Some(FirstHit::new(world, &encounter));
-            }
-            if throughput.is_zero() || is_last {
-                result.end_early(*throughput);
-                return;
-            }
-            if let Some(inside) = material.inside() {
-                let entry = through_leaf::Entry {
-                    inside,
-                    at: (hit, surface, frame, wo),
-                    passage: &passage,
-                    leg: (*throughput, width),
-                    depth,
-                };
-                let Some(mut next) = self.through_leaf(&entry, stream, result) else {
-                    return;
-                };
-                if let Some(film) = film {
-                    let place = (encounter.facet(&world.geometry), frame, wo);
-                    passage.drops = film.leave(passage.drops, place, &mut next);
-                }
-                *leg = next;
-                continue;
-            }
-            // By reference: a view is large, and would be moved out of the option.
-            let view = bsdf.seen_from(wo);
-            let Some(view) = &view else {
-                return;
-            };
-            let gathered = result.radiance;
-            let vertex = self.on_surface((&encounter, view), leg, &passage, depth, gathered);
-            if let Some(leaf) = self.fluorescing(material) {
-                let way = (&*leg, &passage);
-                let found = self.emitted(leaf, &encounter, way, depth, stream);
-                result.take(*throughput, &found);
-            }
-            if !self.scatter(&vertex, &passage, depth, stream, (leg, result)) {
-                return;
-            }
-            if let Some(beyond) = vertex.passage_towards(&passage, leg.ray.direction()) {
-                passage = beyond;
-            }
-            if let Some(film) = film {
-                let place = (encounter.facet(&world.geometry), frame, wo);
-                passage.drops = film.leave(passage.drops, place, leg);
-            }
-        }
-        result.end_early(leg.throughput);
+    #[inline(always)]
+    fn world(&self) -> &'w World {
+        self.world
     }
 
-    /// What a ray hits in a scene without media.
     #[inline(always)]
-    fn meet(&self, ray: &Ray, is_first: bool, result: &mut PathResult<N>) -> Option<Hit> {
+    fn scenery(&self) -> (&Geometry, &WorldObjects) {
+        (&self.world.geometry, &self.world.objects)
+    }
+
+    #[inline(always)]
+    fn wavelengths(&self) -> &Wavelengths<N> {
+        self.wavelengths
+    }
+
+    #[inline(always)]
+    fn next(
+        &self,
+        ray: &mut Ray,
+        [from, reach]: [f32; 2],
+        event: u32,
+        result: &mut PathResult<N>,
+    ) -> (Ahead, f32) {
         result.rays += 1;
-        if !is_first {
+        if event > 0 {
             for &number in &self.selection().at_infinity {
                 self.world.lights[number].prefetch(ray.direction());
             }
         }
-        self.world.geometry.intersect(ray)
+        *ray = ray.up_to(f32::INFINITY);
+        // Within a closed body there is something ahead. Where a ray passes an edge, rounding may
+        // turn the order of two boundaries round, so that it takes itself for inside: then it is
+        // in the open here, and does not walk on for ever.
+        let ahead = match self.world.geometry.intersect(ray) {
+            None => Ahead::Nothing,
+            Some(hit) if from + reach < hit.t => {
+                *ray = ray.up_to(from + reach);
+                Ahead::End(from + reach - from)
+            }
+            Some(hit) => Ahead::Hit(hit),
+        };
+        (ahead, 0.0)
     }
 
-    /// Turns a leg that a medium has scattered into that by which the path goes on; false if it does
-    /// not. Adds the light of lamps there.
-    fn collide(
+    /// The camera's ray notes the first surface.
+    fn arrives(&self, at: &Arrival<'_, N>, event: u32, result: &mut PathResult<N>) -> bool {
+        let surface = at.surface;
+        if event == 0 && result.first.is_none() {
+            let against = at.ray.direction().dot(surface.shading_normal) < 0.0;
+            result.first = Some(FirstHit {
+                position: surface.position,
+                normal: surface.shading_normal * if against { 1.0 } else { -1.0 },
+                albedo: Lanes::ONE,
+                object: self.world.objects[surface.instance as usize].object as u32,
+            });
+        }
+        true
+    }
+
+    fn collides(
         &self,
         leg: &mut Leg<N>,
-        passage: &Passage,
-        collision: &Collision,
-        depth: u32,
+        passage: &mut Passage,
+        collision: &Collision<N>,
+        event: u32,
         stream: &mut Stream,
         result: &mut PathResult<N>,
     ) -> bool {
+        let Collision {
+            position,
+            medium,
+            place,
+            ..
+        } = collision;
+        let way = leg.ray.direction();
+        if event == 0 && result.first.is_none() {
+            result.first = Some(FirstHit {
+                position: *position,
+                normal: -way,
+                albedo: medium.albedo(),
+                object: self.world.objects.object_of(*place) as u32,
+            });
+        }
+        if self.ends(leg, event, result) {
+            return false;
+        }
         let vertex = Vertex {
             paths: self,
             scatterer: Scatterer::Medium {
-                position: collision.position,
-                way: leg.ray.direction(),
-                phase: collision.phase,
+                position: *position,
+                way,
+                phase: medium.phase,
             },
             receiver: Receiver {
-                position: collision.position,
+                position: *position,
                 normal: Vec3::ZERO,
             },
             is_lit: collision.is_lit,
-            light_samples: self.light_samples(depth),
+            light_samples: self.light_samples(event),
             throughput: leg.throughput,
             width: leg.cone.width_at(leg.ray.t_max()),
             gathered: result.radiance,
-            inside: &passage.inside,
+            inside: &passage.around.inside,
             boundary: None,
             cap: None,
         };
-        self.scatter(&vertex, passage, depth, stream, (leg, result))
+        self.scatter(&vertex, passage, event, stream, (leg, result))
+    }
+
+    #[inline(always)]
+    fn meets(
+        &self,
+        leg: &mut Leg<N>,
+        passage: &mut Passage,
+        (material, encounter, hit): (&'w Material, &mut Encounter<'w, N>, &Hit),
+        event: u32,
+        stream: &mut Stream,
+        result: &mut PathResult<N>,
+    ) -> bool {
+        let world = self.world;
+        let Ok(film) = self.film_over(leg, passage.drops, encounter, hit) else {
+            return true;
+        };
+        let encounter = &*encounter;
+        let (surface, wo) = (&encounter.surface, encounter.wo);
+        if let Some(number) = world.objects[surface.instance as usize].light {
+            let lights = (&world.lights[..], self.selection());
+            let (ray, bounce) = (&leg.ray, &leg.origin);
+            let found = emission(lights, number, ray, surface, bounce, self.wavelengths);
+            result.radiance += leg.throughput * found;
+        }
+        if event == 0 && result.first.is_none() {
+            result.first = Some(FirstHit::new(world, encounter));
+        }
+        if self.ends(leg, event, result) {
+            return false;
+        }
+        if let Some(inside) = material.inside() {
+            let entry = through_leaf::Entry {
+                inside,
+                at: (hit, surface, &encounter.frame, wo),
+                passage,
+                leg: (leg.throughput, encounter.width),
+                depth: event,
+            };
+            let Some(next) = self.through_leaf(&entry, stream, result) else {
+                return false;
+            };
+            *leg = next;
+        } else {
+            // By reference: a view is large, and would be moved out of the option.
+            let view = encounter.bsdf.seen_from(wo);
+            let Some(view) = &view else {
+                return false;
+            };
+            let gathered = result.radiance;
+            let vertex = self.on_surface((encounter, view), leg, passage, event, gathered);
+            if let Some(leaf) = self.fluorescing(material) {
+                let way = (&*leg, &*passage);
+                let found = self.emitted(leaf, encounter, way, event, stream);
+                result.take(leg.throughput, &found);
+            }
+            if !self.scatter(&vertex, passage, event, stream, (leg, result)) {
+                return false;
+            }
+            if let Some(beyond) = vertex.passage_towards(passage, leg.ray.direction()) {
+                *passage = beyond;
+            }
+        }
+        if let Some(film) = film {
+            let place = (encounter.facet(&world.geometry), &encounter.frame, wo);
+            passage.drops = film.leave(passage.drops, place, leg);
+        }
+        true
+    }
+
+    fn leaves(&self, leg: &mut Leg<N>, _: &mut Passage, result: &mut PathResult<N>) {
+        let lights = (&self.world.lights[..], self.selection());
+        let way = leg.ray.direction();
+        result.radiance +=
+            leg.throughput * from_infinity(lights, way, &leg.origin, self.wavelengths);
+    }
+
+    fn cut(&self, leg: &mut Leg<N>, _: &mut Passage, result: &mut PathResult<N>) {
+        result.end_early(leg.throughput);
+    }
+}
+
+impl<const N: usize> Paths<'_, N> {
+    /// Whether a path ends where it is, because nothing is left of it or by the limit of its depth.
+    #[inline(always)]
+    fn ends(&self, leg: &Leg<N>, depth: u32, result: &mut PathResult<N>) -> bool {
+        let most = self.world.integrator.max_depth;
+        let ends = leg.throughput.is_zero() || most.is_some_and(|most| depth >= most);
+        if ends {
+            result.end_early(leg.throughput);
+        }
+        ends
     }
 
     /// Adds the light of lamps at a vertex, and that of the paths that go on from the first one if
@@ -294,7 +317,7 @@ impl<const N: usize> Paths<'_, N> {
         stream: &mut Stream,
         (leg, result): (&mut Leg<N>, &mut PathResult<N>),
     ) -> bool {
-        let set = self.set_of(depth);
+        let set = sets::VERTEX.of(depth);
         stream.seek(set);
         let numbers = stream.next4();
         // Without what a leaf emits: whether a path branches depends on lamps alone.
@@ -306,7 +329,7 @@ impl<const N: usize> Paths<'_, N> {
                 // bounce, those of a lit vertex would be a choice among all, and the mean wrong in
                 // penumbras.
                 let mut first = stream.clone();
-                first.seek(self.excitation_sets.unwrap_or(0) + FIRST_SUNS);
+                first.seek(sets::FIRST_SUNS.of(0));
                 [x, y, ..] = first.next4();
             }
             let (light, rays) = sampled_light(self.world, vertex, self.wavelengths, [x, y], stream);
@@ -333,46 +356,4 @@ impl<const N: usize> Paths<'_, N> {
         }
         vertex.bounce(numbers, 1.0, self.effort.roulette_below, leg)
     }
-
-    /// The lights that are sampled.
-    pub(super) fn selection(&self) -> &LightSelection {
-        self.world.selections.of(self.effort.sample_skies)
-    }
-
-    /// How much of a throughput counts: as the film sees it, or of light that excites, the brightest
-    /// lane.
-    fn brightness(&self, throughput: &Lanes<N>) -> f32 {
-        match self.excitation_sets {
-            None => self
-                .world
-                .wavelengths
-                .brightness(self.wavelengths, throughput),
-            Some(_) => throughput.max_lane(),
-        }
-    }
-
-    /// The first set of random numbers of a vertex.
-    fn set_of(&self, depth: u32) -> u32 {
-        self.excitation_sets.unwrap_or(0) + CAMERA_SETS + depth * VERTEX_SETS
-    }
-
-    /// Number of lights that are chosen and sampled at a vertex.
-    fn light_samples(&self, depth: u32) -> u32 {
-        if depth == 0 {
-            self.effort.light_samples
-        } else {
-            1
-        }
-    }
-}
-
-/// The bounce from which a ray originates.
-#[derive(Clone, Copy)]
-struct Bounce {
-    /// Density of its direction; infinite if no light sample could have chosen the same direction.
-    pdf: f32,
-    /// The point where it started; used only if the density is finite.
-    from: Receiver,
-    /// Number of lights chosen there.
-    light_samples: u32,
 }

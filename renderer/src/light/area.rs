@@ -4,8 +4,8 @@ use glam::{Vec2, Vec3};
 
 use crate::light::patch::{self, Patch};
 use crate::light::pattern::{Pattern, PlaneUv};
+use crate::light::sample::{LightSample, Receiver};
 use crate::light::tree::Emitter;
-use crate::light::{LightSample, Receiver};
 use crate::material::colour_map::ColourMap;
 use crate::spectrum::rgb::Primaries;
 use crate::spectrum::{Curve, Lanes, Share, Spectrum, WavelengthGrid, Wavelengths};

@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use glam::{Vec2, Vec3};
 
 use crate::geometry::frame::Frame;
-use crate::light::LightSample;
+use crate::light::sample::LightSample;
 use crate::sampling::warp;
 use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthGrid, Wavelengths};
 

@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 
 use super::radiance_table::RadianceTable;
 use super::texels::{Beyond, Texels};
-use crate::light::{LightSample, unevenness};
+use crate::light::sample::{LightSample, unevenness};
 use crate::sampling::distribution::Piecewise2d;
 use crate::spectrum::rgb::Primaries;
 use crate::spectrum::{Curve, Lanes, Share, WavelengthGrid, Wavelengths};

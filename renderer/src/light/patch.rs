@@ -6,12 +6,12 @@
 //!   alone decides whether points are uniform over solid angle or over area.
 //! - **Left out**: occlusion.
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 
 pub mod rectangle;
 pub mod triangle;
 
-use crate::light::Receiver;
+use crate::light::sample::Receiver;
 use crate::light::tree::Emitter;
 use rectangle::Rectangle;
 use triangle::Triangle;
@@ -199,11 +199,6 @@ pub fn patches_if(
         }
     }
     (patches, patch_of)
-}
-
-/// The point `a` relative to `from`, without the rounding of a difference in single precision.
-fn offset(a: Vec3, from: Vec3) -> DVec3 {
-    a.as_dvec3() - from.as_dvec3()
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use glam::Vec3;
 
+use crate::light::sample::{LightSample, Receiver, angle};
 use crate::light::tree::Emitter;
-use crate::light::{LightSample, Receiver, angle};
 use crate::spectrum::{Curve, Spectrum, WavelengthGrid, Wavelengths};
 
 /// A point light whose radiant intensity is constant inside an inner cone and falls linearly in the

@@ -19,7 +19,7 @@ use glam::Vec3;
 
 mod build;
 
-use crate::light::Receiver;
+use crate::light::sample::Receiver;
 
 /// Number of children of a node.
 const WIDTH: usize = 8;

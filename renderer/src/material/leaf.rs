@@ -6,12 +6,11 @@ use glam::Vec2;
 use leafmodel::optics::ProspectD;
 
 use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue, usual_abaxial_ratio};
-use crate::material::coarse;
 use crate::material::contents_texture::{Around, ContentsTexture};
 use crate::material::held::Held;
 use crate::material::leaf_layers::LeafLayers;
 use crate::material::light_spread::{Entry, LightSpread};
-use crate::material::palette::Palette;
+use crate::material::palette::{Palette, coarse};
 use crate::material::relief::{Relief, ReliefMap};
 use crate::simd::{Sixteen, Task};
 use crate::spectrum::{Curve, Lanes, Spectrum, Table, WavelengthGrid, Wavelengths};

@@ -97,11 +97,6 @@ impl LeafLayers {
         }
     }
 
-    /// Thickness of the leaf, m.
-    pub fn thickness_m(&self) -> f32 {
-        self.thickness_m.iter().sum()
-    }
-
     /// The layers at a wavelength, linear between those of the table.
     fn row(&self, nm: f32) -> Row {
         let (first, step, count) = TABLE_NM;

@@ -10,6 +10,7 @@ use leafmodel::optics::{Constituent, Contents, Texel};
 
 use super::contents_texture::ContentsTexture;
 use super::palette::Palette;
+use crate::sampling::mixer::{Sequence, mixed};
 use crate::spectrum::{Curve, Spectrum, WavelengthGrid, Wavelengths};
 
 /// Range over which lengths are tabulated, nm; the end values hold outside, as PROSPECT's do.
@@ -141,26 +142,18 @@ fn is_tissue(texel: &Texel) -> bool {
     texel[Constituent::Structure] >= 1.0
 }
 
-/// Five numbers in [0, 1) from the bits of a place and a wavelength (the finaliser of `SplitMix64`,
-/// Steele et al. 2014).
+/// Five numbers in [0, 1) from the bits of a place and a wavelength.
 #[inline]
 fn numbers(uv: Vec2, nm: f32) -> [f32; 5] {
     let place = u64::from(uv.x.to_bits()) << 32 | u64::from(uv.y.to_bits());
-    let mut state = place ^ mixed(u64::from(nm.to_bits()));
+    let mut sequence = Sequence(place ^ mixed(u64::from(nm.to_bits())));
     let mut next = || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let bits = mixed(state);
+        let bits = sequence.next();
         // 24 bits fill the digits of a float.
         [bits >> 40, (bits >> 8) & 0xff_ffff].map(|bits| bits as f32 * (1.0 / 16_777_216.0))
     };
     let ([a, b], [c, d], [e, _]) = (next(), next(), next());
     [a, b, c, d, e]
-}
-
-fn mixed(mut z: u64) -> u64 {
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

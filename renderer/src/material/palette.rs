@@ -137,6 +137,13 @@ impl Palette {
     }
 }
 
+/// Wavelengths across a range, nm, at which a coat is compared with the whole.
+pub(super) fn coarse(range_nm: [f64; 2]) -> impl Iterator<Item = f64> {
+    const STEPS: u32 = 200;
+    let [first, last] = range_nm;
+    (0..=STEPS).map(move |i| first + (last - first) * f64::from(i) / f64::from(STEPS))
+}
+
 /// R and T of the same contents at all wavelengths.
 struct OfContents<'a, const N: usize> {
     palette: &'a Palette,

@@ -7,6 +7,7 @@
 //! from nearby and nothing flickers (LEAN mapping, \[olano2010\]).
 
 mod cells;
+mod grid;
 mod levels;
 mod stomata;
 
@@ -16,6 +17,7 @@ use glam::Vec2;
 use leafmodel::optics::dust::grain_albedo;
 
 use self::cells::Cells;
+use self::grid::SPREAD;
 use self::levels::Levels;
 pub use self::stomata::StomataNumbers;
 use self::stomata::{Place, Stomata};
@@ -25,13 +27,6 @@ use crate::bsdf::leaf::Coat;
 use crate::bsdf::relief::ReliefFace;
 use crate::geometry::TextureScale;
 use crate::spectrum::{Curve, Lanes, Wavelengths, library};
-
-/// By how much the square of a GGX roughness grows with the variance of slopes.
-///
-/// For Beckmann's distribution it is 2. GGX has a sharper core and an infinite variance: the peak of
-/// its convolution with normally distributed slopes asks for 4 where these are small beside the
-/// coat's own and for 2.9 at `σ² = α²/2`.
-const SPREAD: f32 = 3.0;
 
 /// The relief of a leaf's faces.
 #[derive(Clone, Debug)]

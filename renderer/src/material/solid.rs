@@ -10,9 +10,8 @@ use leafmodel::optics::ProspectD;
 use leafmodel::optics::solid::{ReflectanceTable, Solid};
 
 use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue};
-use crate::material::coarse;
 use crate::material::held::Held;
-use crate::material::palette::Palette;
+use crate::material::palette::{Palette, coarse};
 use crate::spectrum::{Lanes, Table, WavelengthGrid, Wavelengths};
 
 /// A material of solid tissue.

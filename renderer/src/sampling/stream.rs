@@ -132,6 +132,18 @@ impl Stream<'_> {
         }
     }
 
+    /// The stream of walk number `number` that begins within this one: all its sets are others.
+    #[must_use]
+    pub fn nested(&self, number: u32) -> Self {
+        let own = number.wrapping_add(1).wrapping_mul(0x27d4_eb2f);
+        Self {
+            pixel: mix(self.pixel.rotate_left(16) ^ own),
+            index: self.index,
+            set: 0,
+            scrambles: None,
+        }
+    }
+
     /// Jumps to set number `set`, so that numbers left unused by one event do not shift those of
     /// the next.
     pub fn seek(&mut self, set: u32) {
@@ -312,19 +324,23 @@ mod tests {
     }
 
     #[test]
-    fn neighbouring_pixels_and_sets_are_uncorrelated() {
-        let (mut pixels, mut sets) = (0.0, 0.0);
+    fn neighbouring_pixels_sets_and_walks_within_walks_are_uncorrelated() {
+        let (mut pixels, mut sets, mut walks) = (0.0, 0.0, [0.0; 2]);
         let count = 20_000;
         for i in 0..count {
             let mut a = Stream::new(0, i, 0, 0);
             let mut b = Stream::new(0, i + 1, 0, 0);
+            let [mut inner, mut other] = [0, 1].map(|number| a.nested(number));
             let (first, second) = (a.next4(), a.next4());
             pixels += f64::from((first[0] - 0.5) * (b.next4()[0] - 0.5));
             sets += f64::from((first[1] - 0.5) * (second[1] - 0.5));
+            let inner = inner.next4();
+            walks[0] += f64::from((first[0] - 0.5) * (inner[0] - 0.5));
+            walks[1] += f64::from((inner[0] - 0.5) * (other.next4()[0] - 0.5));
         }
         // A product of two centred uniform numbers has standard deviation 1/12.
         let sigma = 1.0 / 12.0 / f64::from(count).sqrt();
-        for sum in [pixels, sets] {
+        for sum in [pixels, sets, walks[0], walks[1]] {
             let mean = sum / f64::from(count);
             assert!(mean.abs() < 4.0 * sigma, "{mean} is {} sigma", mean / sigma);
         }

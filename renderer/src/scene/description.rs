@@ -2,7 +2,7 @@
 //! anything is built.
 //!
 //! Both the tracer ([`super::world`]) and the exporters read this, so that both programs get the
-//! same input. [`expand`](super::expand) makes it of what the file says.
+//! same input. `scene::expand` makes it of what the file says.
 
 mod camera;
 mod instrument;

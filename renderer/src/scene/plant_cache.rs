@@ -13,7 +13,6 @@
 //! - **Left out**: bodies of solid tissue; a limit on the size of the folder. Its files may be
 //!   deleted at any time.
 
-mod bytes;
 #[cfg(test)]
 mod tests;
 
@@ -27,12 +26,15 @@ use std::time::UNIX_EPOCH;
 use leafmodel::leaf::LeafPlan;
 use thiserror::Error;
 
-use self::bytes::{parts_from, to_bytes};
-use super::plants::parts::{LeafParts, PlantError};
+use super::plants::parts::{LeafParts, MapParts, Piece, PlantError, SurfaceParts};
+use crate::codec::{self, SectionHead, write_section};
 use crate::image::atomic;
 
 /// The first bytes of a file.
-const MAGIC: [u8; 16] = *b"lamina leaf  1\n\n";
+const MAGIC: [u8; 16] = *b"lamina leaf  2\n\n";
+
+/// The first bytes of files of Lamina 0.1.0.
+const OLDER: [u8; 16] = *b"lamina leaf  1\n\n";
 
 /// Why a cache cannot be used.
 #[derive(Debug, Error)]
@@ -52,6 +54,8 @@ enum Refused {
     Unreadable(io::Error),
     #[error("it is damaged")]
     Damaged,
+    #[error("it was written by Lamina 0.1.0, which alone can read it")]
+    Older,
     #[error("it is another plan's, another program's, or no leaf at all")]
     Foreign,
 }
@@ -149,12 +153,9 @@ fn program() -> String {
 }
 
 fn write(file: &mut impl Write, key: &[u8], parts: &LeafParts) -> io::Result<()> {
-    let leaf = to_bytes(parts);
     file.write_all(&MAGIC)?;
-    file.write_all(&(key.len() as u64).to_le_bytes())?;
-    file.write_all(key)?;
-    file.write_all(&crc32fast::hash(&leaf).to_le_bytes())?;
-    file.write_all(&leaf)
+    write_section(file, key)?;
+    write_section(file, &codec::to_bytes(parts))
 }
 
 /// The reason of refusal for an error of reading.
@@ -175,23 +176,42 @@ fn read(path: &Path, key: &[u8]) -> Result<LeafParts, Refused> {
         return Err(Refused::Foreign);
     }
     let mut file = BufReader::new(File::open(path).map_err(refused)?);
-    // Everything before the leaf is known in advance, so a foreign file cannot determine how much
-    // is read.
+    // All that stands before the leaf is known, so a foreign file cannot determine how much is read.
     let mut expected = MAGIC.to_vec();
-    expected.extend((key.len() as u64).to_le_bytes());
-    expected.extend(key);
+    write_section(&mut expected, key).map_err(refused)?;
     let mut start = vec![0; expected.len()];
     let is_whole = file.read_exact(&mut start);
+    if start.starts_with(&OLDER) {
+        return Err(Refused::Older);
+    }
     if is_whole.is_ok() && start != expected || !expected.starts_with(&start[..MAGIC.len()]) {
         return Err(Refused::Foreign);
     }
     is_whole.map_err(refused)?;
-    let mut sum = [0; 4];
-    file.read_exact(&mut sum).map_err(refused)?;
-    let mut leaf = Vec::new();
-    file.read_to_end(&mut leaf).map_err(refused)?;
-    if crc32fast::hash(&leaf).to_le_bytes() != sum {
-        return Err(Refused::Damaged);
-    }
+    let head = SectionHead::read(&mut file).map_err(refused)?;
+    let leaf = head.bytes(&mut file).map_err(refused)?;
+    let is_at_end = file.read(&mut [0]).map_err(refused)? == 0;
+    let leaf = leaf.filter(|_| is_at_end).ok_or(Refused::Damaged)?;
     parts_from(&leaf).ok_or(Refused::Damaged)
+}
+
+/// The leaf that these bytes encode; `None` if they are not a leaf.
+fn parts_from(bytes: &[u8]) -> Option<LeafParts> {
+    let parts: LeafParts = codec::from_bytes(bytes)?;
+    let is_whole = |map: &MapParts| {
+        let texels = map.texels.len();
+        let covers = |surface: &SurfaceParts| {
+            surface.texels.len() == texels && [0, texels].contains(&surface.cover.len())
+        };
+        texels > 0
+            && map.width.checked_mul(map.height) == Some(texels)
+            && map.surface.as_ref().is_none_or(covers)
+    };
+    let materials = parts.maps.len() + usize::from(parts.stalk.is_some()) + parts.hairs.len();
+    let is_there = |piece: &Piece| piece.mesh < parts.meshes.len() && piece.material < materials;
+    // A leaf has at least one blade.
+    let is_sound = !parts.pieces.is_empty()
+        && parts.pieces.iter().all(is_there)
+        && parts.maps.iter().all(is_whole);
+    is_sound.then_some(parts)
 }

@@ -5,8 +5,8 @@ use std::arch::aarch64::{
     vcltq_f32, vdivq_f32, vdupq_n_f32, vld1q_f32, vld1q_u32, vmulq_f32, vst1q_f32, vsubq_f32,
 };
 
+use super::eight::{Eight, LANES, Row, of_two_rows};
 use super::wide::Halves;
-use super::{Eight, LANES, Row};
 
 #[derive(Clone, Copy)]
 pub(super) struct Neon;
@@ -54,46 +54,17 @@ impl Eight for Neon {
         stored
     }
 
-    #[inline(always)]
-    fn add(self, a: Pair, b: Pair) -> Pair {
-        halves(a, b, |a, b| unsafe { vaddq_f32(a, b) })
-    }
-
-    #[inline(always)]
-    fn sub(self, a: Pair, b: Pair) -> Pair {
-        halves(a, b, |a, b| unsafe { vsubq_f32(a, b) })
-    }
-
-    #[inline(always)]
-    fn mul(self, a: Pair, b: Pair) -> Pair {
-        halves(a, b, |a, b| unsafe { vmulq_f32(a, b) })
-    }
-
-    #[inline(always)]
-    fn div(self, a: Pair, b: Pair) -> Pair {
-        halves(a, b, |a, b| unsafe { vdivq_f32(a, b) })
-    }
-
-    // FMIN and FMAX treat NaN differently from the trait, so values are compared and selected
-    // instead.
-    #[inline(always)]
-    fn less(self, a: Pair, b: Pair) -> Pair {
-        halves(a, b, |a, b| unsafe { vbslq_f32(vcltq_f32(a, b), a, b) })
-    }
-
-    #[inline(always)]
-    fn greater(self, a: Pair, b: Pair) -> Pair {
-        halves(a, b, |a, b| unsafe { vbslq_f32(vcgtq_f32(a, b), a, b) })
-    }
-
-    #[inline(always)]
-    fn at_most(self, a: Pair, b: Pair) -> u32 {
-        bits([0, 1].map(|half| unsafe { vcleq_f32(a[half], b[half]) }))
-    }
-
-    #[inline(always)]
-    fn below(self, a: Pair, b: Pair) -> u32 {
-        bits([0, 1].map(|half| unsafe { vcltq_f32(a[half], b[half]) }))
+    of_two_rows! { Pair:
+        add(a, b) -> Pair { halves(a, b, |a, b| unsafe { vaddq_f32(a, b) }) }
+        sub(a, b) -> Pair { halves(a, b, |a, b| unsafe { vsubq_f32(a, b) }) }
+        mul(a, b) -> Pair { halves(a, b, |a, b| unsafe { vmulq_f32(a, b) }) }
+        div(a, b) -> Pair { halves(a, b, |a, b| unsafe { vdivq_f32(a, b) }) }
+        // FMIN and FMAX treat NaN differently from the trait, so values are compared and selected
+        // instead.
+        less(a, b) -> Pair { halves(a, b, |a, b| unsafe { vbslq_f32(vcltq_f32(a, b), a, b) }) }
+        greater(a, b) -> Pair { halves(a, b, |a, b| unsafe { vbslq_f32(vcgtq_f32(a, b), a, b) }) }
+        at_most(a, b) -> u32 { bits([0, 1].map(|half| unsafe { vcleq_f32(a[half], b[half]) })) }
+        below(a, b) -> u32 { bits([0, 1].map(|half| unsafe { vcltq_f32(a[half], b[half]) })) }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The level without vector instructions, the reference for the others.
 
+use super::eight::{Eight, LANES, Row, of_two_rows};
 use super::wide::Halves;
-use super::{Eight, LANES, Row};
 
 #[derive(Clone, Copy)]
 pub(super) struct Scalar;
@@ -34,44 +34,15 @@ impl Eight for Scalar {
         row
     }
 
-    #[inline(always)]
-    fn add(self, a: Row, b: Row) -> Row {
-        lanes(|i| a.0[i] + b.0[i])
-    }
-
-    #[inline(always)]
-    fn sub(self, a: Row, b: Row) -> Row {
-        lanes(|i| a.0[i] - b.0[i])
-    }
-
-    #[inline(always)]
-    fn mul(self, a: Row, b: Row) -> Row {
-        lanes(|i| a.0[i] * b.0[i])
-    }
-
-    #[inline(always)]
-    fn div(self, a: Row, b: Row) -> Row {
-        lanes(|i| a.0[i] / b.0[i])
-    }
-
-    #[inline(always)]
-    fn less(self, a: Row, b: Row) -> Row {
-        lanes(|i| if a.0[i] < b.0[i] { a.0[i] } else { b.0[i] })
-    }
-
-    #[inline(always)]
-    fn greater(self, a: Row, b: Row) -> Row {
-        lanes(|i| if a.0[i] > b.0[i] { a.0[i] } else { b.0[i] })
-    }
-
-    #[inline(always)]
-    fn at_most(self, a: Row, b: Row) -> u32 {
-        bits(|i| a.0[i] <= b.0[i])
-    }
-
-    #[inline(always)]
-    fn below(self, a: Row, b: Row) -> u32 {
-        bits(|i| a.0[i] < b.0[i])
+    of_two_rows! { Row:
+        add(a, b) -> Row { lanes(|i| a.0[i] + b.0[i]) }
+        sub(a, b) -> Row { lanes(|i| a.0[i] - b.0[i]) }
+        mul(a, b) -> Row { lanes(|i| a.0[i] * b.0[i]) }
+        div(a, b) -> Row { lanes(|i| a.0[i] / b.0[i]) }
+        less(a, b) -> Row { lanes(|i| if a.0[i] < b.0[i] { a.0[i] } else { b.0[i] }) }
+        greater(a, b) -> Row { lanes(|i| if a.0[i] > b.0[i] { a.0[i] } else { b.0[i] }) }
+        at_most(a, b) -> u32 { bits(|i| a.0[i] <= b.0[i]) }
+        below(a, b) -> u32 { bits(|i| a.0[i] < b.0[i]) }
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Results need not have the same bits at every level: each takes its quickest instructions.
 
-use super::{Eight, LANES, Row};
+use super::eight::{Eight, LANES, Row};
 
 /// Number of lanes of a wide row.
 pub(crate) const WIDE: usize = 2 * LANES;
@@ -121,9 +121,19 @@ impl<E: Halves> Sixteen for E {
     }
 }
 
+/// A computation that can be run at any level.
+pub(crate) trait Task {
+    /// Its result.
+    type Output;
+
+    /// Runs it. Implementations must be `#[inline(always)]`, and so must all functions that they
+    /// call with `eight`.
+    fn run<E: Sixteen>(self, eight: E) -> Self::Output;
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::{Level, Task};
+    use super::super::Level;
     use super::*;
 
     /// `a · b + c`, the greater and the lesser of `a` and `b`, and where `a ≤ b`.

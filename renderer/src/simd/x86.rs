@@ -10,8 +10,8 @@ use std::arch::x86_64::{
     _mm256_mul_ps, _mm256_set1_ps, _mm256_store_ps, _mm256_sub_ps,
 };
 
-use super::wide::Halves;
-use super::{Eight, LANES, Row, Task};
+use super::eight::{Eight, LANES, Row, of_two_rows};
+use super::wide::{Halves, Task};
 
 /// Size of a cache line, bytes.
 const CACHE_LINE: usize = 64;
@@ -76,45 +76,16 @@ impl Eight for Avx2 {
         stored
     }
 
-    #[inline(always)]
-    fn add(self, a: __m256, b: __m256) -> __m256 {
-        unsafe { _mm256_add_ps(a, b) }
-    }
-
-    #[inline(always)]
-    fn sub(self, a: __m256, b: __m256) -> __m256 {
-        unsafe { _mm256_sub_ps(a, b) }
-    }
-
-    #[inline(always)]
-    fn mul(self, a: __m256, b: __m256) -> __m256 {
-        unsafe { _mm256_mul_ps(a, b) }
-    }
-
-    #[inline(always)]
-    fn div(self, a: __m256, b: __m256) -> __m256 {
-        unsafe { _mm256_div_ps(a, b) }
-    }
-
-    // MINPS and MAXPS return the second operand if either is NaN, as the trait requires.
-    #[inline(always)]
-    fn less(self, a: __m256, b: __m256) -> __m256 {
-        unsafe { _mm256_min_ps(a, b) }
-    }
-
-    #[inline(always)]
-    fn greater(self, a: __m256, b: __m256) -> __m256 {
-        unsafe { _mm256_max_ps(a, b) }
-    }
-
-    #[inline(always)]
-    fn at_most(self, a: __m256, b: __m256) -> u32 {
-        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b)) as u32 }
-    }
-
-    #[inline(always)]
-    fn below(self, a: __m256, b: __m256) -> u32 {
-        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b)) as u32 }
+    of_two_rows! { __m256:
+        add(a, b) -> __m256 { unsafe { _mm256_add_ps(a, b) } }
+        sub(a, b) -> __m256 { unsafe { _mm256_sub_ps(a, b) } }
+        mul(a, b) -> __m256 { unsafe { _mm256_mul_ps(a, b) } }
+        div(a, b) -> __m256 { unsafe { _mm256_div_ps(a, b) } }
+        // MINPS and MAXPS return the second operand if either is NaN, as the trait requires.
+        less(a, b) -> __m256 { unsafe { _mm256_min_ps(a, b) } }
+        greater(a, b) -> __m256 { unsafe { _mm256_max_ps(a, b) } }
+        at_most(a, b) -> u32 { unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b)) as u32 } }
+        below(a, b) -> u32 { unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b)) as u32 } }
     }
 }
 
@@ -214,44 +185,15 @@ impl Eight for Sse2 {
         stored
     }
 
-    #[inline(always)]
-    fn add(self, a: Self::F, b: Self::F) -> Self::F {
-        halves(a, b, |a, b| unsafe { _mm_add_ps(a, b) })
-    }
-
-    #[inline(always)]
-    fn sub(self, a: Self::F, b: Self::F) -> Self::F {
-        halves(a, b, |a, b| unsafe { _mm_sub_ps(a, b) })
-    }
-
-    #[inline(always)]
-    fn mul(self, a: Self::F, b: Self::F) -> Self::F {
-        halves(a, b, |a, b| unsafe { _mm_mul_ps(a, b) })
-    }
-
-    #[inline(always)]
-    fn div(self, a: Self::F, b: Self::F) -> Self::F {
-        halves(a, b, |a, b| unsafe { _mm_div_ps(a, b) })
-    }
-
-    #[inline(always)]
-    fn less(self, a: Self::F, b: Self::F) -> Self::F {
-        halves(a, b, |a, b| unsafe { _mm_min_ps(a, b) })
-    }
-
-    #[inline(always)]
-    fn greater(self, a: Self::F, b: Self::F) -> Self::F {
-        halves(a, b, |a, b| unsafe { _mm_max_ps(a, b) })
-    }
-
-    #[inline(always)]
-    fn at_most(self, a: Self::F, b: Self::F) -> u32 {
-        bits(halves(a, b, |a, b| unsafe { _mm_cmple_ps(a, b) }))
-    }
-
-    #[inline(always)]
-    fn below(self, a: Self::F, b: Self::F) -> u32 {
-        bits(halves(a, b, |a, b| unsafe { _mm_cmplt_ps(a, b) }))
+    of_two_rows! { Self::F:
+        add(a, b) -> Self::F { halves(a, b, |a, b| unsafe { _mm_add_ps(a, b) }) }
+        sub(a, b) -> Self::F { halves(a, b, |a, b| unsafe { _mm_sub_ps(a, b) }) }
+        mul(a, b) -> Self::F { halves(a, b, |a, b| unsafe { _mm_mul_ps(a, b) }) }
+        div(a, b) -> Self::F { halves(a, b, |a, b| unsafe { _mm_div_ps(a, b) }) }
+        less(a, b) -> Self::F { halves(a, b, |a, b| unsafe { _mm_min_ps(a, b) }) }
+        greater(a, b) -> Self::F { halves(a, b, |a, b| unsafe { _mm_max_ps(a, b) }) }
+        at_most(a, b) -> u32 { bits(halves(a, b, |a, b| unsafe { _mm_cmple_ps(a, b) })) }
+        below(a, b) -> u32 { bits(halves(a, b, |a, b| unsafe { _mm_cmplt_ps(a, b) })) }
     }
 }
 

@@ -14,6 +14,7 @@ pub mod fit;
 use std::fmt;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::spectrum::cie;
@@ -21,7 +22,7 @@ use crate::spectrum::table::parse_shipped;
 use fit::Fit;
 
 /// Sensitivities by which a film sees.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub enum Observer {
     /// The CIE 1931 2° standard observer.
     #[default]
@@ -31,7 +32,8 @@ pub enum Observer {
 }
 
 /// A camera's relative sensitivities and its matrix.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Deserialize, PartialEq, Serialize)]
+#[serde(try_from = "Sensitivities", into = "Sensitivities")]
 pub struct Camera {
     /// Its name, or that of its file.
     name: String,
@@ -42,6 +44,23 @@ pub struct Camera {
     balance: [f64; 3],
     /// From raw channels, balanced for D65, to linear sRGB.
     fit: Fit,
+}
+
+/// The name of a camera and its rows, from which all else of it follows.
+type Sensitivities = (String, Vec<(f64, [f64; 3])>);
+
+impl TryFrom<Sensitivities> for Camera {
+    type Error = NotACamera;
+
+    fn try_from((name, rows): Sensitivities) -> Result<Self, NotACamera> {
+        Self::new(&name, rows)
+    }
+}
+
+impl From<Camera> for Sensitivities {
+    fn from(camera: Camera) -> Self {
+        (camera.name, camera.rows)
+    }
 }
 
 impl fmt::Debug for Camera {

@@ -1,9 +1,11 @@
 //! What a film records: colour or bands.
 
+use serde::{Deserialize, Serialize};
+
 use super::observer::Observer;
 
 /// Colour or bands.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub enum FilmKind {
     /// Linear sRGB as an observer sees it, from wavelengths in this range (nm).
     Rgb {
@@ -20,7 +22,7 @@ pub enum FilmKind {
 }
 
 /// A box-shaped band.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Band {
     /// Middle, nm.
     pub center_nm: f64,

@@ -3,13 +3,14 @@
 
 use glam::DVec2;
 
-use super::super::distances::Distances;
 use super::super::mottle::Mottle;
 use super::super::weathering::Weathered;
 use super::{Along, Course, Decay, Delay, Place};
+use crate::numeric::smooth_step;
 use crate::optics::{Constituent, Contents};
+use crate::plane::distances::Distances;
+use crate::random::{self, Use};
 use crate::transport::DeathField;
-use crate::venation::chance::{self, Use};
 
 /// The fields of distances that two delays need, each stored once.
 #[derive(Clone, Debug)]
@@ -84,7 +85,7 @@ impl DelayField {
         seed: u64,
         number: usize,
     ) -> Self {
-        let noise_seed = chance::bits(seed, Use::Ageing, number as u64);
+        let noise_seed = random::bits(seed, Use::Ageing, number as u64);
         Self {
             delay,
             number,
@@ -190,8 +191,7 @@ impl AgeingLeaf {
         if days <= 0.0 {
             return 0.0;
         }
-        let t = ((days - self.death.at(near, days)) / self.blend).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
+        smooth_step((days - self.death.at(near, days)) / self.blend)
     }
 
     pub(in super::super) fn contents(&self, living: Contents, p: DVec2) -> Contents {

@@ -177,8 +177,8 @@ fn contents_are_smooth_in_time() {
 
 #[test]
 fn numbers_out_of_range_are_refused_by_name() {
-    assert_eq!(RED.validate(), Ok(()));
-    let field = |course: Course| course.validate().expect_err("out of range").field;
+    assert_eq!(RED.in_range(), Ok(()));
+    let field = |course: Course| course.in_range().expect_err("out of range").path;
     assert_eq!(
         field(Course {
             half_days: 0.0,
@@ -197,5 +197,5 @@ fn numbers_out_of_range_are_refused_by_name() {
         margin_days: -1.0,
         ..RED.onset
     };
-    assert_eq!(field(Course { onset, ..RED }), "margin_days");
+    assert_eq!(field(Course { onset, ..RED }), "onset.margin_days");
 }

@@ -164,8 +164,5 @@ fn too_many_hairs_are_refused_and_so_are_bad_numbers() {
         length_mm: f64::NAN,
         ..plan()
     };
-    assert_eq!(
-        bad.validate().expect_err("no length").field,
-        "length_mm of hairs"
-    );
+    assert_eq!(bad.in_range().expect_err("no length").path, "hair_mm");
 }

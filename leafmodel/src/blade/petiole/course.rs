@@ -8,8 +8,9 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
-use super::smooth_step;
-use crate::venation::chance::{Use, uniform};
+use crate::document::declared::Declared;
+use crate::numeric::smooth_step;
+use crate::random::{Use, uniform};
 
 /// Pieces that the axis is followed in.
 const STEPS: usize = 240;
@@ -22,23 +23,33 @@ const TIGHTEST: f64 = 0.5;
 const WAVE: f64 = 1.5;
 
 /// How the axis of a petiole runs, beside its even bend. Angles are radians.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Course {
-    /// Angle through which the blade's weight has bent it towards the abaxial side at its foot, −3
-    /// to 3. The bend grows towards the foot as the moment of the weight does.
+    /// Angle by which the blade's weight has bent it towards the abaxial side at its foot; the bend
+    /// grows towards the foot.
+    #[key("sag_deg", degrees(-170.0..=170.0))]
     pub sag: f64,
-    /// Angle through which it bends towards the abaxial side just before the blade, −2 to 2. With
-    /// an opposite sag it is an S.
+    /// Angle by which it bends towards the abaxial side just before the blade; with an opposite sag
+    /// it is an S.
+    ///
+    /// Radians.
+    #[key("neck_deg", degrees(-110.0..=110.0))]
     pub neck: f64,
-    /// Share of the petiole's length in which it does so, 0.02 to 1.
+    /// Share of its length in which it does so.
+    #[key("neck_length", 0.02..=1.0)]
     pub neck_length: f64,
-    /// Angle through which it has bent to the right, adaxial side up, at its foot, −3 to 3.
+    /// Angle by which it has bent to the right at its foot, adaxial side up, blade ahead.
+    ///
+    /// Radians.
+    #[key("sway_deg", degrees(-170.0..=170.0))]
     pub sway: f64,
-    /// Angle through which it is twisted about its axis between the blade and its foot, −3 to 3;
-    /// what the bends are towards turns with it.
+    /// Angle by which it is twisted between blade and foot; bends turn with it.
+    #[key("twist_deg", degrees(-170.0..=170.0))]
     pub twist: f64,
-    /// Standard deviation of sag, sway and twist from leaf to leaf, and of a wave in both bends, 0
-    /// to 1.
+    /// Standard deviation, from leaf to leaf, of sag, sway, twist and of a wave in both bends.
+    ///
+    /// Radians.
+    #[key("stray_deg", degrees(0.0..=55.0))]
     pub stray: f64,
 }
 

@@ -9,10 +9,11 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use super::super::mesh::vertex_normals;
-use super::super::relief::{Relief, smooth_step};
+use super::super::relief::Relief;
 use super::super::stalk::StalkMesh;
 use super::super::stance::Posture;
 use super::{FOOT_RADII, PetiolePlan, READY_RADII};
+use crate::numeric::smooth_step;
 use crate::shape::outline::Outline;
 
 /// Least distance of the base from the margin, in radii of the petiole, for it to be inside.

@@ -3,23 +3,30 @@
 use glam::DVec3;
 
 use super::super::mesh::vertex_normals;
-use super::super::relief::smooth_step;
 use super::super::stalk::StalkMesh;
+use crate::document::declared::Declared;
+use crate::numeric::smooth_step;
 
 /// Cosines of the angles from the adaxial side at which a groove begins and is deepest.
 const GROOVE: [f64; 2] = [0.55, 0.95];
 
 /// The form of a petiole between its ends. All numbers are shares.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Section {
-    /// Depth of the groove along the adaxial side over the radius, 0 to 0.8.
+    /// Depth of the groove along its adaxial side, over the radius.
+    #[key("groove", 0.0..=0.8)]
     pub groove: f64,
-    /// How much narrower it is from side to side, 0 to 0.7: an aspen's is a blade on edge. The
-    /// cross-section keeps its area.
+    /// How much narrower it is from side to side than if it were round, as an aspen's.
+    ///
+    /// How much narrower it is from side to side: an aspen's is a blade on edge. The cross-section
+    /// keeps its area.
+    #[key("flatness", 0.0..=0.7)]
     pub flatness: f64,
-    /// Thickening of the foot over the radius (the pulvinus at the stem), 0 to 2.
+    /// Thickening of its foot, over the radius.
+    #[key("foot", 0.0..=2.0)]
     pub foot: f64,
-    /// The same where it meets the blade, 0 to 2.
+    /// Thickening below the blade (a pulvinus there), over the radius.
+    #[key("head", 0.0..=2.0)]
     pub head: f64,
 }
 

@@ -7,9 +7,9 @@ use glam::DVec2;
 use super::{Drying, Stance};
 use crate::blade::BladeForm;
 use crate::blade::mottle::Mottle;
+use crate::random::{Use, bits};
 use crate::shape::outline::Outline;
 use crate::shell::{Grid, Patch};
-use crate::venation::chance::{Use, bits};
 use crate::venation::network::VeinSegment;
 
 /// Young's modulus of a turgid lamina, N/mm², and that of veins over it. Laminae lie between some 5

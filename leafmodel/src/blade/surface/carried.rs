@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::super::frame::UvFrame;
 use super::super::mesh::{BladeMesh, vertex_normals};
+use crate::buckets::Buckets;
 
 /// Places within a texel, per side, at which slopes are taken.
 pub(super) const PLACES: usize = 3;
@@ -16,10 +17,8 @@ pub(super) struct Carried<'a> {
     normals: Vec<DVec3>,
     frame: &'a UvFrame,
     size: [usize; 2],
-    /// Where each row's list begins in `members`; one more than there are rows.
-    starts: Vec<u32>,
     /// Numbers of the triangles that reach into each row.
-    members: Vec<u32>,
+    members: Buckets,
 }
 
 impl<'a> Carried<'a> {
@@ -43,8 +42,7 @@ impl<'a> Carried<'a> {
             normals: vertex_normals(&places, &mesh.triangles),
             frame,
             size,
-            starts: vec![0; size[1] + 1],
-            members: Vec::new(),
+            members: Buckets::default(),
         };
         carried.sort();
         Some(carried)
@@ -59,22 +57,10 @@ impl<'a> Carried<'a> {
             let last = self.size[1] - 1;
             (low.max(0.0) as usize).min(last)..=(high.max(0.0) as usize).min(last)
         };
-        let mut starts = vec![0_u32; self.size[1] + 1];
-        for row in triangles.iter().flat_map(rows) {
-            starts[row + 1] += 1;
-        }
-        for row in 1..starts.len() {
-            starts[row] += starts[row - 1];
-        }
-        let mut free = starts.clone();
-        let mut members = vec![0; starts[starts.len() - 1] as usize];
-        for (number, triangle) in triangles.iter().enumerate() {
-            for row in rows(triangle) {
-                members[free[row] as usize] = number as u32;
-                free[row] += 1;
-            }
-        }
-        (self.starts, self.members) = (starts, members);
+        let members = (0..)
+            .zip(triangles)
+            .flat_map(|(number, triangle)| rows(triangle).map(move |row| (row, number)));
+        self.members = Buckets::new(self.size[1], members);
     }
 
     /// A vertex in texels.
@@ -89,8 +75,7 @@ impl<'a> Carried<'a> {
         let across = PLACES * self.size[0];
         let mut slopes = vec![DVec2::ZERO; PLACES * across];
         let step = 1.0 / PLACES as f64;
-        let members = self.starts[row] as usize..self.starts[row + 1] as usize;
-        for &number in &self.members[members] {
+        for &number in self.members.list(row) {
             let triangle = self.mesh.triangles[number as usize];
             let [a, b, c] = triangle.map(|v| self.place(v));
             let normals = triangle.map(|v| self.normals[v as usize]);

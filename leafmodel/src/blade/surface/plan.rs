@@ -1,43 +1,63 @@
 //! How the faces of a blade differ from smooth sheets, in numbers.
 
-use super::super::tissue::TissueError;
 use super::dust::DustPlan;
 use super::stomata::StomataPlan;
+use crate::document::declared::Declared;
+use crate::document::keys::Keys;
+use crate::document::ranges::RangeError;
 
 /// How the faces of a blade differ from smooth sheets.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
+#[key(last = refuse_tiny_cells)]
 pub struct SurfacePlan {
-    /// Depth of the groove over a vein on the adaxial face, over the vein's diameter, −2 (raised)
-    /// to 2.
+    /// Depth of the groove over a vein on the adaxial face, over the vein's diameter; below 0 it
+    /// stands out.
+    #[key("impressed", -2.0..=2.0)]
     pub impressed: f64,
-    /// Height of a vein on the abaxial face over its diameter, −2 to 2.
+    /// Height of a vein on the abaxial face over its diameter; below 0 it is sunk.
+    #[key("raised", -2.0..=2.0)]
     pub raised: f64,
-    /// Height to which the lamina bulges far from veins, towards the adaxial side, mm, 0 to 5.
+    /// Height to which the lamina bulges far from veins, towards the adaxial side.
+    #[key("bulge_mm", 0.0..=5.0)]
     pub bulge_mm: f64,
-    /// Distance from a vein within which the lamina rises to that height, mm, 0.05 to 100.
+    /// Distance from a vein within which it rises to that; narrower areoles bulge less.
+    #[key("bulge_width_mm", 0.05..=100.0)]
     pub bulge_width_mm: f64,
-    /// GGX roughness that the coat has over a fully developed vein beside its own: the squares add
-    /// up; 0 to 1.
+    /// GGX roughness of both coats over a fully developed vein beside their own: squares add up.
+    #[key("vein_roughness", 0.0..=1.0)]
     pub vein_roughness: f64,
-    /// GGX roughness that the coats have over dead tissue beside their own: the squares add up; 0
-    /// to 1.
+    /// GGX roughness of both coats over tissue that has died of age, beside their own: squares add
+    /// up.
+    #[key("dead_roughness", 0.0..=1.0)]
     pub dead_roughness: f64,
     /// How far the leaf has matured: 0 just unfolded, 1 mature.
+    #[key("maturity", 0.0..=1.0)]
     pub maturity: f64,
-    /// Roughness of the coats of a leaf that has just unfolded over that of a mature one, 0.2 to
-    /// 1.5; between, it is linear in the maturity.
+    /// Roughness of both coats of a leaf that has just unfolded over that of the mature one; below
+    /// 1 it is glossier.
+    #[key("young_roughness", 0.2..=1.5)]
     pub young_roughness: f64,
-    /// Mean width of the cells of the epidermis, µm; 0 for none, else 5 to 500.
+    /// Width of the cells of the epidermis: 0 for none, else from 5. They are seen where a pixel is
+    /// smaller than a cell.
+    #[key("cells_um", 0.0..=500.0)]
     pub cells_um: f64,
-    /// Length of these cells along the leaf over their width, 1 to 30.
+    /// Length of these cells along the midrib over their width.
+    #[key("cell_elongation", 1.0..=30.0)]
     pub cell_elongation: f64,
-    /// Share of the coat's roughness, as a square, that the cells' own bulges make, 0 to 1.
+    /// Share of a coat's roughness, as a square, that the bulging of cells makes.
+    #[key("cell_share", 0.0..=1.0)]
     pub cell_share: f64,
-    /// Optical thickness of the wax bloom on the adaxial and the abaxial face, 0 to 10.
+    /// Optical thickness of wax crystals on the adaxial face, which scatter all light: 0.1 is a
+    /// breath, 1 a white bloom.
+    #[key("adaxial_bloom", 0.0..=10.0, at = 0)]
+    /// Optical thickness of wax crystals on the abaxial face.
+    #[key("abaxial_bloom", 0.0..=10.0, at = 1)]
     pub bloom: [f64; 2],
-    /// Its stomata.
+    /// Its stomata: pits that are seen where a pixel is smaller than they are.
+    #[key("stomata", block)]
     pub stomata: StomataPlan,
-    /// The dust on it.
+    /// Mineral dust on its faces; left out, they are clean.
+    #[key("dust", block)]
     pub dust: DustPlan,
 }
 
@@ -79,50 +99,29 @@ impl SurfacePlan {
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for the first field out of range, by name.
-    pub fn validate(&self) -> Result<(), TissueError> {
-        let share = |field, value| (field, value, 0.0..=1.0, "from 0 to 1");
-        let fields = [
-            ("impressed", self.impressed, -2.0..=2.0, "from -2 to 2"),
-            ("raised", self.raised, -2.0..=2.0, "from -2 to 2"),
-            ("bulge_mm", self.bulge_mm, 0.0..=5.0, "from 0 to 5"),
-            (
-                "bulge_width_mm",
-                self.bulge_width_mm,
-                0.05..=100.0,
-                "from 0.05 to 100",
-            ),
-            share("vein_roughness", self.vein_roughness),
-            share("dead_roughness", self.dead_roughness),
-            share("maturity", self.maturity),
-            (
-                "young_roughness",
-                self.young_roughness,
-                0.2..=1.5,
-                "from 0.2 to 1.5",
-            ),
-            (
-                "cells_um",
-                self.cells_um,
-                0.0..=500.0,
-                "0, or from 5 to 500",
-            ),
-            (
-                "cell_elongation",
-                self.cell_elongation,
-                1.0..=30.0,
-                "from 1 to 30",
-            ),
-            share("cell_share", self.cell_share),
-            ("adaxial_bloom", self.bloom[0], 0.0..=10.0, "from 0 to 10"),
-            ("abaxial_bloom", self.bloom[1], 0.0..=10.0, "from 0 to 10"),
-        ];
-        for (field, value, range, text) in fields {
-            TissueError::unless(range.contains(&value), field, value, text)?;
-        }
+    /// [`RangeError`] for the first field out of range, by name.
+    pub fn validate(&self) -> Result<(), RangeError> {
+        self.in_range()?;
         let valid = self.cells_um == 0.0 || self.cells_um >= 5.0;
-        TissueError::unless(valid, "cells_um", self.cells_um, "0, or from 5 to 500")?;
-        self.stomata.validate()?;
-        self.dust.validate()
+        RangeError::unless(valid, "cells_um", self.cells_um, "0, or 5 to 500")?;
+        self.stomata.validate()
+    }
+}
+
+fn refuse_tiny_cells(plan: &mut SurfacePlan, keys: &mut Keys<'_>) {
+    let help = "cells of an epidermis are 10 to 200 µm wide; write 0 for none";
+    refuse_gap(keys, ("cells_um", plan.cells_um), [5.0, 500.0], help);
+}
+
+/// Refuses a value that is neither 0 nor within a range that begins above 0.
+pub(super) fn refuse_gap(
+    keys: &Keys<'_>,
+    (key, value): (&str, f64),
+    [least, most]: [f64; 2],
+    help: &str,
+) {
+    if keys.is_sound() && value > 0.0 && value < least {
+        let problem = format!("{value} is neither 0 nor from {least} to {most}");
+        keys.refuse(&[key], problem, help);
     }
 }

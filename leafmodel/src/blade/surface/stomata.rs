@@ -1,23 +1,44 @@
 //! Stomata: how many a face has, of which size, and how they lie.
 
-use super::super::tissue::TissueError;
+use super::plan::refuse_gap;
+use crate::document::declared::Declared;
+use crate::document::keys::Keys;
+use crate::document::ranges::RangeError;
 
 /// The stomata of both faces: elliptic pits in the epidermis.
 ///
 /// They number 5 to 1000 per mm² and are 10 to 80 µm long, and where there are more they are
 /// smaller (Hetherington and Woodward 2003, Nature 424:901).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
+#[key(last = refuse_few)]
 pub struct StomataPlan {
-    /// Stomata per mm² of the adaxial and of the abaxial face, each 0 or 1 to 2000.
+    /// Stomata per mm² of the adaxial face, away from veins: 0 for none, else from 1.
+    #[key("adaxial_per_mm2", 0.0..=2000.0, at = 0)]
+    /// Stomata per mm² of the abaxial face. Most leaves have 50 to 500 there.
+    #[key("abaxial_per_mm2", 0.0..=2000.0, at = 1)]
     pub per_mm2: [f64; 2],
-    /// Length of a pit, µm, 5 to 120.
+    /// Length of a pit. Where there are more stomata they are smaller.
+    #[key("length_um", 5.0..=120.0)]
     pub length_um: f64,
-    /// Its width over its length, 0.2 to 1.
+    /// Width of a pit over its length.
+    #[key("aspect", 0.2..=1.0)]
     pub aspect: f64,
-    /// Its depth below the outer wall, µm, 0 to 30.
+    /// Depth of a pit.
+    #[key("depth_um", 0.0..=30.0)]
     pub depth_um: f64,
-    /// Distance between rows that run along the veins, µm, 20 to 1000; 0 if they lie scattered.
+    /// Distance between rows that run along the veins, as in grasses: 0 if stomata lie scattered,
+    /// else from 20.
+    #[key("row_um", 0.0..=1000.0)]
     pub row_um: f64,
+}
+
+fn refuse_few(plan: &mut StomataPlan, keys: &mut Keys<'_>) {
+    let help = "rows of stomata are some 50 to 300 µm apart; write 0 for scattered ones";
+    refuse_gap(keys, ("row_um", plan.row_um), [20.0, 1000.0], help);
+    let help = "leaves have 5 to 1000 a mm²; write 0 for none";
+    let [adaxial, abaxial] = plan.per_mm2;
+    refuse_gap(keys, ("adaxial_per_mm2", adaxial), [1.0, 2000.0], help);
+    refuse_gap(keys, ("abaxial_per_mm2", abaxial), [1.0, 2000.0], help);
 }
 
 impl StomataPlan {
@@ -35,42 +56,18 @@ impl StomataPlan {
         self.per_mm2.iter().any(|&density| density > 0.0) && self.depth_um > 0.0
     }
 
-    /// Checks every field.
+    /// Checks the numbers that are 0 or from a least value on.
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for the first field out of range, by name.
-    pub fn validate(&self) -> Result<(), TissueError> {
-        let counted = |value: f64| value == 0.0 || (1.0..=2000.0).contains(&value);
-        let row = self.row_um == 0.0 || (20.0..=1000.0).contains(&self.row_um);
+    /// [`RangeError`] for the first field out of range, by name.
+    pub(super) fn validate(&self) -> Result<(), RangeError> {
         let [adaxial, abaxial] = self.per_mm2;
-        let count = "0, or from 1 to 2000";
-        let fields = [
-            ("stomata.adaxial_per_mm2", adaxial, counted(adaxial), count),
-            ("stomata.abaxial_per_mm2", abaxial, counted(abaxial), count),
-            (
-                "stomata.length_um",
-                self.length_um,
-                (5.0..=120.0).contains(&self.length_um),
-                "from 5 to 120",
-            ),
-            (
-                "stomata.aspect",
-                self.aspect,
-                (0.2..=1.0).contains(&self.aspect),
-                "from 0.2 to 1",
-            ),
-            (
-                "stomata.depth_um",
-                self.depth_um,
-                (0.0..=30.0).contains(&self.depth_um),
-                "from 0 to 30",
-            ),
-            ("stomata.row_um", self.row_um, row, "0, or from 20 to 1000"),
-        ];
-        for (field, value, valid, text) in fields {
-            TissueError::unless(valid, field, value, text)?;
-        }
-        Ok(())
+        let counted = |value: f64| value == 0.0 || value >= 1.0;
+        let count = "0, or 1 to 2000";
+        RangeError::unless(counted(adaxial), "stomata.adaxial_per_mm2", adaxial, count)?;
+        RangeError::unless(counted(abaxial), "stomata.abaxial_per_mm2", abaxial, count)?;
+        let valid = self.row_um == 0.0 || self.row_um >= 20.0;
+        RangeError::unless(valid, "stomata.row_um", self.row_um, "0, or 20 to 1000")
     }
 }

@@ -189,7 +189,7 @@ proptest! {
 
 #[test]
 fn numbers_out_of_range_are_refused_by_name() {
-    let refused = |plan: SurfacePlan| plan.validate().expect_err("out of range").field;
+    let refused = |plan: SurfacePlan| plan.validate().expect_err("out of range").path;
     let smooth = SurfacePlan::SMOOTH;
     assert_eq!(
         refused(SurfacePlan {

@@ -32,7 +32,7 @@ impl<'p> Keys<'p> {
     pub fn has(&self, name: &'static str) -> bool {
         match &self.pass {
             Pass::Read(reading) => reading.block.entry(name).is_some(),
-            Pass::Write { .. } => false,
+            Pass::Write { .. } | Pass::Check(_) => false,
             Pass::Describe(_) => true,
         }
     }
@@ -55,7 +55,7 @@ impl<'p> Keys<'p> {
                     && !reading.block.lacks_something()
                     && reading.block.cx.survey.borrow().is_none()
             }
-            Pass::Write { .. } | Pass::Describe(_) => false,
+            Pass::Write { .. } | Pass::Describe(_) | Pass::Check(_) => false,
         }
     }
 
@@ -68,7 +68,7 @@ impl<'p> Keys<'p> {
     pub fn reader(&self) -> Option<&Block<'p>> {
         match &self.pass {
             Pass::Read(reading) => Some(&reading.block),
-            Pass::Write { .. } | Pass::Describe(_) => None,
+            Pass::Write { .. } | Pass::Describe(_) | Pass::Check(_) => None,
         }
     }
 
@@ -76,7 +76,7 @@ impl<'p> Keys<'p> {
     pub fn base(&self) -> Option<&str> {
         match &self.pass {
             Pass::Read(reading) => reading.base.as_deref(),
-            Pass::Write { .. } | Pass::Describe(_) => None,
+            Pass::Write { .. } | Pass::Describe(_) | Pass::Check(_) => None,
         }
     }
 

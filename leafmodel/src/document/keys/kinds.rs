@@ -72,6 +72,11 @@ impl Keys<'_> {
                     block.kind(variant.name, inner);
                 }
             }
+            Pass::Check(ranges) => {
+                if let Some(variant) = current {
+                    Self::check_inside(ranges, variant.name, |keys| (variant.declare)(value, keys));
+                }
+            }
             Pass::Describe(schema) => {
                 describe_variants(schema, variants);
                 schema.groups.push(Group {
@@ -109,6 +114,11 @@ impl Keys<'_> {
                 if let Some(variant) = current {
                     let inner = fresh(*extent, value, &mut (variant.new)(), &variant.declare);
                     block.kind(variant.name, inner);
+                }
+            }
+            Pass::Check(ranges) => {
+                if let Some(variant) = current {
+                    Self::check_inside(ranges, variant.name, |keys| (variant.declare)(value, keys));
                 }
             }
             Pass::Describe(schema) => describe_variants(schema, variants),
@@ -156,7 +166,7 @@ impl Keys<'_> {
                 };
                 one.into_iter().collect()
             }
-            Pass::Write { .. } => current.into_iter().collect(),
+            Pass::Write { .. } | Pass::Check(_) => current.into_iter().collect(),
             Pass::Describe(schema) => {
                 schema.groups.push(Group {
                     keys: names.to_vec(),

@@ -76,6 +76,14 @@ impl Keys<'_> {
                     block.value(name, true, Value::List(tables.collect()));
                 }
             }
+            Pass::Check(ranges) => {
+                ranges.length(name, value.len(), 0, list.most, list.wanted);
+                for (number, one) in value.iter_mut().enumerate() {
+                    Self::check_inside(ranges, &format!("{name}[{number}]"), |keys| {
+                        declare(one, keys);
+                    });
+                }
+            }
             Pass::Describe(schema) => {
                 let of = list.is_inside_itself.then_some(BlockSchema::default());
                 let of =
@@ -145,6 +153,12 @@ impl Keys<'_> {
                         all.block(&name, true, own);
                     }
                     block.block(name, true, all);
+                }
+            }
+            Pass::Check(ranges) => {
+                for one in value {
+                    let path = format!("{name}.{}", (list.name_of)(one));
+                    Self::check_inside(ranges, &path, |keys| declare(one, keys));
                 }
             }
             Pass::Describe(schema) => schema.add(EntrySchema {

@@ -15,26 +15,34 @@
 use glam::DVec2;
 
 use crate::blade::contents_map::ContentsMap;
-use crate::blade::distances::Distances;
 use crate::blade::frame::UvFrame;
 use crate::blade::mottle::Mottle;
+use crate::document::declared::Declared;
+use crate::numeric::smooth_step;
 use crate::optics::{Constituent, Contents};
-use crate::shape::chance::bits;
+use crate::plane::distances::Distances;
+use crate::random::{Use, bits};
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 
 /// How much of a blade has died from its margin, and where.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Dieback {
-    /// Share of the blade that is dead, 0 to 0.95.
+    /// Share of the blade that is dead.
+    #[key("share", required, 0.0..=0.95)]
     pub share: f64,
-    /// 0: alike along the margin; 1: from the tip alone, straight across the blade; 0 to 2.
+    /// Where it began: 0 alike along the margin, 1 at the tip alone.
+    #[key("from_tip", 0.0..=2.0)]
     pub from_tip: f64,
-    /// Speed of the front in veins of the first two orders over that between them, 0.1 to 10.
+    /// Speed of the front in veins of the first two orders over that between them: below 1 green is
+    /// left along the veins, above 1 the brown runs ahead in them.
+    #[key("vein_speed", 0.1..=10.0)]
     pub vein_speed: f64,
-    /// How uneven the front is, 0 to 1.
+    /// How uneven the front is.
+    #[key("unevenness", 0.0..=1.0)]
     pub unevenness: f64,
-    /// Width of the yellow rim ahead of the front, mm, 0 to 20.
+    /// Width of the yellow rim ahead of it.
+    #[key("rim_mm", 0.0..=20.0)]
     pub rim_mm: f64,
 }
 
@@ -50,25 +58,6 @@ impl Default for Dieback {
     }
 }
 
-impl Dieback {
-    /// Key, value, least, most and range of each number.
-    pub(super) fn checks(&self) -> [(&'static str, f64, f64, f64, &'static str); 5] {
-        [
-            ("dieback.share", self.share, 0.0, 0.95, "0 to 0.95"),
-            ("dieback.from_tip", self.from_tip, 0.0, 2.0, "0 to 2"),
-            (
-                "dieback.vein_speed",
-                self.vein_speed,
-                0.1,
-                10.0,
-                "0.1 to 10",
-            ),
-            ("dieback.unevenness", self.unevenness, 0.0, 1.0, "0 to 1"),
-            ("dieback.rim_mm", self.rim_mm, 0.0, 20.0, "0 to 20"),
-        ]
-    }
-}
-
 /// Cells of the grid along the longer side of the leaf.
 const CELLS: f64 = 360.0;
 /// Distance from a vein over which its speed falls to 1/e of the way, as a share of the leaf's
@@ -80,8 +69,6 @@ const PATCHES: [f64; 2] = [0.11, 0.02];
 const STRETCH: f64 = 0.16;
 /// Rounds of four sweeps, at most: the front needs one for each turn of its way.
 const ROUNDS: usize = 24;
-/// Stream of the random numbers of the noise.
-const NOISE: u64 = 0xd1eb;
 /// Width over which dead tissue passes into living, mm.
 const EDGE_MM: f64 = 0.12;
 /// Depth behind the front over which tissue that died last is darker, mm.
@@ -137,7 +124,8 @@ impl Front {
             rim_mm: plan.rim_mm,
         };
         let length = outline.length();
-        let noise = |number: u64, size: f64| Mottle::new(bits(seed, NOISE, number), size * length);
+        let noise =
+            |number: u64, size: f64| Mottle::new(bits(seed, Use::Dieback, number), size * length);
         let (coarse, fine) = (noise(0, PATCHES[0]), noise(1, PATCHES[1]));
         let veins = vein_distances(network);
         for (i, speed) in front.speeds.iter_mut().enumerate() {
@@ -270,9 +258,9 @@ impl Front {
         let thick = (living[Constituent::DryMatter] / USUAL_DRY_MATTER).clamp(0.7, 2.5);
         let brown = (0.9 + 0.8 * libm::exp(-depth.max(0.0) / DARK_MM)) * thick;
         dead[Constituent::Brown] = dead[Constituent::Brown].max(brown);
-        let is_dead = smooth(depth / EDGE_MM + 0.5);
+        let is_dead = smooth_step(depth / EDGE_MM + 0.5);
         let is_yellow = if self.rim_mm > 0.0 {
-            smooth(1.0 + depth / self.rim_mm)
+            smooth_step(1.0 + depth / self.rim_mm)
         } else {
             0.0
         };
@@ -305,10 +293,4 @@ fn vein_distances(network: &VenationNetwork) -> Option<Distances> {
     let major: Vec<VeinSegment> = network.segments().filter(|vein| vein.order <= 2).collect();
     let lines: Vec<[DVec2; 2]> = major.iter().map(|vein| [vein.from, vein.to]).collect();
     (!lines.is_empty()).then(|| Distances::new(lines))
-}
-
-/// 0 up to 0, 1 from 1 on, smooth between.
-fn smooth(x: f64) -> f64 {
-    let t = x.clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }

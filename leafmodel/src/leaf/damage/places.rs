@@ -5,7 +5,9 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec2;
 
 use super::stains::Stain;
-use crate::shape::chance::{Use, bell, uniform};
+use crate::numeric::bisect;
+use crate::plane::segment;
+use crate::random::{Use, bell, uniform};
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 
@@ -70,7 +72,7 @@ impl<'a> Places<'a> {
         let veins = self
             .major
             .iter()
-            .map(|vein| distance(vein, p) - vein.radius_from);
+            .map(|vein| segment::distance(vein.from, vein.to, p) - vein.radius_from);
         let eaten = self.eaten.iter().map(|(q, radius)| q.distance(p) - radius);
         veins
             .chain(eaten)
@@ -108,7 +110,7 @@ impl<'a> Places<'a> {
                 gap
             };
             let stops = vein.order == 1 || vein.radius_from >= stopping;
-            !stops || distance(vein, p) - vein.radius_from > gap
+            !stops || segment::distance(vein.from, vein.to, p) - vein.radius_from > gap
         })
     }
 
@@ -122,7 +124,8 @@ impl<'a> Places<'a> {
             let way = vein.to - vein.from;
             let unit = way.normalize_or_zero();
             let doubled = DVec2::new(unit.x * unit.x - unit.y * unit.y, 2.0 * unit.x * unit.y);
-            let near = 1.0 / (distance(vein, p) + 1e-3 * self.outline.length());
+            let near =
+                1.0 / (segment::distance(vein.from, vein.to, p) + 1e-3 * self.outline.length());
             sum += doubled * (way.length() * near * near * near * near);
         }
         let angle = 0.5 * libm::atan2(sum.y, sum.x);
@@ -264,13 +267,6 @@ impl<'a> Places<'a> {
     }
 }
 
-/// Distance to the axis of a piece of vein.
-fn distance(vein: &VeinSegment, p: DVec2) -> f64 {
-    let way = vein.to - vein.from;
-    let along = ((p - vein.from).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-    (vein.from + way * along).distance(p)
-}
-
 /// The margin without a disc about a place on it, and the new edge; none if that leaves no margin.
 fn bite(outline: &Outline, at: DVec2, radius: f64, turn: f64) -> Option<(Outline, Vec<DVec2>)> {
     let points = outline.points();
@@ -304,16 +300,8 @@ fn bite(outline: &Outline, at: DVec2, radius: f64, turn: f64) -> Option<(Outline
     let (fore, back) = (reach(true), reach(false));
     let enters = |inside: usize, outside: usize| {
         let (a, b) = (points[inside % n], points[outside % n]);
-        let (mut near, mut far) = (0.0, 1.0);
-        for _ in 0..50 {
-            let middle = f64::midpoint(near, far);
-            if a.lerp(b, middle).distance(at) < radius {
-                near = middle;
-            } else {
-                far = middle;
-            }
-        }
-        a.lerp(b, far)
+        let is_near = |share| a.lerp(b, share).distance(at) < radius;
+        a.lerp(b, bisect(0.0, 1.0, 50, is_near).1)
     };
     if !is_in(nearest) || fore + back + 3 >= n {
         return None;

@@ -5,6 +5,7 @@ use glam::DVec2;
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
 use crate::optics::{Constituent, Contents};
+use crate::plane::segment;
 
 /// A band of dead tissue along a path.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,8 +58,7 @@ impl Stain {
     fn at(&self, p: DVec2) -> f64 {
         let piece = |a: (DVec2, f64), b: (DVec2, f64)| {
             let way = b.0 - a.0;
-            let along = (p - a.0).dot(way) / way.length_squared().max(f64::MIN_POSITIVE);
-            let along = along.clamp(0.0, 1.0);
+            let along = segment::share(a.0, b.0, p);
             let radius = a.1 + (b.1 - a.1) * along;
             let depth = 1.0 - (a.0 + way * along).distance(p) / radius;
             (depth / self.softness).clamp(0.0, 1.0)

@@ -8,6 +8,7 @@
 use glam::DVec2;
 
 use super::places::{Places, TRIES};
+use crate::plane::segment;
 use crate::shape::outline::Outline;
 
 /// Steps of a rip.
@@ -59,7 +60,7 @@ impl Tear {
         let mut nearest = (reach, 0.0, 0.0);
         for (i, pair) in self.path.windows(2).enumerate() {
             let way = pair[1] - pair[0];
-            let along = ((p - pair[0]).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+            let along = segment::share(pair[0], pair[1], p);
             let foot = pair[0] + way * along;
             let away = foot.distance(p);
             if away < nearest.0 {
@@ -91,11 +92,8 @@ impl Tear {
 
     /// Whether it crosses a piece of vein.
     pub(super) fn crosses(&self, from: DVec2, to: DVec2) -> bool {
-        let turn = |a: DVec2, b: DVec2, c: DVec2| (b - a).perp_dot(c - a);
-        self.path.windows(2).any(|pair| {
-            let [a, b] = [pair[0], pair[1]];
-            turn(a, b, from) * turn(a, b, to) < 0.0 && turn(from, to, a) * turn(from, to, b) < 0.0
-        })
+        let mut pieces = self.path.windows(2);
+        pieces.any(|pair| segment::cross(pair[0], pair[1], from, to))
     }
 }
 

@@ -1,16 +1,19 @@
 //! Cumulative curves, and the test of Kolmogorov and Smirnov.
 
+use serde::Serialize;
+
 /// Products of two counts up to which all orders are counted.
 const COUNTED: u64 = 20_000_000;
 /// Terms of Kolmogorov's series beyond which nothing is added.
 const TERMS: u32 = 100;
 
 /// The greatest distance of two cumulative curves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Steps {
     /// It, 0 to 1.
     pub distance: f64,
     /// Two-sided p, in [0, 1].
+    #[serde(skip)]
     pub p: f64,
     /// Whether all orders were counted; otherwise p is that of Kolmogorov's limit.
     pub exact: bool,
@@ -119,7 +122,7 @@ fn limit(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::chance::{bits, share};
+    use crate::testing::uniform;
 
     // Two samples, statistic and p of scipy.stats.ks_2samp(method='exact'); SciPy 1.17.1.
     const STEPS: [(&[f64], &[f64], f64, f64); 4] = [
@@ -247,7 +250,7 @@ mod tests {
         let told = (0..1000_u64)
             .filter(|&number| {
                 let sample = |purpose, count| {
-                    let one = |i| share(bits(number, purpose, i));
+                    let one = |i| uniform(number, purpose, i);
                     let mut values: Vec<f64> = (0..count).map(one).collect();
                     values.sort_unstable_by(f64::total_cmp);
                     values

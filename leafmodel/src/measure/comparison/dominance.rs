@@ -69,7 +69,7 @@ pub fn cliffs_delta(first: &[f64], second: &[f64]) -> Option<Effect> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::chance::{bits, share};
+    use crate::testing::uniform;
 
     #[test]
     fn a_published_example_comes_out_as_published() {
@@ -109,7 +109,7 @@ mod tests {
         // y uniform in [0, 1), x uniform in [−0.3, 0.7): δ = 1 − 0.7² = 0.51.
         let held = (0..1000_u64)
             .filter(|&number| {
-                let at = |purpose, i| share(bits(number, purpose, i));
+                let at = |purpose, i| uniform(number, purpose, i);
                 let first: Vec<f64> = (0..12).map(|i| at(71, i) - 0.3).collect();
                 let second: Vec<f64> = (0..15).map(|i| at(72, i)).collect();
                 let found = cliffs_delta(&first, &second).expect("values");

@@ -1,10 +1,11 @@
 //! Distributions of groups of leaves, tested with the leaf as the unit.
 
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::ranks::smallest_p;
 use crate::measure::statistics::quantile;
-use crate::venation::chance::{Use, bits};
+use crate::random::{Use, below, bits};
 
 /// Places at which cumulative curves are compared.
 const PLACES: usize = 255;
@@ -16,17 +17,19 @@ const DRAWN: u64 = 9_999;
 const SAME: f64 = 1e-12;
 
 /// The distance of two groups of leaves, and how often chance makes as large a one.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Permuted {
     /// Greatest distance of the mean cumulative curves of both groups at the places of comparison,
     /// 0 to 1.
     pub distance: f64,
     /// Share of the divisions of all leaves into two groups of these sizes that are as far apart;
     /// `None` if a group has fewer than two leaves.
+    #[serde(skip)]
     pub p: Option<f64>,
     /// Whether all divisions were tried; otherwise 9,999 were drawn.
     pub exact: bool,
     /// The smallest p that groups of these sizes can have.
+    #[serde(rename = "smallest_p")]
     pub smallest: f64,
 }
 
@@ -140,8 +143,7 @@ fn drawn(seed: u64, draw: u64, count: usize, all: usize) -> Vec<usize> {
     for i in 0..count {
         let counter = draw.wrapping_mul(all as u64).wrapping_add(i as u64);
         let random = bits(seed, Use::Permutation, counter);
-        let left = (all - i) as u128;
-        places.swap(i, i + ((u128::from(random) * left) >> 64) as usize);
+        places.swap(i, i + below(random, all - i));
     }
     places.truncate(count);
     places
@@ -150,12 +152,12 @@ fn drawn(seed: u64, draw: u64, count: usize, all: usize) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::chance::{bits as random_bits, share};
+    use crate::testing::uniform;
 
     /// Leaves of 40 values that share a shift of their own, which may be large.
     fn leaves(number: u64, count: u64, shift: f64, own: f64) -> Vec<Vec<f64>> {
         let leaf = |leaf: u64| {
-            let at = |i: u64| share(random_bits(number, 91 + leaf, i));
+            let at = |i: u64| uniform(number, 91 + leaf, i);
             let base = shift + own * at(1000);
             let mut values: Vec<f64> = (0..40).map(|i| base + at(i)).collect();
             values.sort_unstable_by(f64::total_cmp);

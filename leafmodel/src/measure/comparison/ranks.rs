@@ -1,5 +1,7 @@
 //! The test of Mann and Whitney.
 
+use serde::Serialize;
+
 use super::noncentral::normal;
 
 /// Values of both groups up to which all orders are counted: counts are then whole numbers below
@@ -7,11 +9,12 @@ use super::noncentral::normal;
 const COUNTED: usize = 50;
 
 /// The test of Mann and Whitney, also called Wilcoxon's rank-sum test.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Ranks {
     /// Pairs in which the value of the second group is the larger one; a tie is half a pair.
     pub u: f64,
     /// Two-sided p, in [0, 1].
+    #[serde(skip)]
     pub p: f64,
     /// Whether all orders were counted; otherwise p is that of a normal distribution.
     pub exact: bool,

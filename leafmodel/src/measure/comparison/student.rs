@@ -1,12 +1,13 @@
 //! Means, their intervals, and Welch's test of two of them.
 
+use serde::Serialize;
 use special::Beta;
 
 use super::OUTSIDE;
 use crate::measure::statistics::{mean, median, variance};
 
 /// What a group of values is like.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// How many values there are, > 0.
     pub count: usize,
@@ -15,8 +16,10 @@ pub struct Summary {
     /// Their median.
     pub median: f64,
     /// Standard deviation of a sample (`n − 1`); `None` for one value.
+    #[serde(rename = "standard_deviation")]
     pub deviation: Option<f64>,
     /// Ends of the 95 % interval of the mean by Student's t; `None` for one value.
+    #[serde(rename = "mean_interval_95")]
     pub interval: Option<[f64; 2]>,
 }
 
@@ -39,17 +42,21 @@ pub fn summary(values: &[f64]) -> Option<Summary> {
 }
 
 /// Welch's test of two means.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Welch {
     /// Mean of the second group less that of the first.
+    #[serde(skip)]
     pub difference: f64,
     /// Ends of its 95 % interval.
+    #[serde(skip)]
     pub interval: [f64; 2],
     /// The difference over its standard error.
     pub t: f64,
     /// Degrees of freedom by Satterthwaite's formula, ≥ 1.
+    #[serde(rename = "degrees_of_freedom")]
     pub freedom: f64,
     /// Two-sided p, in [0, 1]; 0 only where it is below all numbers.
+    #[serde(skip)]
     pub p: f64,
 }
 
@@ -84,13 +91,15 @@ pub fn welch(first: &[f64], second: &[f64]) -> Option<Welch> {
 }
 
 /// The test of one value among others.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Among {
     /// The value less the mean of the others, over the standard error of that.
     pub t: f64,
     /// Degrees of freedom, ≥ 1.
+    #[serde(rename = "degrees_of_freedom")]
     pub freedom: f64,
     /// Two-sided p, in [0, 1].
+    #[serde(skip)]
     pub p: f64,
 }
 

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::AT_MARGIN;
+use crate::plane::segment;
 use crate::shape::outline::Outline;
 use crate::venation::architecture::margin::Margin;
 use crate::venation::areole::{Areoles, OUTSIDE};
@@ -54,8 +55,7 @@ pub(super) fn accompanied(margin: &Margin, outline: &Outline, network: &Venation
         let (here, ahead) = (margin.at(at), margin.direction(at));
         pieces.iter().any(|&(from, to)| {
             let way = to - from;
-            let share = ((here - from).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-            (from + way * share - here).length_squared() < reach * reach
+            segment::distance_squared(from, to, here) < reach * reach
                 && way.dot(ahead).abs() > ALONG * way.length()
         })
     };

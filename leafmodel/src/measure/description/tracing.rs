@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::plane::polyline;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;
 use crate::venation::topology::Topology;
@@ -178,7 +179,7 @@ impl Vein {
     }
 
     pub(super) fn length(&self) -> f64 {
-        self.places.windows(2).map(|p| (p[1] - p[0]).length()).sum()
+        polyline::length(&self.places)
     }
 
     pub(super) fn chord(&self) -> f64 {

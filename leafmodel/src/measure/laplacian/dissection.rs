@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::Pipe;
+use crate::plane::bounds;
 
 /// Parts of so few nodes are not divided any more.
 const SMALL: usize = 24;
@@ -70,10 +71,7 @@ fn dissect(
         return;
     }
     let place = |node: u32| places[node as usize];
-    let bounds = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let (low, high) = nodes.iter().fold(bounds, |(low, high), &n| {
-        (low.min(place(n)), high.max(place(n)))
-    });
+    let (low, high) = bounds(nodes.iter().map(|&node| place(node)));
     let axis = usize::from(high.y - low.y > high.x - low.x);
     let half = nodes.len() / 2;
     nodes.select_nth_unstable_by(half, |&a, &b| {

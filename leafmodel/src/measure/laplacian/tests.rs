@@ -1,11 +1,7 @@
 //! Flows that balance, and resistances that are known.
 
 use super::*;
-use crate::shape::chance::{bits as random_bits, share};
-
-fn uniform(seed: u64, purpose: u64, counter: u64) -> f64 {
-    share(random_bits(seed, purpose, counter))
-}
+use crate::testing::uniform;
 
 /// A square lattice of pipes whose conductances span many powers of ten; corner 0 is joined to
 /// ground.

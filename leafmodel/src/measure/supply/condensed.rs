@@ -10,6 +10,7 @@
 
 use glam::DVec2;
 
+use crate::buckets::Buckets;
 use crate::measure::laplacian::{Factored, Pipe};
 use crate::venation::areole::chains::Chains;
 use crate::venation::network::VeinEdge;
@@ -112,28 +113,17 @@ impl Stretches {
 
     /// Which stretches hang together with the petiole by wanted ones.
     fn reached(&self, is_wanted: impl Fn(&Stretch) -> bool) -> Vec<bool> {
-        let mut starts = vec![0_u32; self.places.len() + 1];
         let ends = |stretch: &Stretch| {
             let unknowns = stretch.ends.into_iter();
             unknowns.filter(|&end| end != Pipe::GROUND)
         };
         let wanted = || (0..).zip(&self.all).filter(|(_, s)| is_wanted(s));
-        for end in wanted().flat_map(|(_, stretch)| ends(stretch)) {
-            starts[end as usize + 1] += 1;
-        }
-        for node in 1..starts.len() {
-            starts[node] += starts[node - 1];
-        }
-        let mut next = starts.clone();
-        let mut around = vec![0_u32; starts[starts.len() - 1] as usize];
+        let at_ends = wanted()
+            .flat_map(|(number, stretch)| ends(stretch).map(move |end| (end as usize, number)));
+        let around = Buckets::new(self.places.len(), at_ends);
         let mut is_reached = vec![false; self.all.len()];
         let mut open = Vec::new();
         for (number, stretch) in wanted() {
-            for end in ends(stretch) {
-                let at = &mut next[end as usize];
-                around[*at as usize] = number;
-                *at += 1;
-            }
             if stretch.ends.contains(&Pipe::GROUND) {
                 is_reached[number as usize] = true;
                 open.push(number);
@@ -141,8 +131,7 @@ impl Stretches {
         }
         while let Some(number) = open.pop() {
             for end in ends(&self.all[number as usize]) {
-                let range = starts[end as usize]..starts[end as usize + 1];
-                for &other in &around[range.start as usize..range.end as usize] {
+                for &other in around.list(end as usize) {
                     if !std::mem::replace(&mut is_reached[other as usize], true) {
                         open.push(other);
                     }

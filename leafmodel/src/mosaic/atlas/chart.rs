@@ -6,6 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 use glam::{DVec2, DVec3};
 
 use crate::mosaic::surface::Surface;
+use crate::plane;
 
 /// Number of directions within a right angle that are tried for the smallest box around a chart.
 const TURNS: u32 = 16;
@@ -81,14 +82,8 @@ pub(super) fn charts(surface: &Surface, agree: f64, texels_per_mm: f64) -> Vec<C
 /// The chart turned to a small box that is no taller than wide.
 fn turned(faces: Vec<u32>, corners: Vec<[DVec2; 3]>) -> Chart {
     let bounds = |turn: DVec2| {
-        let mut low = DVec2::INFINITY;
-        let mut high = DVec2::NEG_INFINITY;
-        for p in corners.iter().flatten() {
-            let p = turn.rotate(*p);
-            low = low.min(p);
-            high = high.max(p);
-        }
-        (low, high)
+        let points = corners.iter().flatten();
+        plane::bounds(points.map(|p| turn.rotate(*p)))
     };
     let best = (0..TURNS)
         .map(|i| {
@@ -117,12 +112,7 @@ fn turned(faces: Vec<u32>, corners: Vec<[DVec2; 3]>) -> Chart {
 /// For each face whether it stays, if no face may cover a texel's centre that an earlier one
 /// covers.
 fn without_overlaps(drawn: &[[DVec2; 3]], texels_per_mm: f64) -> Vec<bool> {
-    let mut low = DVec2::INFINITY;
-    let mut high = DVec2::NEG_INFINITY;
-    for &p in drawn.iter().flatten() {
-        low = low.min(p);
-        high = high.max(p);
-    }
+    let (low, high) = plane::bounds(drawn.iter().flatten().copied());
     let size = ((high - low) * texels_per_mm).ceil();
     let (columns, rows) = (size.x as usize + 1, size.y as usize + 1);
     let mut owned = vec![false; columns * rows];

@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::Texel;
 use super::chart::{Chart, each_texel};
 use crate::mosaic::surface::{Surface, SurfacePoint};
+use crate::plane::segment;
 
 /// Least weight that counts as inside, so that centres on an edge do not fall between two faces.
 const ON_EDGE: f64 = -1e-9;
@@ -80,18 +81,12 @@ fn each_texel_near(
     for y in low.y as i64..=high.y as i64 {
         for x in low.x as i64..=high.x as i64 {
             let middle = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-            let distance = middle.distance(nearest_on(from, to, middle));
+            let distance = middle.distance(segment::nearest(from, to, middle));
             if distance <= reach {
                 visit(y as usize * side + x as usize, middle, distance);
             }
         }
     }
-}
-
-fn nearest_on(from: DVec2, to: DVec2, p: DVec2) -> DVec2 {
-    let along = to - from;
-    let share = (p - from).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
-    from + along * share.clamp(0.0, 1.0)
 }
 
 /// The place on the surface for a point beyond an edge of a chart: straight on from the nearest
@@ -112,7 +107,11 @@ fn beyond_border(
         let flat = surface.corners(face);
         flat[0] + (flat[1] - flat[0]) * v + (flat[2] - flat[0]) * w
     };
-    let start = in_frame(nearest_on(corners[edge], corners[(edge + 1) % 3], middle));
+    let start = in_frame(segment::nearest(
+        corners[edge],
+        corners[(edge + 1) % 3],
+        middle,
+    ));
     let target = in_frame(middle);
     match (surface.neighbour(face, edge), surface.unfold(face, edge)) {
         (Some(beyond), Some(unfold)) => walk(

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{ControlError, check};
-use crate::venation::chance::{Use, uniform};
+use crate::random::{Use, uniform};
 
 /// A grey image on a cylinder, values 0 to 1, whose left and right edges are joined.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,8 +4,10 @@ use glam::DVec2;
 
 use super::TypeField;
 use crate::mosaic::surface::{Surface, SurfacePoint};
-use crate::mosaic::voronoi::{distance_to_segment, distance_to_triangle};
+use crate::mosaic::voronoi::distance_to_triangle;
 use crate::optics::Contents;
+use crate::plane::segment::Line;
+use crate::plane::{bounds, polygon};
 
 /// Most squares along a side of the grid in which faces are looked up.
 const MOST_SQUARES: f64 = 160.0;
@@ -39,14 +41,9 @@ impl SheetField {
             .iter()
             .map(|face| face.map(|vertex| surface.positions()[vertex as usize].truncate()))
             .collect();
-        let mut low = DVec2::INFINITY;
-        let mut high = DVec2::NEG_INFINITY;
-        for &p in corners.iter().flatten() {
-            low = low.min(p);
-            high = high.max(p);
-        }
+        let (low, high) = bounds(corners.iter().flatten().copied());
         let edge = BEYOND * (high - low).max_element();
-        (low, high) = (low - edge, high + edge);
+        let (low, high) = (low - edge, high + edge);
         let size = high - low;
         let squares = (count as f64).sqrt().clamp(4.0, MOST_SQUARES);
         let square = size.max_element() / squares;
@@ -80,7 +77,7 @@ impl SheetField {
         for (square_number, list) in faces.iter_mut().enumerate() {
             let (column, row) = (square_number % columns, square_number / columns);
             let middle = low + (DVec2::new(column as f64, row as f64) + 0.5) * square;
-            let reach = |&(_, a, b): &(u32, DVec2, DVec2)| distance_to_segment(a, b, middle);
+            let reach = |&(_, a, b): &(u32, DVec2, DVec2)| Line::new([a, b]).distance(middle);
             let nearest = margin.iter().map(reach).fold(f64::INFINITY, f64::min);
             if !list.is_empty() && nearest > 0.71 * square {
                 continue;
@@ -130,7 +127,7 @@ impl SheetField {
         let face = best.1;
         let corners = &self.corners[face as usize];
         let p = if best.0 > 0.0 {
-            nearest_of_triangle(corners, p)
+            polygon::nearest(corners, p).at
         } else {
             p
         };
@@ -167,17 +164,4 @@ impl SheetField {
         let second = self.field.contents(&abaxial, of_types, weights);
         Contents(first.zip_with(second.0, |one, other| 0.5 * (one + other)))
     }
-}
-
-fn nearest_of_triangle(corners: &[DVec2; 3], p: DVec2) -> DVec2 {
-    let mut best = corners[0];
-    for k in 0..3 {
-        let (from, along) = (corners[k], corners[(k + 1) % 3] - corners[k]);
-        let share = ((p - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-        let candidate = from + along * share;
-        if candidate.distance_squared(p) < best.distance_squared(p) {
-            best = candidate;
-        }
-    }
-    best
 }

@@ -1,9 +1,10 @@
 //! Divisions on a growing surface: the room decides how many cells divide in each region.
 
+use crate::buckets::Buckets;
 use crate::mosaic::live::Live;
 use crate::mosaic::patch::PatchFinder;
 use crate::mosaic::surface::Surface;
-use crate::venation::chance::{Use, bits, uniform};
+use crate::random::{Use, bits, uniform};
 
 /// Radius of a region around its middle face, in repulsion radii; a region has a few dozen cells.
 const REACH: f64 = 3.0;
@@ -65,12 +66,12 @@ impl Regions {
         event: u64,
         rate: &dyn Fn(&Live) -> f64,
     ) -> Vec<u32> {
-        let mut members: Vec<Vec<u32>> = vec![Vec::new(); self.room.len()];
-        for (number, cell) in cells.iter().enumerate() {
-            members[self.region_of[cell.face as usize] as usize].push(number as u32);
-        }
+        let regions = cells
+            .iter()
+            .map(|cell| self.region_of[cell.face as usize] as usize);
+        let members = Buckets::new(self.room.len(), regions.zip(0_u32..));
         let mut due = Vec::new();
-        for (region, members) in members.iter().enumerate() {
+        for (region, members) in members.lists().enumerate() {
             self.room[region] += self.gain[region];
             if self.room[region] < 1.0 || members.is_empty() {
                 continue;

@@ -1,7 +1,7 @@
 use glam::DVec3;
 
 use super::*;
-use crate::venation::chance::{Use, uniform};
+use crate::random::{Use, uniform};
 
 /// A strip of `n` × `m` squares of side 1, each cut in two.
 fn sheet(n: u32, m: u32) -> Surface {

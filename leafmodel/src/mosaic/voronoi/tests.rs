@@ -1,6 +1,6 @@
 use super::*;
 use crate::mosaic::shapes::{Shape, rounded_cube, sphere};
-use crate::venation::chance::{self, Use};
+use crate::random::{self, Use};
 
 pub(in crate::mosaic) fn surface(shape: Shape) -> Surface {
     Surface::new(shape.positions, shape.faces).expect("shapes are surfaces")
@@ -10,7 +10,7 @@ pub(in crate::mosaic) fn surface(shape: Shape) -> Surface {
 pub(in crate::mosaic) fn scattered(surface: &Surface, cells: u64, seed: u64) -> Vec<SurfacePoint> {
     (0..cells)
         .map(|i| {
-            surface.sample([0, 1, 2].map(|k| chance::uniform(seed, Use::PatternProbe, 3 * i + k)))
+            surface.sample([0, 1, 2].map(|k| random::uniform(seed, Use::PatternProbe, 3 * i + k)))
         })
         .collect()
 }

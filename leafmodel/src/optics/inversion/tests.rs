@@ -1,6 +1,6 @@
 use super::*;
 use crate::optics::layers::{LayeredLeaf, Resolution};
-use crate::shape::chance::{bits, share};
+use crate::testing::uniform;
 
 /// The cases of the reference table: contents, and spectra that another implementation computed.
 struct Case {
@@ -148,7 +148,7 @@ fn normals(seed: u64) -> impl FnMut() -> f64 {
     let mut counter = 0;
     move || {
         counter += 2;
-        let [radius, turn] = [counter, counter + 1].map(|at| share(bits(seed, 1, at)));
+        let [radius, turn] = [counter, counter + 1].map(|at| uniform(seed, 1, at));
         (-2.0 * libm::log(1.0 - radius)).sqrt() * libm::cos(std::f64::consts::TAU * turn)
     }
 }

@@ -9,14 +9,12 @@ use rayon::prelude::*;
 
 use super::boundary::reflectance;
 use super::stack::{Face, Incidence, Layer, Stack, StackError};
-use crate::shape::chance::{bits, share};
+use crate::random::{Use, uniform};
 
 mod sideways;
 
 pub use sideways::{Spread, spread};
 
-/// Separates these random numbers from those of other rooms; it must never change.
-const PURPOSE: u64 = 0x00f2_0000;
 /// Photons that one thread follows at a time.
 const BLOCK: u64 = 4096;
 /// Below this weight a photon goes on with `SURVIVING` as its chance, and its weight divided by it.
@@ -188,11 +186,8 @@ impl Chance {
     /// A uniform number in [0, 1).
     fn uniform(&mut self) -> f64 {
         self.used += 1;
-        share(bits(
-            self.seed ^ self.photon.rotate_left(32),
-            PURPOSE,
-            self.used,
-        ))
+        let seed = self.seed ^ self.photon.rotate_left(32);
+        uniform(seed, Use::Photon, self.used)
     }
 
     /// Sine and cosine of an angle that is as likely as any other: a point in the unit disc, its

@@ -1,5 +1,7 @@
 //! Absorption bands as sums of Gaussians in wavenumber, within the range in which they were fitted.
 
+use crate::numeric::smooth_step;
+
 /// Width in nm over which a band falls to zero beyond the range of its fit.
 const TAPER_NM: f64 = 30.0;
 
@@ -56,6 +58,5 @@ impl Bands {
 /// 1 in the range, falling to 0 over [`TAPER_NM`] on both sides, with a continuous slope.
 pub(super) fn window(nm: f64, range_nm: [f64; 2]) -> f64 {
     let outside = (range_nm[0] - nm).max(nm - range_nm[1]).max(0.0);
-    let left = 1.0 - (outside / TAPER_NM).min(1.0);
-    left * left * (3.0 - 2.0 * left)
+    smooth_step(1.0 - outside / TAPER_NM)
 }

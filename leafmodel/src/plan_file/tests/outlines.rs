@@ -186,7 +186,7 @@ pub(super) fn contour() -> impl Strategy<Value = Contour> {
             if !mirrored {
                 points.push(point([-0.3, 0.5], false));
             }
-            Contour::Curve(ContourCurve { points, mirrored })
+            Contour::Curve(ContourCurve { mirrored, points })
         });
     let traced = (any::<bool>(), any::<bool>()).prop_map(|(named, turned)| {
         let id = named.then_some("kite");
@@ -299,15 +299,15 @@ pub(super) fn damage() -> impl Strategy<Value = Option<Damage>> {
         let (holes, hole_mm, mines, mine_mm, rim_mm) = sizes;
         let (tears, tear_mm, tear_gape, tear_lift) = tears;
         Damage {
-            holes,
             hole_mm,
-            mines,
             mine_mm,
-            tears,
             tear_mm,
             tear_gape,
             tear_lift,
             rim_mm,
+            holes,
+            mines,
+            tears,
             dieback,
             ..Damage::default()
         }

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::check::in_range;
+use crate::document::ranges::RangeError;
+
 use super::rows::{AxisGrowth, Rows};
 use super::{Axis, FormPart, GrowthForm, GrowthFormError, GrowthFormProblem, SecondaryAxis, Side};
 use crate::shape::outer_boundary::union_boundary;
@@ -106,7 +107,8 @@ fn add_lobes(
     lobes: &mut Vec<(Place, Vec<DVec2>)>,
 ) -> Result<(), GrowthFormError> {
     let count = (lobes.len() + places.len() - 1) as f64;
-    in_range("axes (count)", count, 0.0..=MOST_AXES as f64, "0 to 200")?;
+    RangeError::unless(count <= MOST_AXES as f64, "axes (count)", count, "0 to 200")
+        .map_err(GrowthFormProblem::Range)?;
     let margin = lobe(axis, growth, &places[0].path)?;
     for place in places {
         let mut placed: Vec<DVec2> = margin.iter().map(|&p| place.apply(p)).collect();

@@ -4,6 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
+use crate::document::ranges::RangeError;
 use crate::shape::outline::OutlineError;
 
 /// A side of an axis, seen with its tip up.
@@ -54,15 +55,8 @@ pub struct GrowthFormError {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum GrowthFormProblem {
     /// A number outside the range in which the model holds.
-    #[error("{key} is {value}, outside {range}")]
-    OutOfRange {
-        /// Which parameter.
-        key: &'static str,
-        /// What it was.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Range(#[from] RangeError),
     /// Veins are not in order from base to tip, or share a row.
     #[error(
         "veins[{index}] lies in row {row} of {rows}, where it must lie above row {before} of the vein before it"

@@ -102,7 +102,7 @@ fn what_no_leaf_has_is_refused_by_name() {
     type Break = fn(&mut SecondaryAxis);
     let bad: [(&str, Break); 5] = [
         ("axes[1].position", |a| a.position = 1.5),
-        ("axes[1].angle", |a| a.angle = 4.0),
+        ("axes[1].angle_deg", |a| a.angle = 4.0),
         ("axes[1].length", |a| a.length = 0.005),
         ("axes[1].rows", |a| a.axis.rows = 1),
         ("axes[1].axes[0].left.lobe_decay", |a| {

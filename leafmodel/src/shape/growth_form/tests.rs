@@ -274,11 +274,11 @@ fn every_bad_parameter_is_named() {
                 ..half(Vec::new())
             });
         }),
-        ("veins.position", |f| {
+        ("veins[0]", |f| {
             f.midrib.right.veins[0].position = -0.1;
         }),
-        ("veins.slope", |f| f.midrib.right.veins[0].slope = 21.0),
-        ("veins.bend", |f| f.midrib.right.veins[0].bend = -101.0),
+        ("veins[0]", |f| f.midrib.right.veins[0].slope = 21.0),
+        ("veins[0]", |f| f.midrib.right.veins[0].bend = -101.0),
     ];
     let good = form(half(vec![vein(0.2, 0.3, 0.0), vein(0.6, 0.3, 0.0)]));
     for (expected, change) in breaks {

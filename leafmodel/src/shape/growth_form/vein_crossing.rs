@@ -3,6 +3,7 @@
 use super::row_curve::RowCurve;
 use super::rows::Rows;
 use super::{GrowthFormError, GrowthFormProblem, SlopeRange};
+use crate::numeric::bisect;
 
 /// Greatest slope of a vein, up or down.
 const STEEPEST: f64 = 20.0;
@@ -112,15 +113,7 @@ fn slopes_apart(lower: &VeinLine, upper: &VeinLine, [below, above]: [usize; 2]) 
 /// The first slope, on the way from `meeting` to `apart`, at which the veins do not meet; rounded
 /// to three decimals if a rounded slope keeps them apart too.
 fn first_apart(meeting: f64, apart: f64, meets: impl Fn(f64) -> bool) -> f64 {
-    let (mut meeting, mut apart) = (meeting, apart);
-    for _ in 0..60 {
-        let middle = 0.5 * (meeting + apart);
-        if meets(middle) {
-            meeting = middle;
-        } else {
-            apart = middle;
-        }
-    }
+    let (meeting, apart) = bisect(meeting, apart, 60, &meets);
     let thousandths = apart * 1000.0;
     let short = if apart > meeting {
         thousandths.ceil() / 1000.0

@@ -7,20 +7,22 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-use super::{SpecimenError, step, within};
-use crate::shape::chance::{Use, bell, uniform};
+use crate::document::declared::Declared;
+use crate::numeric::smooth_step;
+use crate::random::{Use, bell, uniform};
 
 /// Random differences between the sides, all of mean 0 over the leaves of a plant.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, Default, PartialEq)]
 pub struct Asymmetry {
-    /// Standard deviation of (right − left) / (right + left) of the widths to either side of the
-    /// midrib, 0 to 0.2.
+    /// Standard deviation of (right − left) / (right + left) of the widths beside the midrib.
+    #[key("width", 0.0..=0.2)]
     pub width: f64,
-    /// Standard deviation of how far the middle of the blade lies beside the line from base to apex,
-    /// as a share of that line, 0 to 0.1.
+    /// Standard deviation of how far the middle of the blade lies beside the line from base to
+    /// apex, over that line's length.
+    #[key("bow", 0.0..=0.1)]
     pub bow: f64,
-    /// How far places of the margin wander, lobes and bays above all, as a share of the midrib's
-    /// length (root mean square), 0 to 0.02.
+    /// How far places of the margin wander, as a share of the length.
+    #[key("wander", 0.0..=0.02)]
     pub wander: f64,
 }
 
@@ -38,12 +40,6 @@ impl Asymmetry {
     /// Whether both sides are alike.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
-    }
-
-    pub(super) fn validate(&self) -> Result<(), SpecimenError> {
-        within("asymmetry.width", self.width, 0.0, 0.2, "0 to 0.2")?;
-        within("asymmetry.bow", self.bow, 0.0, 0.1, "0 to 0.1")?;
-        within("asymmetry.wander", self.wander, 0.0, 0.02, "0 to 0.02")
     }
 
     /// Places in lengths of the midrib, from (0, 0) to (0, 1).
@@ -75,7 +71,7 @@ impl Asymmetry {
             place.x *= 1.0 + wider * p.x.signum();
             place.x += bow * libm::sin(PI * y);
             let wandered: DVec2 = waves.iter().map(|wave| wave.at(*p)).sum();
-            *p = place + wandered * (far * step(near / FADE));
+            *p = place + wandered * (far * smooth_step(near / FADE));
         }
     }
 }

@@ -4,55 +4,70 @@
 
 use glam::DVec2;
 
-use super::{SpecimenError, step, within};
+use super::SpecimenError;
+use crate::document::declared::Declared;
+use crate::numeric::{bisect, smooth_step};
 use crate::shape::tips::{Point, Tip};
 
-/// The base of a blade.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The base of a blade. Lengths are shares of the leaf's.
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub enum BaseShape {
-    /// A sinus at the petiole: lobes reach below it.
+    /// A sinus at the petiole.
     Cordate {
-        /// How far they do, 0.005 to 0.5.
+        /// How far lobes reach below the petiole, as a share of the length.
+        #[key("depth", 0.005..=0.5, default = 0.08)]
         depth: f64,
-        /// Width of the sinus at the lobes' lower ends, 0.02 to 2.
+        /// Width of the sinus at the ends of the lobes.
+        #[key("width", 0.02..=2.0, default = 0.3)]
         width: f64,
     },
-    /// A wedge: the margin rises from the petiole in nearly straight lines.
+    /// A wedge.
+    ///
+    /// The margin rises from the petiole in nearly straight lines.
     Cuneate {
-        /// How far it is raised at the ends of the wedge, 0.005 to 0.4.
+        /// By how much the margin is raised at the upper end of the wedge.
+        #[key("height", 0.005..=0.4, default = 0.1)]
         height: f64,
-        /// Width of the wedge at its upper end, 0.02 to 2.
+        /// Width of the wedge at its upper end.
+        #[key("width", 0.02..=2.0, default = 0.3)]
         width: f64,
     },
     /// The petiole is attached inside the blade.
     Peltate {
-        /// How far inside the margin below it, 0.005 to 0.5.
+        /// How far the blade reaches below the petiole.
+        #[key("inset", 0.005..=0.5, default = 0.2)]
         inset: f64,
     },
 }
 
-/// The apex of a blade.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The apex of a blade. Lengths are shares of the leaf's.
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub enum ApexShape {
-    /// Drawn out, between hollow sides, into a drip tip.
+    /// Drawn out into a drip tip.
     Acuminate {
-        /// Length of the tip, 0.02 to 0.6.
+        /// Length of the tip, as a share of the leaf's.
+        #[key("length", 0.02..=0.6, default = 0.15)]
         length: f64,
-        /// Share by which its end is narrower than the contour's, 0.05 to 0.95.
+        /// Share by which its end is narrower than the contour's.
+        #[key("narrowing", 0.05..=0.95, default = 0.6)]
         narrowing: f64,
     },
     /// A notch.
     Emarginate {
-        /// Its depth, 0.05 to 0.4.
+        /// How far the apex lies below the ends beside it, as a share of the length.
+        #[key("depth", 0.05..=0.4, default = 0.08)]
         depth: f64,
-        /// Its width, 0.02 to 2.
+        /// Width of the notch between these ends.
+        #[key("width", 0.02..=2.0, default = 0.3)]
         width: f64,
     },
     /// A shallow notch.
     Retuse {
-        /// Its depth, 0.002 to 0.05.
+        /// How far the apex lies below the ends beside it, as a share of the length.
+        #[key("depth", 0.002..=0.05, default = 0.02)]
         depth: f64,
-        /// Its width, 0.02 to 2.
+        /// Width of the notch between these ends.
+        #[key("width", 0.02..=2.0, default = 0.2)]
         width: f64,
     },
     /// A short point, in which the midrib ends.
@@ -63,23 +78,6 @@ pub enum ApexShape {
 const BASE_REACH: f64 = 0.4;
 
 impl BaseShape {
-    pub(super) fn validate(self) -> Result<(), SpecimenError> {
-        let wide = |key, width| within(key, width, 0.02, 2.0, "0.02 to 2");
-        match self {
-            Self::Cordate { depth, width } => {
-                within("base.cordate.depth", depth, 0.005, 0.5, "0.005 to 0.5")?;
-                wide("base.cordate.width", width)
-            }
-            Self::Cuneate { height, width } => {
-                within("base.cuneate.height", height, 0.005, 0.4, "0.005 to 0.4")?;
-                wide("base.cuneate.width", width)
-            }
-            Self::Peltate { inset } => {
-                within("base.peltate.inset", inset, 0.005, 0.5, "0.005 to 0.5")
-            }
-        }
-    }
-
     pub(super) fn shape(self, points: &mut [DVec2]) -> Result<(), SpecimenError> {
         match self {
             Self::Cordate { depth, width } => {
@@ -88,7 +86,7 @@ impl BaseShape {
                     return Err(SpecimenError::DeeperAlready { depth, there });
                 }
                 // Each place falls the farther the larger the amplitude; all stay in order.
-                let fall = |p: DVec2| step(2.0 * p.x.abs() / width) * low(p.y, BASE_REACH);
+                let fall = |p: DVec2| smooth_step(2.0 * p.x.abs() / width) * low(p.y, BASE_REACH);
                 let amplitude = amplitude_for(depth, |amplitude| {
                     let lowest = points.iter().map(|&p| p.y - amplitude * fall(p));
                     -lowest.fold(0.0, f64::min)
@@ -129,29 +127,6 @@ impl ApexShape {
         }
     }
 
-    pub(super) fn validate(self) -> Result<(), SpecimenError> {
-        let wide = |key, width| within(key, width, 0.02, 2.0, "0.02 to 2");
-        match self {
-            Self::Acuminate { length, narrowing } => {
-                within("apex.acuminate.length", length, 0.02, 0.6, "0.02 to 0.6")?;
-                let range = "0.05 to 0.95";
-                within("apex.acuminate.narrowing", narrowing, 0.05, 0.95, range)
-            }
-            Self::Emarginate { depth, width } => {
-                within("apex.emarginate.depth", depth, 0.05, 0.4, "0.05 to 0.4")?;
-                wide("apex.emarginate.width", width)
-            }
-            Self::Retuse { depth, width } => {
-                within("apex.retuse.depth", depth, 0.002, 0.05, "0.002 to 0.05")?;
-                wide("apex.retuse.width", width)
-            }
-            Self::Mucronate(point) => match Tip::Mucro(point).fault() {
-                Some((key, value, range)) => Err(SpecimenError::OutOfRange { key, value, range }),
-                None => Ok(()),
-            },
-        }
-    }
-
     pub(super) fn shape(self, points: &mut [DVec2]) -> Result<(), SpecimenError> {
         match self {
             Self::Acuminate { length, narrowing } => {
@@ -163,7 +138,7 @@ impl ApexShape {
                     // Lobes beside the apex stay where they are.
                     let aside = (p.x / (3.0 * length)).abs().min(1.0);
                     let near = (1.0 - aside * aside) * (1.0 - aside * aside);
-                    p.x *= 1.0 - narrowing * (1.0 - step(below)) * near;
+                    p.x *= 1.0 - narrowing * (1.0 - smooth_step(below)) * near;
                 }
                 Ok(())
             }
@@ -185,7 +160,7 @@ fn notched(
 ) -> Result<(), SpecimenError> {
     let end = "apex";
     let too_pointed = SpecimenError::TooPointed { what, depth, end };
-    let rise = |p: DVec2| step(2.0 * p.x.abs() / width) * low(1.0 - p.y, 0.4);
+    let rise = |p: DVec2| smooth_step(2.0 * p.x.abs() / width) * low(1.0 - p.y, 0.4);
     let there = points.iter().map(|p| p.y - 1.0).fold(0.0, f64::max);
     if there >= depth {
         return Err(too_pointed);
@@ -204,30 +179,19 @@ fn notched(
 /// Lowers the right half of the blade and raises the left, by `offset` together.
 pub(super) fn lower_right(points: &mut [DVec2], offset: f64) {
     for p in points {
-        let aside = step(p.x.abs() / 0.15).copysign(p.x);
+        let aside = smooth_step(p.x.abs() / 0.15).copysign(p.x);
         p.y -= 0.5 * offset * aside * low(p.y, 0.6);
     }
 }
 
 /// 1 at and below the base, falling to 0 at `reach`.
 fn low(y: f64, reach: f64) -> f64 {
-    1.0 - step(y / reach)
+    1.0 - smooth_step(y / reach)
 }
 
 /// The amplitude at which a depth that rises with it, and is 0 without, is the one wanted; none if
 /// it had to be so great that the contour would no longer be itself.
 fn amplitude_for(wanted: f64, depth: impl Fn(f64) -> f64) -> Option<f64> {
-    let (mut low, mut high) = (0.0, 2.0 * wanted + 0.15);
-    if depth(high) < wanted {
-        return None;
-    }
-    for _ in 0..60 {
-        let middle = f64::midpoint(low, high);
-        if depth(middle) < wanted {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    Some(high)
+    let most = 2.0 * wanted + 0.15;
+    (depth(most) >= wanted).then(|| bisect(0.0, most, 60, |amplitude| depth(amplitude) < wanted).1)
 }

@@ -232,7 +232,7 @@ fn what_does_not_fit_is_refused() {
     };
     assert!(matches!(
         wide.applied(kite(), 0),
-        Err(SpecimenError::OutOfRange { key: "breadth", .. })
+        Err(SpecimenError::Range(error)) if error.path == "breadth"
     ));
 }
 

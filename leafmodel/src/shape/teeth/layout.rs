@@ -1,7 +1,7 @@
 //! The teeth of a wave along one side.
 
 use super::wave::ToothWave;
-use crate::shape::chance::{Use, even};
+use crate::random::{Use, even};
 
 /// A wave laid out along one side of a margin.
 pub(super) struct Layout<'a> {

@@ -1,37 +1,50 @@
 //! One wave of teeth: its numbers, and the form of a tooth.
 
-use super::TeethError;
+use crate::document::declared::{Declared, Words};
 use crate::shape::tips::Tip;
 
 /// One wave along each side of a margin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct ToothWave {
-    /// Teeth on each side, 1 to 1000, of equal length along the margin but for
-    /// [`Self::spacing_cv`].
+    /// Teeth between base and apex, equally long along the margin.
+    ///
+    /// Teeth on each side, of equal length along the margin but for [`Self::spacing_cv`].
+    #[key("per_side", required, 1..=1000)]
     pub per_side: u32,
-    /// Height of a tooth, as a share of the midrib's length, > 0 up to 0.5.
+    /// How far they stand out, as a share of the leaf's length.
+    #[key("height", required, 1e-6..=0.5)]
     pub height: f64,
-    /// Where the tip of a tooth points, −1 to 1: 0 gives symmetric triangles; 1 gives saw teeth
-    /// whose upright side faces the apex, −1 the base.
+    /// 0 even triangles, 1 saw teeth that point to the apex, −1 to the base.
+    ///
+    /// Where the tip of a tooth points: 0 gives symmetric triangles; 1 gives saw teeth whose
+    /// upright side faces the apex, −1 the base.
+    #[key("lean", -1.0..=1.0)]
     pub lean: f64,
-    /// Share of the side, from the base, over which teeth rise to their full height, 0 to 1.
+    /// Share of the side from the base over which teeth rise to their height.
+    #[key("fade_base", 0.0..=1.0)]
     pub fade_base: f64,
-    /// Share of the side, up to the apex, over which their height falls to 0 again, 0 to 1.
+    /// Share of the side up to the apex over which they fall off.
+    #[key("fade_apex", 0.0..=1.0)]
     pub fade_apex: f64,
-    /// How the flanks of a tooth run.
+    /// How their flanks run: straight, bulging, or hollow and drawn out into a spine.
+    #[key("form", word)]
     pub form: ToothForm,
-    /// Coefficient of variation of the teeth's lengths along the margin, 0 to 0.5.
+    /// Coefficient of variation of their lengths along the margin.
+    #[key("spacing_cv", 0.0..=0.5)]
     pub spacing_cv: f64,
-    /// Coefficient of variation of their heights, 0 to 0.5.
+    /// Coefficient of variation of their heights.
+    #[key("height_cv", 0.0..=0.5)]
     pub height_cv: f64,
-    /// Whether these teeth stand on those of the wave before, as many on each.
+    /// Whether they stand on the teeth of the wave before, as many on each.
+    #[key("nested")]
     pub nested: bool,
-    /// What ends each tooth.
+    /// What ends each of them.
+    #[key("tip", block)]
     pub tip: Option<Tip>,
 }
 
 /// How the flanks of a tooth run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq, Words)]
 pub enum ToothForm {
     /// Straight: dentate, or serrate where teeth lean.
     #[default]
@@ -82,50 +95,6 @@ impl ToothForm {
 }
 
 impl ToothWave {
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`TeethError::OutOfRange`] with the wave's number `index`.
-    pub fn validate(&self, index: usize) -> Result<(), TeethError> {
-        let height = "0 (excluded) to 0.5 (of the length)";
-        let side = "0 to 1 (of the side)";
-        let checks = [
-            (
-                "per_side",
-                f64::from(self.per_side),
-                1.0,
-                1000.0,
-                "1 to 1000",
-            ),
-            ("height", self.height, 1e-6, 0.5, height),
-            ("lean", self.lean, -1.0, 1.0, "-1 to 1"),
-            ("fade_base", self.fade_base, 0.0, 1.0, side),
-            ("fade_apex", self.fade_apex, 0.0, 1.0, side),
-            ("spacing_cv", self.spacing_cv, 0.0, 0.5, "0 to 0.5"),
-            ("height_cv", self.height_cv, 0.0, 0.5, "0 to 0.5"),
-        ];
-        for (key, value, low, high, range) in checks {
-            if !(low..=high).contains(&value) {
-                return Err(TeethError::OutOfRange {
-                    index,
-                    key,
-                    value,
-                    range,
-                });
-            }
-        }
-        if let Some((key, value, range)) = self.tip.and_then(|tip| tip.fault()) {
-            return Err(TeethError::OutOfRange {
-                index,
-                key,
-                value,
-                range,
-            });
-        }
-        Ok(())
-    }
-
     /// Where a tooth is highest, as a share of it.
     pub(super) fn summit(&self) -> f64 {
         f64::midpoint(1.0, self.lean)

@@ -128,7 +128,7 @@ fn each_species_is_what_its_architecture_says() {
         let Some(asked) = asked.and_then(|plan| plan.architecture.clone()) else {
             continue;
         };
-        if crate::species::colours::coloured(preset.name).is_some() {
+        if preset.is_coloured() {
             continue;
         }
         let leaf = Grown::preset(preset.name);

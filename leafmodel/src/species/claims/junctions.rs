@@ -57,7 +57,7 @@ fn junctions_of_species_are_balanced_and_simple_and_widths_follow_murray_by_orde
             .venation
             .auxin()
             .is_some_and(|plan| plan.tension_rounds > 0);
-        let is_coloured = crate::species::colours::coloured(preset.name).is_some();
+        let is_coloured = preset.is_coloured();
         if architecture.is_none() || !is_net || is_coloured {
             continue;
         }

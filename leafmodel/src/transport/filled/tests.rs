@@ -125,7 +125,8 @@ fn assert_few_are_left(blade: &FilledBlade, name: &str) {
 
 #[test]
 fn every_cell_of_the_28_forms_is_supplied_on_both_sides_alike() {
-    for form in species::young::FORMS {
+    let forms = species::PRESETS.iter();
+    for form in forms.filter(|preset| preset.name.starts_with("young-")) {
         let outline = outline_of(form.name);
         let blade = check_blade(&plan(26), &outline);
         assert_few_are_left(&blade, form.name);

@@ -8,6 +8,7 @@ use super::secondaries::{self, agrophic};
 use super::{
     Agrophic, Architecture, Lots, PrimaryPattern, QuaternaryCourse, SecondaryEnding, TertiaryCourse,
 };
+use crate::document::declared::Declared;
 use crate::shape::outline::Outline;
 
 /// Secondaries of one side are at least so many segments of the young leaf apart.
@@ -24,11 +25,7 @@ impl Architecture {
     ///
     /// [`ArchitectureError`].
     pub fn validate(&self) -> Result<(), ArchitectureError> {
-        for (key, value, low, high, range) in self.numbers() {
-            if !(low..=high).contains(&value) {
-                return Err(ArchitectureError::OutOfRange { key, value, range });
-            }
-        }
+        self.in_range()?;
         let angles = &self.primaries.lateral_angles_deg;
         let named = angles.len();
         let (pattern, wanted, fits) = match self.primaries.pattern {
@@ -110,88 +107,6 @@ impl Architecture {
             bearers,
             there,
         })
-    }
-
-    fn numbers(&self) -> Vec<(&'static str, f64, f64, f64, &'static str)> {
-        let plan = &self.secondaries;
-        let share = "0 to 1 (of the midrib)";
-        let mut numbers = vec![
-            (
-                "part_at",
-                self.primaries.part_at,
-                0.0,
-                0.3,
-                "0 to 0.3 (of the midrib)",
-            ),
-            ("pairs", f64::from(plan.pairs), 0.0, 40.0, "0 to 40"),
-            (
-                "lateral_primaries",
-                f64::from(self.primaries.laterals),
-                0.0,
-                30.0,
-                "0 to 30",
-            ),
-            (
-                "fork_spacing",
-                self.primaries.fork_spacing,
-                0.004,
-                0.2,
-                "0.004 to 0.2 (of the length)",
-            ),
-            ("span", plan.span[0], 0.0, 1.0, share),
-            ("span", plan.span[1], 0.0, 1.0, share),
-            (
-                "inset",
-                plan.inset,
-                0.005,
-                0.2,
-                "0.005 to 0.2 (of the length)",
-            ),
-            (
-                "intersecondaries",
-                plan.intersecondaries,
-                0.0,
-                3.0,
-                "0 to 3",
-            ),
-            (
-                "tertiaries.spacing",
-                self.tertiaries.spacing,
-                0.004,
-                0.2,
-                "0.004 to 0.2 (of the length)",
-            ),
-            (
-                "tertiaries.angle_deg",
-                self.tertiaries.angle_deg,
-                40.0,
-                140.0,
-                "40 to 140 (degrees)",
-            ),
-            (
-                "quaternaries.spacing",
-                self.quaternaries.spacing,
-                0.002,
-                0.1,
-                "0.002 to 0.1 (of the length)",
-            ),
-            ("irregularity", self.irregularity, 0.0, 1.0, "0 to 1"),
-        ];
-        numbers.extend(
-            plan.angles_deg
-                .map(|angle| ("angles_deg", angle, 10.0, 120.0, "10 to 120 (degrees)")),
-        );
-        let primaries = self.primaries.lateral_angles_deg.iter();
-        numbers.extend(primaries.map(|&angle| {
-            (
-                "lateral_primary_angles_deg",
-                angle,
-                5.0,
-                175.0,
-                "5 to 175 (degrees)",
-            )
-        }));
-        numbers
     }
 
     /// Checks what only the outline can tell; `blade` is full-grown in segments, base at the

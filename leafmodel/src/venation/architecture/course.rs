@@ -3,6 +3,8 @@
 use glam::DVec2;
 
 use super::Lots;
+use crate::plane::polyline;
+use crate::plane::segment::meeting;
 use crate::shape::cubic::catmull_rom;
 
 /// Places by which a course is told.
@@ -50,10 +52,7 @@ impl Course {
                 at(i)
             }
         };
-        let chord: f64 = knots
-            .windows(2)
-            .map(|pair| (pair[1] - pair[0]).length())
-            .sum();
+        let chord = polyline::length(&knots);
         let phases = [0, 1].map(|what| lots.share(order, vein, 100 + what));
         let strength = wander * WANDER * chord * lots.jitter(order, vein, 102).abs().sqrt();
         let points: Vec<DVec2> = (0..=PLACES)
@@ -112,8 +111,7 @@ impl Course {
 
     /// Its length.
     pub(crate) fn length(&self) -> f64 {
-        let pieces = self.points.windows(2);
-        pieces.map(|pair| (pair[1] - pair[0]).length()).sum()
+        polyline::length(&self.points)
     }
 
     /// The place at a share of its points, and its direction there.
@@ -136,10 +134,11 @@ impl Course {
 /// Where on the way from `a` to `b` it meets the piece from `c` to `d`, as a share.
 pub(crate) fn cross(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<f64> {
     let (way, piece) = (b - a, d - c);
-    let across = way.perp_dot(piece);
-    let is_on = |share: &f64| (0.0..=1.0).contains(share);
-    let t = Some((c - a).perp_dot(piece) / across).filter(is_on)?;
-    Some((c - a).perp_dot(way) / across).filter(is_on)?;
+    let (on_way, on_piece) = meeting(a, way, c, d);
     // Pieces of one straight vein lie in line, up to rounding: they do not cross.
-    (across.abs() > 1e-6 * way.length() * piece.length()).then_some(t)
+    let is_inner = |share: f64| (0.0..=1.0).contains(&share);
+    let crosses = is_inner(on_way)
+        && is_inner(on_piece)
+        && way.perp_dot(piece).abs() > 1e-6 * way.length() * piece.length();
+    crosses.then_some(on_way)
 }

@@ -2,19 +2,14 @@
 
 use thiserror::Error;
 
+use crate::document::ranges::RangeError;
+
 /// Why an architecture cannot be grown.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ArchitectureError {
     /// A number outside its range.
-    #[error("architecture: {key} is {value}, outside {range}")]
-    OutOfRange {
-        /// Which.
-        key: &'static str,
-        /// What it was.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
+    #[error("architecture: {0}")]
+    Range(#[from] RangeError),
     /// Lateral primaries where there are none, or none where there are some.
     #[error(
         "{pattern} venation has {wanted} lateral primaries a side; lateral_primary_angles_deg names {named}"

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::plane::{polygon, polyline, segment};
 use crate::shape::outline::Outline;
 
 /// Points at which teeth and lobes are looked for.
@@ -92,15 +93,8 @@ impl Margin {
     pub(crate) fn hit(&self, from: DVec2, way: DVec2) -> Option<Hit> {
         let n = self.points.len();
         let mut best: Option<(f64, f64)> = None;
-        for i in 0..n {
-            let (a, b) = (self.points[i], self.points[(i + 1) % n]);
-            let edge = b - a;
-            let across = way.perp_dot(edge);
-            if across == 0.0 {
-                continue;
-            }
-            let along_way = (a - from).perp_dot(edge) / across;
-            let along_edge = (a - from).perp_dot(way) / across;
+        for (i, (a, b)) in polygon::sides(&self.points).enumerate() {
+            let (along_way, along_edge) = segment::meeting(from, way, a, b);
             // A vein may start on the margin itself, at the base.
             if along_way > 1e-3 * self.perimeter
                 && (0.0..1.0).contains(&along_edge)
@@ -281,10 +275,7 @@ impl Margin {
 
 /// Evenly spaced points along a closed walk, whose last point is its first; the last is left out.
 fn evenly(walk: &[DVec2], count: usize) -> Vec<DVec2> {
-    let mut lengths = vec![0.0];
-    for pair in walk.windows(2) {
-        lengths.push(lengths[lengths.len() - 1] + (pair[1] - pair[0]).length());
-    }
+    let lengths = polyline::lengths(walk);
     let total = lengths[lengths.len() - 1];
     let mut i = 1;
     (0..count)

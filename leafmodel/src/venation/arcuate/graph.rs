@@ -4,8 +4,11 @@ use glam::DVec2;
 
 use super::ArcuateVeins;
 use super::layout::Vein;
+use crate::buckets::Buckets;
+use crate::numeric::bisect;
+use crate::plane::bounds;
+use crate::plane::segment::crossing;
 use crate::shape::outline::Outline;
-use crate::shape::segments::crossing;
 use crate::venation::network::{NetworkError, VeinEdge, VeinNode, VenationNetwork};
 
 /// Number of pieces of the midrib.
@@ -165,16 +168,8 @@ impl Graph<'_> {
             let ends = self.leaves_blade(a, b);
             if ends {
                 // Bisection for the last point on the blade.
-                let (mut inside, mut outside) = (0.0, 1.0);
-                for _ in 0..60 {
-                    let middle = 0.5 * (inside + outside);
-                    if self.leaves_blade(a, a.lerp(b, middle)) {
-                        outside = middle;
-                    } else {
-                        inside = middle;
-                    }
-                }
-                b = a.lerp(b, inside);
+                let stays = |share| !self.leaves_blade(a, a.lerp(b, share));
+                b = a.lerp(b, bisect(0.0, 1.0, 60, stays).0);
             }
             way.meets = self.first_crossing(a, b);
             if let Some((edge, share)) = way.meets {
@@ -207,7 +202,7 @@ impl Graph<'_> {
         }
         let joint = way.meets.map(|(edge, share)| self.node_on(edge, share));
         let start = self.edges.len();
-        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        let (mut low, mut high) = bounds([]);
         // The radius never grows, even where a lateral bends back to where its axis is wider.
         let mut radius = f64::INFINITY;
         let mut taper = radii.into_iter().map(|here| {
@@ -245,15 +240,13 @@ impl Graph<'_> {
 
     /// For each node whether it leads to this one; a node leads to itself.
     fn above(&self, node: u32) -> Vec<bool> {
-        let mut leading: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
-        for edge in &self.edges {
-            leading[edge.to as usize].push(edge.from);
-        }
+        let leading = self.edges.iter().map(|edge| (edge.to as usize, edge.from));
+        let leading = Buckets::new(self.nodes.len(), leading);
         let mut above = vec![false; self.nodes.len()];
         let mut open = vec![node];
         while let Some(node) = open.pop() {
             if !std::mem::replace(&mut above[node as usize], true) {
-                open.extend(&leading[node as usize]);
+                open.extend(leading.list(node as usize));
             }
         }
         above

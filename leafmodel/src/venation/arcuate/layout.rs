@@ -8,6 +8,7 @@ use glam::DVec2;
 use super::ArcuatePlan;
 use super::cell_noise::cell_noise;
 use super::spline::Quadratic;
+use crate::plane::{polygon, polyline};
 use crate::shape::cubic::Cubic;
 use crate::shape::outline::Outline;
 
@@ -67,26 +68,13 @@ pub(super) struct Line {
 
 impl Line {
     fn at(&self, t: f64) -> DVec2 {
-        let last = self.points.len() - 1;
-        let i = self
-            .shares
-            .partition_point(|&share| share <= t)
-            .clamp(1, last);
-        let (from, to) = (self.shares[i - 1], self.shares[i]);
-        let share = if to > from {
-            (t - from) / (to - from)
-        } else {
-            0.0
-        };
+        let (i, share) = polyline::piece(&self.shares, t);
         self.points[i - 1].lerp(self.points[i], share.clamp(0.0, 1.0))
     }
 
     /// A line parametrised by arc length.
     fn by_length(points: Vec<DVec2>) -> Self {
-        let mut walked = vec![0.0];
-        for edge in points.windows(2) {
-            walked.push(walked[walked.len() - 1] + (edge[1] - edge[0]).length());
-        }
+        let walked = polyline::lengths(&points);
         let all = walked[walked.len() - 1];
         Self {
             points,
@@ -127,8 +115,10 @@ impl Sides {
     pub(super) fn of(outline: &Outline, frame: Frame) -> Self {
         let points = outline.points();
         let n = points.len();
-        let (base, start) = nearest_edge(points, outline.base());
-        let (apex, end) = nearest_edge(points, outline.apex());
+        let [base, apex] =
+            [outline.base(), outline.apex()].map(|end| polygon::nearest(points, end));
+        let (start, end) = (base.at, apex.at);
+        let (base, apex) = (base.edge, apex.edge);
         // Counter-clockwise from the base is the right side.
         let walk = |from: usize, first: DVec2, to: usize, last: DVec2| {
             let mut way = vec![first];
@@ -167,25 +157,6 @@ impl Sides {
             Self::Lines([left, right]) => if up { left } else { right }.at(t),
         }
     }
-}
-
-/// The edge nearest to `p`, and the point of it nearest to `p`.
-fn nearest_edge(points: &[DVec2], p: DVec2) -> (usize, DVec2) {
-    let n = points.len();
-    let foot = |i: usize| {
-        let (a, b) = (points[i], points[(i + 1) % n]);
-        let share = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
-        a + (b - a) * share
-    };
-    let nearest = (0..n).min_by(|&i, &j| {
-        let (i, j) = (
-            (foot(i) - p).length_squared(),
-            (foot(j) - p).length_squared(),
-        );
-        i.total_cmp(&j)
-    });
-    let edge = nearest.unwrap_or(0);
-    (edge, foot(edge))
 }
 
 /// Number of places of a primary that are tested to lie on the blade.

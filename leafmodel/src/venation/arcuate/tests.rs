@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::spline::Quadratic;
 use super::*;
 use crate::shape::cubic::FLATNESS;
-use crate::species::young::FORMS;
+use crate::species::{PRESETS, Preset, find};
 use crate::testing::fixed;
 use crate::venation::areole::areoles;
 
@@ -202,7 +202,7 @@ fn from_pinnate_to_arcuate_veins_bend_and_turn_to_the_tip() {
 fn primaries_start_where_the_blade_is_wide_enough_for_them() {
     // The growth algorithm's leaves have a narrow base, and the first veins of a maple's must not
     // end there.
-    let outline = FORMS[27].shape().grow(LENGTH).expect("a form of the paper");
+    let outline = outline_of("young-9d");
     let network = palmate().network(&outline).expect("a good plan");
     let widest = |order: u8| {
         let of_order = network.segments().filter(|segment| segment.order == order);
@@ -212,6 +212,19 @@ fn primaries_start_where_the_blade_is_wide_enough_for_them() {
     };
     assert!(widest(1) > 0.25 * LENGTH, "{}", widest(1));
     assert_sound(&network, &outline, "9d");
+}
+
+/// The outline of a preset.
+fn outline_of(name: &str) -> Outline {
+    let plan = find(name).expect("a preset").plan();
+    let outline = plan.outline.grow(LENGTH, plan.seed);
+    outline.expect("a good form")
+}
+
+/// The forms of the paper on the growth algorithm.
+fn forms() -> impl Iterator<Item = &'static Preset> {
+    let is_of_paper = |preset: &&Preset| preset.name.starts_with("young-");
+    PRESETS.iter().filter(is_of_paper)
 }
 
 /// Checks what must hold for every network on every blade.
@@ -240,15 +253,13 @@ fn networks_end_on_the_margin_of_any_blade() {
     for plan in plans() {
         let (outline, network) = grown(&plan);
         assert_sound(&network, &outline, "own");
-        for form in &FORMS {
-            let outline = form.shape().grow(LENGTH).expect("a form of the paper");
+        for form in forms() {
+            let outline = outline_of(form.name);
             let network = plan.network(&outline).expect("a good plan");
             assert_sound(&network, &outline, form.name);
         }
     }
-    let maple = crate::species::maple::maple()
-        .grow(LENGTH)
-        .expect("a good form");
+    let maple = outline_of("maple-palmate");
     let network = palmate().network(&maple).expect("a good plan");
     assert_sound(&network, &maple, "maple");
 }
@@ -268,8 +279,8 @@ fn palmate_veins_have_primaries_that_leave_the_petiole_together() {
 fn every_bad_parameter_is_named_with_its_range() {
     type Break = fn(&mut ArcuatePlan);
     let breaks: [(&str, Break); 11] = [
-        ("veins", |p| p.veins = 0),
-        ("veins", |p| p.veins = 101),
+        ("laterals", |p| p.veins = 0),
+        ("laterals", |p| p.veins = 101),
         ("variation", |p| p.variation = -0.1),
         ("width", |p| p.width = 0.0),
         ("net_width", |p| p.net_width = 1.5),
@@ -290,7 +301,7 @@ fn every_bad_parameter_is_named_with_its_range() {
         let mut plan = ArcuatePlan::default();
         change(&mut plan);
         match plan.network_within(&CubicMargin::default(), LENGTH) {
-            Err(ArcuateError::OutOfRange { key, .. }) => assert_eq!(key, expected),
+            Err(ArcuateError::Range(error)) => assert_eq!(error.path, expected),
             other => panic!("{expected}: {other:?}"),
         }
     }
@@ -341,8 +352,9 @@ proptest! {
         if let Ok(outline) = margin.grow(LENGTH) {
             assert_sound(&plan.network_within(&margin, LENGTH).expect("in range"), &outline, "own");
         }
-        let outline = FORMS[form].shape().grow(LENGTH).expect("a form of the paper");
-        assert_sound(&plan.network(&outline).expect("in range"), &outline, FORMS[form].name);
+        let name = forms().nth(form).expect("a form of the paper").name;
+        let outline = outline_of(name);
+        assert_sound(&plan.network(&outline).expect("in range"), &outline, name);
     }
 }
 
@@ -353,9 +365,7 @@ fn primaries_are_laid_whole_but_where_a_bay_lies_in_their_way() {
     assert_eq!(whole.len(), 4);
     assert!(whole.iter().all(|&share| share > 0.99), "{whole:?}");
     // Lobes so deep that primaries run into a sinus.
-    let lobed = FORMS.iter().find(|form| form.name == "young-9a");
-    let lobed = lobed.expect("a form of the paper").shape().grow(LENGTH);
-    let lobed = lobed.expect("a form of the paper");
+    let lobed = outline_of("young-9a");
     let cut = palmate().primaries_laid(&lobed).expect("a good plan");
     assert_eq!(cut.len(), 4);
     assert!(cut.iter().any(|&share| share < 0.5), "{cut:?}");

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::buckets::Buckets;
 use crate::venation::planar::PlaneGraph;
 
 /// Pieces of veins between junctions and tips, called chains; nodes in between have two edges.
@@ -25,15 +26,14 @@ pub(crate) struct Chains {
     pub(crate) radii: Vec<f64>,
     /// Nodes of the plane graph that are junctions or tips.
     pub(crate) joints: Vec<u32>,
-    /// Halves that leave joint `j`, counter-clockwise:
-    /// `leaving[leaving_starts[j]..leaving_starts[j + 1]]`.
-    leaving_starts: Vec<u32>,
-    leaving: Vec<u32>,
+    /// Halves that leave each joint, counter-clockwise.
+    leaving: Buckets,
 }
 
 impl Chains {
     pub(crate) fn new(graph: &PlaneGraph) -> Self {
-        let around = Around::new(graph);
+        let ends = graph.edges().iter().map(|edge| [edge.from, edge.to]);
+        let around = Buckets::around(graph.nodes().len(), ends);
         let nodes = graph.nodes().len() as u32;
         let mut chains = Self {
             starts: vec![0],
@@ -42,14 +42,14 @@ impl Chains {
             ..Self::default()
         };
         let mut joint_of = vec![u32::MAX; nodes as usize];
-        for node in (0..nodes).filter(|&node| ![0, 2].contains(&around.list(node).len())) {
+        for node in (0..nodes).filter(|&node| ![0, 2].contains(&around.list(node as usize).len())) {
             joint_of[node as usize] = chains.joints.len() as u32;
             chains.joints.push(node);
         }
         let mut done = vec![false; graph.edges().len()];
         for joint in 0..chains.joints.len() {
             let node = chains.joints[joint];
-            for &edge in around.list(node) {
+            for &edge in around.list(node as usize) {
                 chains.follow(graph, &around, &joint_of, &mut done, node, edge);
             }
         }
@@ -70,7 +70,7 @@ impl Chains {
     fn follow(
         &mut self,
         graph: &PlaneGraph,
-        around: &Around,
+        around: &Buckets,
         joint_of: &[u32],
         done: &mut [bool],
         node: u32,
@@ -96,7 +96,7 @@ impl Chains {
             if joint_of[at as usize] != u32::MAX {
                 break;
             }
-            let pair = around.list(at);
+            let pair = around.list(at as usize);
             edge = if pair[0] == edge { pair[1] } else { pair[0] };
         }
         self.starts.push(self.points.len() as u32);
@@ -108,25 +108,11 @@ impl Chains {
 
     /// Sorts the halves that leave each joint by direction.
     fn turn_around_joints(&mut self) {
-        let mut starts = vec![0_u32; self.joints.len() + 1];
-        for joint in self.ends.iter().flatten() {
-            starts[*joint as usize + 1] += 1;
-        }
-        for joint in 1..starts.len() {
-            starts[joint] += starts[joint - 1];
-        }
-        let mut next = starts.clone();
-        let mut leaving = vec![0; 2 * self.ends.len()];
-        for half in 0..leaving.len() as u32 {
-            let at = &mut next[self.start(half) as usize];
-            leaving[*at as usize] = half;
-            *at += 1;
-        }
-        for pair in starts.windows(2) {
-            let list = &mut leaving[pair[0] as usize..pair[1] as usize];
+        let starts = self.ends.iter().flatten().map(|&joint| joint as usize);
+        let mut leaving = Buckets::new(self.joints.len(), starts.zip(0..));
+        leaving.sort_each(|list| {
             list.sort_by(|&a, &b| turn(self.departure(a)).total_cmp(&turn(self.departure(b))));
-        }
-        self.leaving_starts = starts;
+        });
         self.leaving = leaving;
     }
 
@@ -162,8 +148,7 @@ impl Chains {
 
     /// Halves that leave a joint, counter-clockwise.
     pub(crate) fn leaving(&self, joint: u32) -> &[u32] {
-        let joint = joint as usize;
-        &self.leaving[self.leaving_starts[joint] as usize..self.leaving_starts[joint + 1] as usize]
+        self.leaving.list(joint as usize)
     }
 
     /// Direction and length of the first edge of a half.
@@ -219,39 +204,4 @@ impl Chains {
 fn turn(d: DVec2) -> f64 {
     let x = d.x / (d.x.abs() + d.y.abs());
     if d.y >= 0.0 { 1.0 - x } else { 3.0 + x }
-}
-
-/// The edges at each node, in either direction.
-struct Around {
-    starts: Vec<u32>,
-    edges: Vec<u32>,
-}
-
-impl Around {
-    fn new(graph: &PlaneGraph) -> Self {
-        let count = graph.nodes().len();
-        let mut starts = vec![0; count + 1];
-        for edge in graph.edges() {
-            starts[edge.from as usize + 1] += 1;
-            starts[edge.to as usize + 1] += 1;
-        }
-        for node in 0..count {
-            starts[node + 1] += starts[node];
-        }
-        let mut next = starts.clone();
-        let mut edges = vec![0; 2 * graph.edges().len()];
-        for (number, edge) in graph.edges().iter().enumerate() {
-            for node in [edge.from, edge.to] {
-                let at = &mut next[node as usize];
-                edges[*at as usize] = number as u32;
-                *at += 1;
-            }
-        }
-        Self { starts, edges }
-    }
-
-    fn list(&self, node: u32) -> &[u32] {
-        let node = node as usize;
-        &self.edges[self.starts[node] as usize..self.starts[node + 1] as usize]
-    }
 }

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::{Areole, Chains};
+use crate::plane::polygon;
 
 /// Upper bound of elongation.
 const MOST_ELONGATED: f64 = 1e6;
@@ -38,7 +39,7 @@ impl Walks {
 pub(super) fn walks(chains: &Chains) -> Walks {
     let nexts = chains.nexts();
     let bulges: Vec<f64> = (0..chains.len() as u32)
-        .map(|chain| 0.5 * doubled_area(chains.points(chain)))
+        .map(|chain| polygon::signed_area(chains.points(chain)))
         .collect();
     let mut walks = Walks {
         starts: vec![0],
@@ -76,15 +77,6 @@ pub(super) fn walks(chains: &Chains) -> Walks {
         }
     }
     walks
-}
-
-/// Twice the area of a polygon whose last corner is joined to its first.
-fn doubled_area(points: &[DVec2]) -> f64 {
-    let origin = points[0];
-    points
-        .windows(2)
-        .map(|edge| (edge[0] - origin).perp_dot(edge[1] - origin))
-        .sum()
 }
 
 fn tail(chains: &Chains, half: u32) -> DVec2 {
@@ -180,7 +172,7 @@ impl Cycles {
                     self.polygon.clear();
                     self.polygon
                         .extend(cycle.iter().flat_map(|&half| chains.corners(half)));
-                    0.5 * doubled_area(&self.polygon)
+                    polygon::signed_area(&self.polygon)
                 };
                 if size > best {
                     best = size;

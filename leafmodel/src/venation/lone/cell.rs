@@ -6,9 +6,10 @@ use glam::DVec2;
 
 use super::Lone;
 use super::view::{MARGIN, Nearest, Node, View, find_seeing};
+use crate::plane::rectangle_distance_squared;
 use crate::venation::fresh_nodes::FreshNodes;
 use crate::venation::point_tree::PointTree;
-use crate::venation::probe::{Probe, SLACK, distance_squared};
+use crate::venation::probe::{Probe, SLACK};
 
 /// Placeholder for the number of a basin that has none yet.
 pub(super) const UNNUMBERED: u32 = u32::MAX;
@@ -148,7 +149,10 @@ impl Cell {
             self.has_changed = true;
             let basin = &mut self.basins[at];
             match basin.common_nearest(&self.found) {
-                Some(node) if distance_squared(basin.low, basin.high, node.place) > near * near => {
+                Some(node)
+                    if rectangle_distance_squared(basin.low, basin.high, node.place)
+                        > near * near =>
+                {
                     let is_new = node.id != basin.node.id;
                     basin.node = node;
                     basin.has_changed |= is_new;

@@ -5,8 +5,9 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 
 use super::Lone;
+use crate::plane::rectangle_distance_squared;
 use crate::venation::point_tree::PointTree;
-use crate::venation::probe::{Probe, SLACK, distance_squared};
+use crate::venation::probe::{Probe, SLACK};
 
 /// Safety margin in comparisons of squared lengths, far above the rounding of coordinates.
 pub(super) const MARGIN: f64 = 1e-9;
@@ -117,7 +118,7 @@ impl Nearest {
 
 impl Probe for Nearest {
     fn enters(&self, low: DVec2, high: DVec2) -> bool {
-        distance_squared(low, high, self.place) <= self.distance_squared * SLACK
+        rectangle_distance_squared(low, high, self.place) <= self.distance_squared * SLACK
     }
 
     fn meet(&mut self, id: u32, place: DVec2) -> ControlFlow<()> {

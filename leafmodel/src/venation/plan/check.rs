@@ -4,16 +4,13 @@ use glam::DVec2;
 use thiserror::Error;
 
 use super::{AuxinPlan, Growth, Pattern};
+use crate::document::declared::Declared;
+use crate::document::ranges::RangeError;
 use crate::shape::growth::GrowthError;
 use crate::shape::outline::Outline;
 use crate::venation::architecture::ArchitectureError;
 use crate::venation::simulation::courses::young_size;
 use crate::venation::veins::COINCIDENT;
-
-/// A number to be checked: key, value, least and greatest value, and the range in words.
-type Check = (&'static str, f64, f64, f64, &'static str);
-
-const DISTANCE: &str = "0.01 to 10000 (segments)";
 
 /// Greatest number of darts in all steps of growth together, or in one step without growth. More
 /// would take minutes and add nothing.
@@ -23,14 +20,21 @@ const MOST_DARTS: f64 = 1e8;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum PlanError {
     /// A number is outside the range in which the model holds.
-    #[error("{key} is {value}, outside {range}")]
-    OutOfRange {
-        /// Which parameter.
-        key: &'static str,
-        /// What it was.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
+    #[error(transparent)]
+    Range(#[from] RangeError),
+    /// The leaf starts longer than it ends.
+    #[error("initial_length is {initial_length}, outside 0.001 to final_length (segments)")]
+    StartsLonger {
+        /// Its length at the start, segments.
+        initial_length: f64,
+    },
+    /// A saddle that is too wide for its curvature.
+    #[error(
+        "gaussian_curvature is {curvature}, outside what a blade so wide can have: above -3.6 over its half diagonal (in leaf lengths) squared"
+    )]
+    TooCurved {
+        /// Curvature times the length squared.
+        curvature: f64,
     },
     /// The lamina would grow for too many steps.
     #[error("growing in steps of {length_step} segments takes {steps} steps, more than 1000000")]
@@ -98,12 +102,7 @@ impl AuxinPlan {
     ///
     /// [`PlanError`], naming the parameter and its range.
     pub fn validate(&self) -> Result<(), PlanError> {
-        let checks = self.numbers().into_iter().chain(self.numbers_of_rules());
-        for (key, value, low, high, range) in checks {
-            if !(low..=high).contains(&value) {
-                return Err(PlanError::OutOfRange { key, value, range });
-            }
-        }
+        self.in_range()?;
         let is_anisotropic = matches!(self.growth, Growth::Anisotropic { .. });
         let has_arches = self.margin_clearance.is_some_and(|rule| rule.arches > 0);
         let has_architecture = self.architecture.is_some();
@@ -167,157 +166,9 @@ impl AuxinPlan {
         }
     }
 
-    /// The numbers that every plan has.
-    fn numbers(&self) -> [Check; 10] {
-        let distance = DISTANCE;
-        [
-            (
-                "final_length",
-                self.final_length,
-                2.0,
-                1e5,
-                "2 to 100000 (segments)",
-            ),
-            ("kill_distance", self.kill_distance, 0.01, 1e4, distance),
-            (
-                "source_birth_distance",
-                self.source_birth_distance,
-                0.01,
-                1e4,
-                distance,
-            ),
-            (
-                "vein_birth_distance",
-                self.vein_birth_distance,
-                0.01,
-                1e4,
-                distance,
-            ),
-            (
-                "darts_per_area",
-                self.darts_per_area,
-                1e-12,
-                1e3,
-                "0 (excluded) to 1000",
-            ),
-            (
-                "murray_exponent",
-                self.murray_exponent,
-                0.5,
-                10.0,
-                "0.5 to 10",
-            ),
-            (
-                "veinlet_radius_mm",
-                self.veinlet_radius_mm,
-                1e-6,
-                10.0,
-                "0.000001 to 10 (millimetres)",
-            ),
-            (
-                "unseen_veinlets",
-                self.unseen_veinlets,
-                0.0,
-                1e3,
-                "0 to 1000 (per node)",
-            ),
-            (
-                "gaussian_curvature",
-                self.gaussian_curvature,
-                -2.0,
-                8.0,
-                "-2 to 8 (per leaf length squared)",
-            ),
-            (
-                "origins",
-                self.origins.len() as f64,
-                0.0,
-                1e3,
-                "a list of at most 1000 places",
-            ),
-        ]
-    }
-
-    /// The numbers of optional rules.
-    fn numbers_of_rules(&self) -> Vec<Check> {
-        let distance = DISTANCE;
-        let rounds = f64::from(self.tension_rounds);
-        let mut checks = vec![
-            ("axis_along_vein", self.axis_along_vein, 0.0, 1.0, "0 to 1"),
-            ("tension_rounds", rounds, 0.0, 1e3, "0 to 1000"),
-        ];
-        if let Some(finest) = self.murray_exponent_finest {
-            let range = "0.5 to 10";
-            checks.push(("murray_exponent_finest", finest, 0.5, 10.0, range));
-        }
-        if let Some(free) = &self.free_endings {
-            checks.extend([
-                (
-                    "free_endings.birth_distance",
-                    free.birth_distance,
-                    0.01,
-                    1e4,
-                    distance,
-                ),
-                (
-                    "free_endings.kill_distance",
-                    free.kill_distance,
-                    0.01,
-                    1e4,
-                    distance,
-                ),
-                (
-                    "free_endings.darts_per_area",
-                    free.darts_per_area,
-                    1e-12,
-                    1e3,
-                    "0 (excluded) to 1000",
-                ),
-            ]);
-        }
-        if let Some(clearance) = &self.margin_clearance {
-            let share = "0 (excluded) to 0.5 (of the leaf's length)";
-            checks.extend([
-                (
-                    "margin_clearance.distance",
-                    clearance.distance,
-                    1e-6,
-                    0.5,
-                    share,
-                ),
-                (
-                    "margin_clearance.until",
-                    clearance.until,
-                    0.0,
-                    1.0,
-                    "0 to 1 (of the final length)",
-                ),
-                (
-                    "margin_clearance.arches",
-                    f64::from(clearance.arches),
-                    0.0,
-                    50.0,
-                    "0 to 50",
-                ),
-            ]);
-        }
-        checks
-    }
-
     fn validate_growth(&self, initial_length: f64, length_step: f64) -> Result<(), PlanError> {
-        if !(initial_length >= 1e-3 && initial_length <= self.final_length) {
-            return Err(PlanError::OutOfRange {
-                key: "initial_length",
-                value: initial_length,
-                range: "0.001 to final_length (segments)",
-            });
-        }
-        if !(length_step > 0.0 && length_step.is_finite()) {
-            return Err(PlanError::OutOfRange {
-                key: "length_step",
-                value: length_step,
-                range: "above 0 (segments per step)",
-            });
+        if initial_length > self.final_length {
+            return Err(PlanError::StartsLonger { initial_length });
         }
         let steps = ((self.final_length - initial_length) / length_step).ceil();
         if steps > 1e6 {
@@ -354,11 +205,8 @@ impl AuxinPlan {
         let (low, high) = blade.bounds();
         let farthest = (low - middle).abs().max((high - middle).abs()).length() / self.final_length;
         if 1.0 + 0.25 * self.gaussian_curvature * farthest * farthest < 0.1 {
-            return Err(PlanError::OutOfRange {
-                key: "gaussian_curvature",
-                value: self.gaussian_curvature,
-                range: "what a blade so wide can have: above -3.6 over its half diagonal (in leaf lengths) squared",
-            });
+            let curvature = self.gaussian_curvature;
+            return Err(PlanError::TooCurved { curvature });
         }
         Ok(())
     }

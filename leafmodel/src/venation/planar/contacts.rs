@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::VeinEdge;
 use super::grid::EdgeGrid;
+use crate::numeric::Sets;
 
 /// Points nearer together than this share of the mean edge length are merged: far above rounding,
 /// far below any grown distance.
@@ -174,7 +175,7 @@ pub(super) fn cut(nodes: &mut Vec<DVec2>, edges: &mut Vec<VeinEdge>, contacts: C
         nodes.push(a + (b - a) * t);
         cuts.extend([(first, t, node), (second, u, node)]);
     }
-    let mut leaders: Vec<u32> = (0..nodes.len() as u32).collect();
+    let mut sets = Sets::new(nodes.len());
     // Marks the ends of cut edges and merged nodes.
     let mut changed = vec![false; nodes.len()];
     changed[first_new as usize..].fill(true);
@@ -187,7 +188,7 @@ pub(super) fn cut(nodes: &mut Vec<DVec2>, edges: &mut Vec<VeinEdge>, contacts: C
     for (p, q) in contacts.meetings {
         changed[p as usize] = true;
         changed[q as usize] = true;
-        join(&mut leaders, p, q);
+        sets.join(p, q);
     }
     // Several edges through one point cross there in pairs, and if a node lies there they also
     // touch it.
@@ -202,7 +203,7 @@ pub(super) fn cut(nodes: &mut Vec<DVec2>, edges: &mut Vec<VeinEdge>, contacts: C
                 break;
             }
             if apart.length_squared() <= slack * slack {
-                join(&mut leaders, p, q);
+                sets.join(p, q);
             }
         }
     }
@@ -232,8 +233,8 @@ pub(super) fn cut(nodes: &mut Vec<DVec2>, edges: &mut Vec<VeinEdge>, contacts: C
     let mut pairs: Vec<(u32, u32, u32)> = Vec::new();
     for (i, piece) in pieces.iter_mut().enumerate() {
         if changed[piece.from as usize] || changed[piece.to as usize] {
-            piece.from = leader(&mut leaders, piece.from);
-            piece.to = leader(&mut leaders, piece.to);
+            piece.from = sets.leader(piece.from);
+            piece.to = sets.leader(piece.to);
             pairs.push((piece.from.min(piece.to), piece.from.max(piece.to), i as u32));
         }
     }
@@ -250,17 +251,4 @@ pub(super) fn cut(nodes: &mut Vec<DVec2>, edges: &mut Vec<VeinEdge>, contacts: C
         gone.next_if_eq(&(number - 1)).is_none()
     });
     *edges = pieces;
-}
-
-fn leader(leaders: &mut [u32], mut node: u32) -> u32 {
-    while leaders[node as usize] != node {
-        leaders[node as usize] = leaders[leaders[node as usize] as usize];
-        node = leaders[node as usize];
-    }
-    node
-}
-
-fn join(leaders: &mut [u32], p: u32, q: u32) {
-    let (p, q) = (leader(leaders, p), leader(leaders, q));
-    leaders[p.max(q) as usize] = p.min(q);
 }

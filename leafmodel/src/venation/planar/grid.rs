@@ -4,6 +4,8 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::VeinEdge;
+use crate::buckets::Buckets;
+use crate::plane::{bounds, segment};
 
 /// Square cells over a rectangle, numbered row by row from the lower left.
 #[derive(Clone, Debug)]
@@ -18,9 +20,7 @@ impl Lattice {
     /// Cells over all points: about two per point if the points fill the rectangle, at most about
     /// four per point, and with sides no smaller than `least`.
     pub(crate) fn around(points: impl Iterator<Item = DVec2>, count: usize, least: f64) -> Self {
-        let (low, high) = points.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| {
-            (low.min(p), high.max(p))
-        });
+        let (low, high) = bounds(points);
         if count == 0 {
             return Self {
                 low: DVec2::ZERO,
@@ -95,8 +95,7 @@ impl Lattice {
 #[derive(Clone, Debug)]
 pub(crate) struct EdgeGrid {
     lattice: Lattice,
-    starts: Vec<u32>,
-    edges: Vec<u32>,
+    edges: Buckets,
 }
 
 impl EdgeGrid {
@@ -105,49 +104,31 @@ impl EdgeGrid {
         let ends = |edge: &VeinEdge| (nodes[edge.from as usize], nodes[edge.to as usize]);
         let points = edges.iter().flat_map(|edge| <[DVec2; 2]>::from(ends(edge)));
         let lattice = Lattice::around(points, edges.len(), mean_length);
-        let mut starts = vec![0_u32; lattice.cells() + 1];
         let mut listed: Vec<(u32, u32)> = Vec::with_capacity(2 * edges.len());
         for (number, edge) in (0..).zip(edges) {
             let (a, b) = ends(edge);
-            lattice.along(a, b, |cell| {
-                starts[cell + 1] += 1;
-                listed.push((cell as u32, number));
-            });
+            lattice.along(a, b, |cell| listed.push((cell as u32, number)));
         }
-        for cell in 1..starts.len() {
-            starts[cell] += starts[cell - 1];
-        }
-        let mut next = starts.clone();
-        let mut sorted = vec![0; listed.len()];
-        for (cell, number) in listed {
-            let at = &mut next[cell as usize];
-            sorted[*at as usize] = number;
-            *at += 1;
-        }
+        let listed = listed.iter().map(|&(cell, number)| (cell as usize, number));
         Self {
+            edges: Buckets::new(lattice.cells(), listed),
             lattice,
-            starts,
-            edges: sorted,
         }
     }
 
     /// The edges of each cell in turn, ascending.
     pub(crate) fn lists(&self) -> impl Iterator<Item = &[u32]> {
-        self.starts.windows(2).map(|pair| self.between(pair))
+        self.edges.lists()
     }
 
     /// As [`EdgeGrid::lists`], on all threads.
     pub(crate) fn lists_at_once(&self) -> impl IndexedParallelIterator<Item = &[u32]> {
-        self.starts.par_windows(2).map(|pair| self.between(pair))
-    }
-
-    fn between(&self, pair: &[u32]) -> &[u32] {
-        &self.edges[pair[0] as usize..pair[1] as usize]
+        let cells = (0..self.edges.count()).into_par_iter();
+        cells.map(|cell| self.edges.list(cell))
     }
 
     fn list(&self, column: usize, row: usize) -> &[u32] {
-        let cell = row * self.lattice.columns + column;
-        &self.edges[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+        self.edges.list(row * self.lattice.columns + column)
     }
 
     /// Distance from `p` to the nearest edge; `None` without edges.
@@ -164,7 +145,7 @@ impl EdgeGrid {
                 for &edge in self.list(column, row) {
                     let edge = &edges[edge as usize];
                     let (a, b) = (nodes[edge.from as usize], nodes[edge.to as usize]);
-                    nearest = nearest.min(squared_distance(p, a, b));
+                    nearest = nearest.min(segment::distance_squared(a, b, p));
                 }
             };
             for r in floor..=ceiling {
@@ -244,13 +225,6 @@ impl EdgeGrid {
     }
 }
 
-/// Squared distance from `p` to the segment from `a` to `b`.
-fn squared_distance(p: DVec2, a: DVec2, b: DVec2) -> f64 {
-    let along = b - a;
-    let t = ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-    (a + along * t - p).length_squared()
-}
-
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
@@ -281,7 +255,7 @@ mod tests {
             let grid = EdgeGrid::new(&nodes, &edges, 5.0);
             let p = DVec2::new(x, y);
             let ends = |e: &VeinEdge| (nodes[e.from as usize], nodes[e.to as usize]);
-            let nearest = edges.iter().map(|e| squared_distance(p, ends(e).0, ends(e).1)).fold(f64::INFINITY, f64::min);
+            let nearest = edges.iter().map(|e| segment::distance_squared(ends(e).0, ends(e).1, p)).fold(f64::INFINITY, f64::min);
             let found = grid.distance(&nodes, &edges, p).expect("there are edges");
             prop_assert!((found - nearest.sqrt()).abs() <= 1e-12);
             let left = edges

@@ -6,8 +6,9 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 
 use super::{NO_NODE, Veins};
+use crate::plane::rectangle_distance_squared;
 use crate::venation::architecture::course::cross;
-use crate::venation::probe::{Probe, SLACK, distance_squared};
+use crate::venation::probe::{Probe, SLACK};
 
 /// A new vein leaves a node at least so far from others there: the cosine of 40°.
 const APART: f64 = 0.766;
@@ -24,7 +25,7 @@ struct Around<F> {
 
 impl<F: FnMut(u32, DVec2) -> ControlFlow<()>> Probe for Around<F> {
     fn enters(&self, low: DVec2, high: DVec2) -> bool {
-        distance_squared(low, high, self.place) <= self.squared * SLACK
+        rectangle_distance_squared(low, high, self.place) <= self.squared * SLACK
     }
 
     fn meet(&mut self, id: u32, position: DVec2) -> ControlFlow<()> {

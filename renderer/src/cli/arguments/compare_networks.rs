@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, ValueEnum};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 
 use super::measure::{MeasuringArguments, ReadingArguments};
+pub use crate::report::comparison::overlay::Alignment;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -13,17 +14,6 @@ Examples:
   lamina compare-networks --group sun sun/*.svg --group shade shade/*.svg --out report.html table.csv
   lamina compare-networks --group real real/*.svg --group grown leaf.toml#mine --seeds 8 --out report.html
   lamina compare-networks --table leaves.csv --only vein_density_mm_per_mm2,areole_area --out report.html";
-
-/// How one network is laid over another.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Alignment {
-    /// As the files have them
-    AsGiven,
-    /// Turned, scaled and moved so that base and apex fall together
-    BaseAndApex,
-    /// Scaled and moved so that centroids and areas of the blades are the same
-    CentroidAndArea,
-}
 
 /// `lamina compare-networks`: measures of networks side by side.
 #[derive(Args, Clone, Debug, PartialEq)]

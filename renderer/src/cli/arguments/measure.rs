@@ -1,5 +1,6 @@
 //! `lamina measure`, as written.
 
+use crate::report::measures::Wanted;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -118,6 +119,17 @@ pub struct MeasuringArguments {
     /// Number of the widest veins that are cut, one at a time
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     pub cut: u32,
+}
+
+impl MeasuringArguments {
+    /// What is measured, where tables of pair statistics and of cuts are asked for or not.
+    pub(crate) fn wanted(&self, [asks_structure, asks_supply]: [bool; 2]) -> Wanted {
+        Wanted {
+            structure: !self.quick || asks_structure,
+            supply: (!self.quick || asks_supply).then_some(self.cut as usize),
+            murray_exponent: self.murray_exponent,
+        }
+    }
 }
 
 /// `lamina measure`: a network of veins from a file, its faults and its measures.

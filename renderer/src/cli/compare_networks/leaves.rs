@@ -1,64 +1,16 @@
-//! The leaves that are compared, read or grown, and measured.
+//! Leaves that are read or grown, and measured.
 
 use leafmodel::leaf::LeafPlan;
-use leafmodel::measure::{Blade, Known, Row, Sample, Subject};
-use leafmodel::shape::outline::Outline;
-use leafmodel::venation::network::VenationNetwork;
+use leafmodel::measure::{Blade, Known, Row, Subject};
 use rayon::prelude::*;
 
 use super::sources::{From, Source, Sources};
 use crate::cli::arguments::{CompareNetworksArguments, MeasuringArguments};
 use crate::cli::grow::{self, Wish};
-use crate::cli::measure::{Input, by_order, measured};
+use crate::cli::measure::Input;
 use crate::cli::{Failure, needs};
-
-/// Numbers that are no measures of their own: coefficients that mean something together only, what
-/// the curves of distributions show in full, and an error.
-pub(super) const LEFT_OUT: [&str; 5] = [
-    "elliptic_fourier",
-    "areole_area_mm2_percentiles",
-    "areole_circularity_percentiles",
-    "areole_elongation_percentiles",
-    "hyperuniformity_exponent_error",
-];
-
-/// A leaf with its measures.
-#[derive(Clone, Debug)]
-pub(super) struct Leaf {
-    pub(super) name: String,
-    /// Its group, by number.
-    pub(super) group: usize,
-    /// The file or the plan, as named.
-    pub(super) given: String,
-    pub(super) nodes: usize,
-    pub(super) edges: usize,
-    pub(super) areoles: usize,
-    pub(super) area_mm2: Option<f64>,
-    /// A row for each measure that is compared.
-    pub(super) rows: Vec<Row>,
-    pub(super) samples: Vec<Values>,
-    /// What a person should know of it.
-    pub(super) remarks: Vec<String>,
-    /// Margins and veins, if it is drawn.
-    pub(super) shown: Option<Shown>,
-}
-
-/// All single values of a kind.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Values {
-    pub(super) kind: &'static str,
-    pub(super) unit: &'static str,
-    /// They ascend.
-    pub(super) numbers: Vec<f64>,
-}
-
-/// What is drawn of a leaf.
-#[derive(Clone, Debug)]
-pub(super) struct Shown {
-    pub(super) outlines: Vec<Outline>,
-    pub(super) network: VenationNetwork,
-    pub(super) known: Known,
-}
+use crate::comparison::leaves::{LEFT_OUT, Leaf, Shown, by_kind};
+use crate::report::measures::{by_order, measured};
 
 /// A leaf that is read, or that is to be grown.
 enum Ready {
@@ -157,7 +109,7 @@ fn leaf(
     };
     let (blade, known) = (Blade::of(&shown.outlines, area), shown.known);
     let subject = Subject::new(blade, &shown.network, known);
-    let (measures, _, _) = measured(&subject, measuring, [false, false]);
+    let (measures, _, _) = measured(&subject, measuring.wanted([false, false]));
     let rows = measures.rows().into_iter().chain(by_order(&subject, known));
     let rows: Vec<Row> = rows.filter(|row| !LEFT_OUT.contains(&row.key)).collect();
     let mut leaf = Leaf {
@@ -175,38 +127,4 @@ fn leaf(
     };
     leaf.shown = is_drawn.then_some(shown);
     Ok(leaf)
-}
-
-/// The values of each kind, ascending; kinds in the order of their first value.
-fn by_kind(samples: &[Sample]) -> Vec<Values> {
-    let mut kinds: Vec<Values> = Vec::new();
-    for sample in samples.iter().filter(|sample| sample.value.is_finite()) {
-        let place = kinds.iter().position(|known| known.kind == sample.kind);
-        let place = place.unwrap_or_else(|| {
-            kinds.push(Values {
-                kind: sample.kind,
-                unit: sample.unit,
-                numbers: Vec::new(),
-            });
-            kinds.len() - 1
-        });
-        // Adding 0 turns a negative zero into zero.
-        kinds[place].numbers.push(sample.value + 0.0);
-    }
-    for kind in &mut kinds {
-        kind.numbers.sort_unstable_by(f64::total_cmp);
-    }
-    kinds
-}
-
-/// Pairs of leaves whose measures and single values are all the same.
-pub(super) fn same(leaves: &[Leaf]) -> Vec<[usize; 2]> {
-    let mut pairs = Vec::new();
-    for (number, leaf) in leaves.iter().enumerate() {
-        let is_same = |other: &&Leaf| other.rows == leaf.rows && other.samples == leaf.samples;
-        if let Some(earlier) = leaves[..number].iter().position(|other| is_same(&other)) {
-            pairs.push([earlier, number]);
-        }
-    }
-    pairs
 }

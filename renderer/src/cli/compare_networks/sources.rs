@@ -3,15 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use leafmodel::document::nearest::nearest;
 use leafmodel::document::rows::{Ragged, Rows};
 use leafmodel::document::source::quoted;
 
-use crate::cli::Failure;
 use crate::cli::arguments::{CompareNetworksArguments, ReadingArguments, file_and_leaf};
 use crate::cli::grow::is_word;
-use crate::cli::measure::has_ending;
+use crate::cli::places::has_ending;
 use crate::cli::texts::text_of;
+use crate::cli::{Failure, did_you_mean};
 
 /// The columns of a table of leaves, besides those that say how a file is read.
 const COLUMNS: [&str; 3] = ["file", "group", "name"];
@@ -298,8 +297,7 @@ fn check_header(header: &[&str]) -> Result<(), String> {
     for (number, &column) in header.iter().enumerate() {
         let known = || COLUMNS.into_iter().chain(ReadingArguments::COLUMNS);
         if !known().any(|known| known == column) {
-            let meant = nearest(column, known())
-                .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            let meant = did_you_mean(column, known());
             return Err(format!(
                 "there is no column `{}`{meant} ({})",
                 quoted(column),

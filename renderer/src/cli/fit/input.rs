@@ -12,6 +12,7 @@ use crate::measured::known::Known;
 use crate::measured::series::{self, Series};
 use crate::measured::spectra::{self, Leaf};
 use crate::measured::units;
+use crate::report::fit::shown;
 
 /// The files that are read, at least one.
 pub(super) fn files(arguments: &FitArguments) -> Vec<PathBuf> {
@@ -38,7 +39,7 @@ pub(super) fn leaves(arguments: &FitArguments) -> Result<Vec<Leaf>, Failure> {
 /// All gaps in a leaf's wavelengths.
 fn gaps(leaf: &Leaf) -> Vec<String> {
     let gaps = units::gaps(&leaf.nm, units::GAP).map(|at| {
-        let (from, to, name) = (leaf.nm[at - 1], leaf.nm[at], quoted(super::shown(leaf)));
+        let (from, to, name) = (leaf.nm[at - 1], leaf.nm[at], quoted(shown(leaf)));
         format!("{name}: nothing between {from} and {to} nm, which fits do not need")
     });
     gaps.collect()

@@ -2,15 +2,14 @@
 
 use std::path::Path;
 
-use leafmodel::document::nearest::nearest;
 use leafmodel::document::source::quoted;
 use leafmodel::inference::{Observation, Role};
 use leafmodel::measure::fitting::{FITTED, HELD_OUT, possible};
 use serde_json::{Map, Value};
 
-use crate::cli::Failure;
 use crate::cli::arguments::FitVeinsArguments;
 use crate::cli::texts::bytes_of;
+use crate::cli::{Failure, did_you_mean};
 
 /// Most bytes of a file of measures; those of a leaf have a few thousand.
 const MOST_BYTES: u64 = 1 << 24;
@@ -78,8 +77,7 @@ impl Observed {
         let possible = possible();
         for key in keys {
             if !possible.contains(&key.as_str()) {
-                let meant = nearest(key, possible.iter().copied())
-                    .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                let meant = did_you_mean(key, possible.iter().copied());
                 return Err(format!(
                     "`{}` is no number that is measured of leaves that grow{meant}\n  These can be \
                      fitted or held out: {}",

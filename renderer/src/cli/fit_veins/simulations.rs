@@ -7,20 +7,20 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
 
-use csv::Writer;
 use leafmodel::document::rows::{Decimal, Form, Rows, Separator};
 use leafmodel::document::whole_file;
 use leafmodel::inference::{Draw, Outcome, Problem};
 use rayon::prelude::*;
+use serde_json::Value;
 
 use super::free::Grower;
+use crate::checkpoint::PROGRAM;
 use crate::cli::Failure;
+use crate::cli::places::write_whole;
+use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
-
-/// Time between two lines about the progress, and between two writings of the table.
-const BETWEEN: Duration = Duration::from_secs(10);
+use crate::report::table::{Table, cell};
 
 /// Simulations by generation and number.
 type Grown = BTreeMap<(u32, u32), (Draw, Outcome)>;
@@ -33,6 +33,8 @@ pub(super) struct Simulations<'p> {
     identity: String,
     problem: &'p Problem,
     known: Mutex<Known>,
+    /// Of lines about the progress, and of writings of the table.
+    clock: Clock,
 }
 
 #[derive(Debug)]
@@ -40,14 +42,11 @@ struct Known {
     grown: Grown,
     /// How many were there when the fit began.
     before: usize,
-    began: Instant,
-    saved: Instant,
 }
 
 impl<'p> Simulations<'p> {
     /// Reads the table at `path` if there is one.
     pub(super) fn open(path: &Path, identity: u64, problem: &'p Problem) -> Result<Self, Failure> {
-        let now = Instant::now();
         let identity = format!("{identity:016x}");
         let grown = read(path, &identity, problem)?;
         let before = grown.len();
@@ -61,12 +60,8 @@ impl<'p> Simulations<'p> {
             path: path.to_owned(),
             identity,
             problem,
-            known: Mutex::new(Known {
-                grown,
-                before,
-                began: now,
-                saved: now,
-            }),
+            known: Mutex::new(Known { grown, before }),
+            clock: Clock::new(),
         })
     }
 
@@ -103,18 +98,15 @@ impl<'p> Simulations<'p> {
         known
             .grown
             .insert(place(draw), (draw.clone(), outcome.clone()));
-        if known.saved.elapsed() < BETWEEN && !signals.save.swap(false, Ordering::Relaxed) {
+        if !self.clock.is_due() && !signals.save.swap(false, Ordering::Relaxed) {
             return;
         }
-        known.saved = Instant::now();
         let (done, all) = (known.grown.len(), self.problem.simulations());
-        let each = known.began.elapsed().as_secs_f64() / (done - known.before) as f64;
+        let each = self.clock.seconds() / (done - known.before) as f64;
         let left = each * all.saturating_sub(done) as f64;
         eprintln!("{done} of {all} leaves, about {left:.0} s to go");
         // The last writing, when all is done, tells what is wrong.
-        if let Ok(bytes) = self.table(&known.grown) {
-            let _ = super::write(&self.path, &bytes);
-        }
+        let _ = write_whole(&self.path, self.table(&known.grown));
     }
 
     fn known(&self) -> MutexGuard<'_, Known> {
@@ -124,28 +116,21 @@ impl<'p> Simulations<'p> {
     /// Writes the table.
     pub(super) fn save(&self) -> Result<(), Failure> {
         let known = self.known();
-        super::write(&self.path, &self.table(&known.grown)?)
+        write_whole(&self.path, self.table(&known.grown))
     }
 
-    fn table(&self, grown: &Grown) -> Result<Vec<u8>, Failure> {
-        let mut table = Writer::from_writer(Vec::new());
-        let unwritten = |error: csv::Error| Failure::system(error);
-        table
-            .write_record(header(self.problem))
-            .map_err(unwritten)?;
+    fn table(&self, grown: &Grown) -> String {
+        let mut table = Table::new(header(self.problem));
+        // All digits, and a point.
+        let exact = |value: &f64| format!("{value:?}");
         for (draw, outcome) in grown.values() {
-            let mut cells = vec![
-                self.identity.clone(),
-                draw.generation.to_string(),
-                draw.number.to_string(),
-                draw.seed.to_string(),
-            ];
-            cells.extend(draw.values.iter().map(|value| format!("{value:?}")));
+            let numbers = [draw.generation.into(), draw.number.into(), draw.seed];
+            let mut cells = vec![self.identity.clone()];
+            cells.extend(numbers.map(|number: u64| number.to_string()));
+            cells.extend(draw.values.iter().map(exact));
             match outcome {
                 Ok(measures) => {
-                    let text =
-                        |value: &Option<f64>| value.map_or_else(String::new, |v| format!("{v:?}"));
-                    cells.extend(measures.iter().map(text));
+                    cells.extend(measures.iter().map(|value| cell(value.as_ref().map(exact))));
                     cells.push(String::new());
                 }
                 Err(problem) => {
@@ -153,9 +138,9 @@ impl<'p> Simulations<'p> {
                     cells.push(problem.clone());
                 }
             }
-            table.write_record(&cells).map_err(unwritten)?;
+            table.row(cells);
         }
-        table.into_inner().map_err(Failure::system)
+        table.text()
     }
 }
 
@@ -181,11 +166,21 @@ fn read(path: &Path, identity: &str, problem: &Problem) -> Result<Grown, Failure
         Err(error) => return Err(Failure::system(format!("{}: {error}", path.display()))),
     };
     let foreign = || {
-        Failure::bad(format!(
-            "{} is of another fit: of another leaf, other measures, ranges, a seed, a number of \
-             simulations or a version of its own; name another folder by --out",
-            path.display()
-        ))
+        // What a fit that came to its end has written beside its table.
+        let report = std::fs::read(path.with_file_name("fit.json")).ok();
+        let report = report.and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
+        let version = report.and_then(|report| Some(report["program"].as_str()?.to_owned()));
+        let path = path.display();
+        Failure::bad(match version.filter(|version| version != PROGRAM) {
+            Some(version) => format!(
+                "{path} was written by Lamina {version}: continue the fit with that version, or name \
+                 another folder by --out"
+            ),
+            None => format!(
+                "{path} is of another fit: of another leaf, other measures, ranges, a seed, a number of \
+                 simulations or a version of its own; name another folder by --out"
+            ),
+        })
     };
     let form = Form {
         separator: Some(Separator::Comma),

@@ -1,14 +1,13 @@
 //! The description of a preset and the sources of its numbers.
 
 use leafmodel::species;
-use leafmodel::species::colours::{ColouredLeaf, coloured};
 use leafmodel::species::diagnosis::Finding;
-use leafmodel::species::leaf_traits::{LeafTraits, Provenance, Quantity, traits};
+use leafmodel::species::traits::{Provenance, Quantity, Traits};
 
 use super::choice::{is_word, unknown_preset};
 use crate::cli::arguments::file_and_leaf;
-use crate::cli::columns::in_columns;
 use crate::cli::{Failure, say};
+use crate::report::table::in_columns;
 
 /// Prints a preset's description and, if it stands for a species, the table of its traits.
 pub(super) fn tell(name: &str) -> Result<(), Failure> {
@@ -24,13 +23,10 @@ pub(super) fn tell(name: &str) -> Result<(), Failure> {
         }
     })?;
     say(preset.name);
-    say(format!("  {}", preset.about));
-    say(format!("  source: {}", preset.source));
-    if let Some(traits) = traits(preset.name) {
-        say(table(traits.species, green(traits)));
-    }
-    if let Some(leaf) = coloured(preset.name) {
-        say(table(leaf.species, in_colour(leaf)));
+    say(format!("  {}", preset.about()));
+    say(format!("  source: {}", preset.source()));
+    if let Some(traits) = preset.traits() {
+        say(table(traits));
     }
     Ok(())
 }
@@ -38,39 +34,30 @@ pub(super) fn tell(name: &str) -> Result<(), Failure> {
 /// Trait, value, range, provenance.
 type Row = [String; 4];
 
-fn row(name: &str, unit: &str, q: Quantity) -> Row {
-    let value = with_unit(&number(q.value), unit);
-    [name.to_owned(), value, range(q.range), told(q.from)]
+fn row(quantity: &Quantity) -> Row {
+    let Quantity { name, unit, .. } = quantity;
+    let value = match quantity.value {
+        Some(value) => with_unit(&number(value), unit),
+        None if unit.is_empty() => "as drawn".to_owned(),
+        None => format!("as drawn, {unit}"),
+    };
+    [
+        name.clone(),
+        value,
+        range(quantity.range),
+        told(&quantity.from),
+    ]
 }
 
-/// The traits of a leaf in summer.
-fn green(traits: &LeafTraits) -> Vec<Row> {
-    let values = traits
-        .quantities()
-        .map(|(name, unit, q)| row(name, unit, q));
-    let spans = traits.spans().map(|(name, unit, span)| {
-        let value = if unit.is_empty() {
-            "as drawn".to_owned()
-        } else {
-            format!("as drawn, {unit}")
-        };
-        [name.to_owned(), value, range(span.range), told(span.from)]
-    });
-    values.into_iter().chain(spans).collect()
+/// The species, and rows with a heading: the traits of the leaf in summer, then what differs.
+fn table(traits: &Traits) -> String {
+    let heading = ["trait", "value", "range", "from"].map(str::to_owned);
+    let rows: Vec<Row> = std::iter::once(heading).chain(rows(traits)).collect();
+    format!("  {}\n{}", traits.species, in_columns(&rows))
 }
 
-/// The traits of the green leaf, then what differs.
-fn in_colour(leaf: &ColouredLeaf) -> Vec<Row> {
-    let mut rows = green(leaf.green);
-    let quantities = leaf.quantities().into_iter();
-    rows.extend(quantities.map(|(name, unit, q)| row(&name, unit, q)));
-    rows
-}
-
-/// The species, and rows with a heading.
-fn table(species: &str, mut rows: Vec<Row>) -> String {
-    rows.insert(0, ["trait", "value", "range", "from"].map(str::to_owned));
-    format!("  {species}\n{}", in_columns(&rows))
+fn rows(traits: &Traits) -> impl Iterator<Item = Row> {
+    traits.summer.iter().chain(&traits.differs).map(row)
 }
 
 /// What was found on a grown leaf beside what is known of its species.
@@ -82,7 +69,7 @@ pub(super) fn findings_table(found: &[Finding]) -> String {
             with_unit(&number(finding.found), finding.unit),
             range(finding.range),
             verdict.to_owned(),
-            told(finding.from),
+            told(&finding.from),
         ]
     };
     let heading = ["trait", "found", "range", "", "from"].map(str::to_owned);
@@ -92,7 +79,7 @@ pub(super) fn findings_table(found: &[Finding]) -> String {
     in_columns(&rows)
 }
 
-fn told(from: Provenance) -> String {
+fn told(from: &Provenance) -> String {
     format!("{}: {}", from.word(), from.words())
 }
 
@@ -123,9 +110,14 @@ fn number(value: f64) -> String {
 mod tests {
     use super::*;
 
+    fn traits(name: &str) -> &'static Traits {
+        let preset = species::find(name).expect("a preset");
+        preset.traits().expect("a species")
+    }
+
     #[test]
     fn a_table_tells_value_range_and_source_of_each_trait() {
-        let text = table("", green(traits("ginkgo").expect("a species")));
+        let text = table(traits("ginkgo"));
         let chlorophyll = text
             .lines()
             .find(|line| line.trim_start().starts_with("chlorophyll"));
@@ -142,7 +134,7 @@ mod tests {
 
     #[test]
     fn a_leaf_in_colour_tells_of_its_green_before_what_differs() {
-        let rows = in_colour(coloured("birch-autumn").expect("a leaf"));
+        let rows: Vec<Row> = rows(traits("birch-autumn")).collect();
         let at = |name: &str| rows.iter().position(|row| row[0] == name);
         let (green, turned) = (at("chlorophyll"), at("turned: chlorophyll"));
         assert!(green.expect("it has a row") < turned.expect("it has a row"));

@@ -8,7 +8,6 @@ use leafmodel::blade::contents_map::ContentsMap;
 use leafmodel::blade::senescence::Senescence;
 use leafmodel::leaf::{Lamina, LeafError, LeafPlan};
 
-use super::colours::in_daylight;
 use super::drawings::{has_caption, png};
 use super::films::Films;
 use super::maps;
@@ -16,6 +15,7 @@ use super::outputs::{Kind, Outputs, numbered};
 use crate::cli::Failure;
 use crate::cli::arguments::CaptionedKinds;
 use crate::export::caption::{Note, captioned};
+use crate::export::daylight::in_daylight;
 use crate::export::drawing::Drawing;
 
 /// Refuses plans of leaves that do not age by days.

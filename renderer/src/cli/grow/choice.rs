@@ -97,7 +97,7 @@ pub(in crate::cli) fn is_word(wanted: &str) -> bool {
 
 pub(in crate::cli) fn unknown_preset(wanted: &str) -> Failure {
     let presets = species::PRESETS.iter();
-    let meant = meant(wanted, presets.map(|preset| (preset.name, preset.about)));
+    let meant = meant(wanted, presets.map(|preset| (preset.name, preset.about())));
     let meant = meant.map_or_else(String::new, |name| format!("; did you mean `{name}`?"));
     Failure::bad(format!(
         "there is neither a preset nor a file `{}`{meant} (`lamina grow --list` names the presets)",

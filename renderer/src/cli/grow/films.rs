@@ -116,7 +116,7 @@ impl Films {
                 }
             }
         }
-        self.drawn.tell(frames.len());
+        self.drawn.add(frames.len());
         Ok(())
     }
 
@@ -240,25 +240,26 @@ impl Encoding {
             }
             self.send(&last)?;
         }
-        drop(self.child.stdin.take());
-        let mut said = String::new();
-        if let Some(mut pipe) = self.child.stderr.take() {
-            let _ = pipe.read_to_string(&mut said);
-        }
+        let failure = self.failure();
         let status = self.child.wait().map_err(Failure::system)?;
         if !status.success() {
-            return Err(failed(&said));
+            return Err(failure);
         }
         std::fs::read(self.file.path()).map_err(Failure::system)
     }
 
+    /// Why it has failed, if it has: waits until it has nothing more to say.
     fn failure(&mut self) -> Failure {
         drop(self.child.stdin.take());
         let mut said = String::new();
         if let Some(mut pipe) = self.child.stderr.take() {
             let _ = pipe.read_to_string(&mut said);
         }
-        failed(&said)
+        let why = match said.trim() {
+            "" => "it does not say why",
+            said => said,
+        };
+        Failure::system(format!("{ENCODER} failed: {why}"))
     }
 }
 
@@ -268,14 +269,4 @@ impl Drop for Encoding {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
-}
-
-fn failed(said: &str) -> Failure {
-    let said = said.trim();
-    let why = if said.is_empty() {
-        "it does not say why"
-    } else {
-        said
-    };
-    Failure::system(format!("{ENCODER} failed: {why}"))
 }

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::drawings::Look;
 use super::films::Films;
 use super::outputs::{Kind, Outputs, numbered};
+use crate::cli::places::write_whole;
 use crate::cli::{Failure, say};
 use crate::export::drawing::{Drawing, Subject};
 
@@ -134,7 +135,7 @@ pub(super) fn write(
                     return Err(Failure::Interrupted);
                 }
                 let path = numbered(path, index * group + number + 1);
-                super::write(&path, &file?)?;
+                write_whole(&path, file?)?;
                 say(path.display());
             }
         }

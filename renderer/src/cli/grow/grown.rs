@@ -6,9 +6,9 @@ use leafmodel::compound::{CompoundLeaf, FlatLeaf, WholeLeaf, leaflet_plans};
 use leafmodel::leaf::{Lamina, Leaf, LeafError, LeafPlan};
 use leafmodel::venation::VenationError;
 
-use super::blade_files::Parts;
-use super::warnings;
 use crate::cli::Failure;
+use crate::export::blade::Parts;
+use crate::report::warnings;
 
 /// The parts of a leaf that the outputs need.
 pub(super) enum Grown {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::arguments::{CaptionedKinds, GrowArguments, VeinColour};
+use crate::cli::places::{check_outputs, require_ending};
 use crate::cli::{Failure, check_writable};
 
 /// The kind of a file, by its ending.
@@ -112,22 +113,9 @@ impl Outputs {
         }
         let reports = [&arguments.measure, &arguments.stats, &arguments.fields];
         let reports = reports.into_iter().flatten();
-        if let Some(path) = &arguments.fields
-            && path.extension().is_none_or(|ending| ending != "exr")
-        {
-            let path = path.display();
-            return Err(Failure::bad(format!(
-                "{path}: --fields writes a texture with float channels: let its name end in .exr"
-            )));
-        }
-        let mut seen: Vec<&PathBuf> = Vec::new();
-        for path in arguments.out.iter().chain(reports) {
-            if seen.contains(&path) {
-                return Err(Failure::written_twice(path));
-            }
-            check_writable(path)?;
-            seen.push(path);
-        }
+        let what = "--fields writes a texture with float channels";
+        require_ending(&arguments.fields, "exr", what)?;
+        check_outputs(arguments.out.iter().chain(reports), &[], "the command")?;
         if let Some(folder) = &arguments.contents {
             check_folder(folder)?;
         }

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::cli::Failure;
 use crate::cli::arguments::OpticsArguments;
-use crate::cli::columns::in_columns;
+use crate::report::table::in_columns;
 use leafmodel::document::nearest::meant;
 
 /// The default leaf.

@@ -18,6 +18,7 @@ use super::leaf::{self, Chosen};
 use super::warn_of_mixtures;
 use crate::cli::arguments::OpticsArguments;
 use crate::cli::places::check_outputs;
+use crate::cli::places::require_ending;
 use crate::cli::texts::text_of;
 use crate::cli::{Failure, note, note_output, say};
 use crate::image::atomic;
@@ -42,9 +43,9 @@ pub(super) fn run(arguments: &OpticsArguments, table: &Path, out: &Path) -> Resu
     let is_array = out.extension().is_some_and(|ending| ending == "npy");
     if !is_stdout {
         if !is_array {
-            super::check_ending(out, "csv", "--table writes .npy or a table")?;
+            require_ending([out], "csv", "--table writes .npy or a table")?;
         }
-        check_outputs(&[out], &[table.to_owned()], "the command")?;
+        check_outputs([out], &[table.to_owned()], "the command")?;
     }
     let text = text_of(table)?;
     let leaves = read(

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::Traced;
-use crate::cli::stats;
+use crate::cli::needs;
 use crate::integrator::render::{Ended, Rendered};
 
 /// Times of a render, seconds.
@@ -39,7 +39,7 @@ pub(super) fn report(traced: &Traced<'_>, rendered: &Rendered, times: &Times) ->
         "seconds": times.all,
         "build_seconds": times.build,
         "trace_seconds": times.trace,
-        "peak_mib": stats::peak_mib(),
+        "peak_mib": needs::peak_mib(),
         "geometry_mib": world.geometry.memory_bytes() as f64 / f64::from(1 << 20),
         "threads": rayon::current_num_threads(),
         "spp": film.drawn() as f64 / pixels,

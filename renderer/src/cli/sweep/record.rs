@@ -1,23 +1,29 @@
 //! Records of tasks that are done: which files they have made, and what is in them in numbers.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use serde_json::{Map, Value, json};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::tasks::hexadecimal;
 use crate::checkpoint::PROGRAM;
+use crate::cli::Failure;
+use crate::cli::places::{has_ending, write_whole};
 use crate::image::{Layer, openexr};
 use crate::sweep::{Sweep, Target, Task};
 
 /// What a task has made.
-#[derive(Debug)]
+#[derive(Debug, Deserialize, Serialize)]
 pub(super) struct Record {
-    identity: u64,
+    /// The version that has done it.
+    program: String,
+    id: String,
     /// Names of its files, in the folder of the record; the one to look at last.
     pub(super) files: Vec<String>,
     /// Numbers, by name.
-    pub(super) outputs: Vec<(String, f64)>,
+    pub(super) outputs: BTreeMap<String, f64>,
     settings: Vec<String>,
 }
 
@@ -74,37 +80,25 @@ impl Record {
                 let text = text.map_err(|error| format!("{}: {error}", path.display()))?;
                 let measures: Value = serde_json::from_str(&text)
                     .map_err(|error| format!("{}: {error}", path.display()))?;
-                let mut numbers = Vec::new();
+                let mut numbers = BTreeMap::new();
                 flatten(&measures, "", &mut numbers);
                 numbers
             }
         };
         Ok(Self {
-            identity,
+            program: PROGRAM.to_owned(),
+            id: hexadecimal(identity),
             files,
             outputs,
             settings: task.overrides().collect(),
         })
     }
 
-    fn name(identity: u64) -> String {
-        format!("{}.json", hexadecimal(identity))
-    }
-
     pub(super) fn write(&self, folder: &Path) -> Result<(), String> {
-        let outputs = self.outputs.iter();
-        let outputs: Map<String, Value> = outputs
-            .map(|(name, number)| (name.clone(), json!(number)))
-            .collect();
-        let record = json!({
-            "program": PROGRAM,
-            "id": hexadecimal(self.identity),
-            "settings": self.settings,
-            "files": self.files,
-            "outputs": outputs,
-        });
-        let text = format!("{record:#}\n");
-        super::write(&folder.join(Self::name(self.identity)), text.as_bytes())
+        // Members in alphabetical order.
+        let text = serde_json::to_value(self).map(|record| format!("{record:#}\n"));
+        let text = text.map_err(|error| error.to_string())?;
+        write_whole(&folder.join(format!("{}.json", self.id)), text)
             .map_err(|_| "the record cannot be written".to_owned())
     }
 
@@ -115,33 +109,43 @@ impl Record {
 
     /// The record of a task; `None` if it is not done. A damaged one counts as none.
     pub(super) fn read(folder: &Path, identity: u64) -> Result<Option<Self>, String> {
-        let path = folder.join(Self::name(identity));
+        let id = hexadecimal(identity);
+        let path = folder.join(format!("{id}.json"));
         let text = match fs::read_to_string(&path) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(format!("{}: {error}", path.display())),
         };
-        let Ok(told) = serde_json::from_str::<Value>(&text) else {
-            return Ok(None);
-        };
-        let texts = |key: &str| -> Vec<String> {
-            let list = told[key].as_array().into_iter().flatten();
-            list.filter_map(|text| Some(text.as_str()?.to_owned()))
-                .collect()
-        };
-        let files = texts("files");
-        let are_there = !files.is_empty() && files.iter().all(|file| folder.join(file).is_file());
-        let is_ours = told["id"].as_str() == Some(&hexadecimal(identity));
-        let outputs = told["outputs"].as_object().into_iter().flatten();
-        let record = Self {
-            identity,
-            files,
-            outputs: outputs
-                .filter_map(|(name, number)| Some((name.clone(), number.as_f64()?)))
-                .collect(),
-            settings: texts("settings"),
-        };
-        Ok((are_there && is_ours).then_some(record))
+        let record = serde_json::from_str::<Self>(&text).ok();
+        Ok(record.filter(|record| {
+            let mut files = record.files.iter();
+            record.id == id
+                && !record.files.is_empty()
+                && files.all(|file| folder.join(file).is_file())
+        }))
+    }
+}
+
+/// Fails if another version has done tasks in this folder: it would do all of them again.
+pub(super) fn check_version(folder: &Path) -> Result<(), Failure> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let records = entries.filter_map(|entry| {
+        let path = entry.path();
+        // Records are called by their identities.
+        let is_record = path.file_stem()?.len() == 16 && has_ending(&path, "json");
+        let text = is_record.then(|| fs::read_to_string(path).ok())??;
+        serde_json::from_str::<Record>(&text).ok()
+    });
+    match records
+        .map(|record| record.program)
+        .find(|by| by != PROGRAM)
+    {
+        None => Ok(()),
+        Some(version) => Err(Failure::bad(format!(
+            "{}: its tasks were done by Lamina {version}: continue the sweep with that version, or \
+             name another folder by --out",
+            folder.display()
+        ))),
     }
 }
 
@@ -170,7 +174,7 @@ fn mean(layer: &Layer) -> Option<(String, f64)> {
 }
 
 /// The numbers of an object by their paths; lists are left out.
-fn flatten(value: &Value, before: &str, numbers: &mut Vec<(String, f64)>) {
+fn flatten(value: &Value, before: &str, numbers: &mut BTreeMap<String, f64>) {
     match value {
         Value::Object(object) => {
             for (key, inner) in object {
@@ -219,9 +223,10 @@ mod tests {
     fn a_damaged_record_or_one_without_its_files_is_none() {
         let folder = tempfile::tempdir().expect("a folder");
         let record = Record {
-            identity: 7,
+            program: "0.0.9".to_owned(),
+            id: hexadecimal(7),
             files: vec!["a.exr".to_owned()],
-            outputs: vec![("mean.R".to_owned(), 0.1)],
+            outputs: [("mean.R".to_owned(), 0.1)].into(),
             settings: vec!["x=1".to_owned()],
         };
         record
@@ -234,8 +239,16 @@ mod tests {
             .expect("it is done");
         assert_eq!(read.outputs, record.outputs);
         assert!(!Record::is_there(folder.path(), 8));
-        let path = folder.path().join(Record::name(7));
+        let Err(Failure::BadInput(message)) = check_version(folder.path()) else {
+            panic!("another version has done the task");
+        };
+        assert!(
+            message.contains("were done by Lamina 0.0.9: continue"),
+            "{message}"
+        );
+        let path = folder.path().join(format!("{}.json", record.id));
         fs::write(path, b"{ \"id\"").expect("the folder can be written");
         assert!(!Record::is_there(folder.path(), 7));
+        assert!(check_version(folder.path()).is_ok());
     }
 }

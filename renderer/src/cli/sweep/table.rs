@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use csv::Writer;
-
 use super::list::{plain, value};
 use super::record::Record;
 use super::tasks::hexadecimal;
 use crate::checkpoint::PROGRAM;
 use crate::cli::Failure;
+use crate::cli::places::write_whole;
+use crate::report::table::{Table, cell};
 use crate::sweep::{Sweep, Task};
 
 /// Whether a task is done.
@@ -38,7 +38,6 @@ pub(super) fn write(path: &Path, sweep: &Sweep, rows: &[Row<'_>]) -> Result<(), 
             names.push(name);
         }
     }
-    let mut table = Writer::from_writer(Vec::new());
     let mut header = vec!["task", "id", "state", "program"];
     header.extend(sweep.keys().map(|key| key.path.as_str()));
     if sweep.has_seeds() {
@@ -46,8 +45,7 @@ pub(super) fn write(path: &Path, sweep: &Sweep, rows: &[Row<'_>]) -> Result<(), 
     }
     header.push("file");
     header.extend(&names);
-    let unwritten = |error: csv::Error| Failure::system(error);
-    table.write_record(&header).map_err(unwritten)?;
+    let mut table = Table::new(header);
     for row in rows {
         let state = match row.state {
             State::Done => "done",
@@ -66,13 +64,9 @@ pub(super) fn write(path: &Path, sweep: &Sweep, rows: &[Row<'_>]) -> Result<(), 
         let record = row.record.as_ref();
         let file = record.and_then(|record| record.files.last());
         cells.push(file.map_or_else(String::new, |file| format!("tasks/{file}")));
-        for name in &names {
-            let outputs = record.into_iter().flat_map(|record| &record.outputs);
-            let found = outputs.into_iter().find(|(known, _)| known == name);
-            cells.push(found.map_or_else(String::new, |(_, number)| format!("{number}")));
-        }
-        table.write_record(&cells).map_err(unwritten)?;
+        let number = |name: &&str| record.and_then(|record| record.outputs.get(*name));
+        cells.extend(names.iter().map(|name| cell(number(name))));
+        table.row(cells);
     }
-    let bytes = table.into_inner().map_err(Failure::system)?;
-    super::write(path, &bytes)
+    write_whole(path, table.text())
 }

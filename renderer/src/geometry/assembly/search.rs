@@ -16,6 +16,22 @@ use super::triangle_tree::TriangleTree;
 use super::{Geometry, Hit};
 use crate::simd::{self, Eight, LANES, Level, Sixteen, Task};
 
+impl Geometry {
+    /// The nearest hit with `t_min ≤ t ≤ t_max`; of equal distances the smaller (instance,
+    /// triangle).
+    ///
+    /// `None` also for a ray that is not finite or has no direction.
+    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        self.level.run(Search::<NearestHit>::new(self, ray))
+    }
+
+    /// Whether anything is hit with `t_min ≤ t ≤ t_max`, that is, whether [`Geometry::intersect`]
+    /// finds a hit.
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        self.level.run(Search::<AnyHit>::new(self, ray))
+    }
+}
+
 /// What a search is for.
 pub(super) trait Found: Default {
     /// The result.

@@ -1,8 +1,8 @@
 use glam::{Vec2, Vec3};
 
 use super::super::mesh::MeshError;
-use super::super::scramble::scramble;
 use super::{ImportError, import};
+use crate::sampling::mixer::scramble;
 
 const SQUARE: &str = "ply
 format ascii 1.0

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec2, DVec3};
 use leafmodel::rest::{Contact, support};
 
 use super::body::Body;
-use super::{NoPlace, ScatterError};
+use super::place::{NoPlace, ScatterError, from_z};
 
 /// Cells along the radius of the smallest body.
 const CELLS_PER_RADIUS: f64 = 100.0;
@@ -280,7 +280,7 @@ impl Pile {
                 (is_fine, share) = (true, 1.0);
                 continue;
             }
-            posture = super::from_z((-slope).extend(1.0).normalize()) * posture;
+            posture = from_z((-slope).extend(1.0).normalize()) * posture;
             is_fine |= 2 * turns > TURNS;
         }
         if steep > UNSTEADY || steepness > FRICTION {

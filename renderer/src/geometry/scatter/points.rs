@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DAffine3, DVec2, DVec3};
 
-use super::ScatterError;
+use super::place::ScatterError;
 use crate::geometry::TriangleMesh;
 
 /// Most triangles of a surface, in all its places (2.9 GB).

@@ -5,8 +5,9 @@ use glam::{DAffine3, DMat3, DVec3};
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-use super::{Inclination, Most, Strewn, from_z};
-use crate::geometry::scramble::scramble;
+use super::inclination::Inclination;
+use super::place::{Most, Strewn, from_z};
+use crate::sampling::mixer;
 
 /// How many leaves float in a box, and how they are inclined.
 #[derive(Clone, Debug, PartialEq)]
@@ -190,8 +191,7 @@ impl Volume {
 
     /// A number in [0, 1) for each use of each leaf.
     fn random(&self, number: u64, what: Use) -> f64 {
-        let bits = scramble(scramble(self.seed ^ scramble(number)) ^ what as u64);
-        (bits >> 11) as f64 / (1_u64 << 53) as f64
+        mixer::of_use(self.seed, number, what as u64)
     }
 }
 

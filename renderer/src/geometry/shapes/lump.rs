@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::globe::globe;
-use super::random;
 use crate::geometry::{MeshError, TriangleMesh};
+use crate::sampling::mixer::random;
 
 /// A stone between rounded and broken: the surface Σ (max(nᵢ · p, 0) / hᵢ)ᵏ = 1 for planes with
 /// random normals nᵢ and distances hᵢ. A large k leaves flat faces and sharp edges.

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3, Vec2};
 use rayon::prelude::*;
 
-use super::random;
 use crate::geometry::{MeshError, TriangleMesh};
+use crate::sampling::mixer::random;
 
 /// A wall in stretcher bond that stands on z = 0 and faces +x: bricks with rounded and chipped edges
 /// whose faces lie at x = 0 or near, and the mortar between them, which lies back.

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use glam::{DVec2, Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::random;
 use crate::geometry::{MeshError, TriangleMesh};
+use crate::sampling::mixer::random;
 
 /// A rectangle around the origin whose height is a sum of waves with random directions and phases.
 /// A wave of length λ has an amplitude ∝ λ^H, with H the roughness exponent (Hurst): a profile of

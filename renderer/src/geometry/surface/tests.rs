@@ -11,9 +11,7 @@ fn points(seed: u64, geometry: &Geometry, count: usize) -> Vec<super::SurfacePoi
     (0..count)
         .filter_map(|_| {
             let ray = ray_through(&mut numbers, geometry);
-            geometry
-                .intersect(&ray)
-                .map(|hit| geometry.surface(&ray, &hit))
+            geometry.intersect(&ray).map(|hit| geometry.surface(&hit))
         })
         .collect()
 }
@@ -63,7 +61,7 @@ proptest! {
             let ray = Ray::new(below, above - below);
             let hit = geometry.intersect(&ray).expect("the ray crosses both sheets");
             prop_assert_eq!(hit.instance, 0);
-            let point = geometry.surface(&ray, &hit);
+            let point = geometry.surface(&hit);
             prop_assert!(point.position_error < 1e-6, "error {}", point.position_error);
             let lift = turn.transform_vector3(Vec3::Z);
             let normal = point.geometric_normal * point.geometric_normal.dot(lift).signum();
@@ -84,7 +82,7 @@ proptest! {
         for _ in 0..40 {
             let ray = ray_through(&mut numbers, &geometry);
             let Some(hit) = geometry.intersect(&ray) else { continue };
-            let point = geometry.surface(&ray, &hit);
+            let point = geometry.surface(&hit);
             for unit in [point.geometric_normal, point.shading_normal, point.tangent] {
                 prop_assert!((unit.length() - 1.0).abs() < 1e-6, "{unit}");
             }
@@ -111,7 +109,7 @@ fn seen(mesh: TriangleMesh, to_world: Affine3A) -> super::SurfacePoint {
     let hit = geometry
         .intersect(&ray)
         .expect("the ray points at the triangle");
-    geometry.surface(&ray, &hit)
+    geometry.surface(&hit)
 }
 
 #[test]
@@ -231,11 +229,11 @@ fn a_ray_to_a_target_stops_short_of_it() {
     let near = geometry
         .intersect(&ray)
         .expect("the lower blade is in the way");
-    let point = geometry.surface(&ray, &near);
+    let point = geometry.surface(&near);
     let far = geometry
         .intersect(&point.spawn(Vec3::Z))
         .expect("the upper blade is above");
-    let target = geometry.surface(&point.spawn(Vec3::Z), &far).position;
+    let target = geometry.surface(&far).position;
     assert!(
         !geometry.occluded(&point.spawn_to(target)),
         "the target hides itself"

@@ -12,13 +12,13 @@
 
 use glam::Vec3;
 
-use super::{Leg, Paths};
+use super::paths::{Leg, Paths};
 use crate::bsdf::fresnel::refracted_cosine;
 use crate::geometry::frame::Frame;
 use crate::geometry::surface::SurfacePoint;
 use crate::geometry::{Geometry, Hit};
-use crate::integrator::encounter::Encounter;
-use crate::integrator::facet::Facet;
+use crate::walk::encounter::Encounter;
+use crate::walk::facet::Facet;
 
 /// The drops in whose water a path is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -110,7 +110,7 @@ impl Film {
         }
         let mirrored = Vec3::new(-wo.x, -wo.y, wo.z);
         leg.ray = facet.spawn(facet.leaving(frame.to_world(mirrored)));
-        leg.bounce.pdf = f32::INFINITY;
+        leg.origin.pdf = f32::INFINITY;
         Err(())
     }
 
@@ -130,7 +130,7 @@ impl Film {
             leg.ray = facet.spawn(facet.leaving(frame.to_world(wi)));
         }
         leg.throughput *= 1.0 / (self.eta * self.eta);
-        leg.bounce.pdf = f32::INFINITY;
+        leg.origin.pdf = f32::INFINITY;
         drops
     }
 }
@@ -180,7 +180,7 @@ impl<const N: usize> Paths<'_, N> {
                 // The same ray goes on behind the hit.
                 leg.ray = leg.ray.starting_at(hit.t.next_up());
                 leg.ray = leg.ray.up_to(f32::INFINITY);
-                leg.bounce.pdf = f32::INFINITY;
+                leg.origin.pdf = f32::INFINITY;
                 return Err(());
             }
             return Ok(None);

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::Bounce;
+use super::paths::Bounce;
 use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
 use crate::integrator::mis;

@@ -1,12 +1,13 @@
 //! Light samples at a vertex.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
-use super::Vertex;
-use super::media::transmittance;
+use super::vertex::Vertex;
 use crate::bsdf::Scattered;
+use crate::geometry::Ray;
 use crate::integrator::mis;
 use crate::light::selection::Choice;
+use crate::medium::Inside;
 use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
@@ -113,4 +114,44 @@ fn survival<const N: usize>(added: Lanes<N>, enough: Lanes<N>) -> f32 {
         greatest = greatest.max(added / enough);
     }
     greatest
+}
+
+/// Share of light that comes straight along a ray, to a point at its end or from infinity, through
+/// media and boundaries with one index on both sides; and the number of rays traced for it.
+#[inline(never)]
+fn transmittance<const N: usize>(
+    world: &World,
+    mut ray: Ray,
+    target: Option<Vec3>,
+    mut inside: Inside,
+    wavelengths: &Wavelengths<N>,
+) -> (Lanes<N>, u32) {
+    let mut left = Lanes::ONE;
+    let mut from = 0.0;
+    let mut rays = 0;
+    loop {
+        rays += 1;
+        let hit = world.geometry.intersect(&ray);
+        if let Some(number) = inside.medium() {
+            // The direction to a point is as long as the way to it.
+            let whole = if target.is_some() { 1.0 } else { f32::INFINITY };
+            let end = hit.map_or(whole, |hit| hit.t);
+            let length = (end - from) * ray.direction().length();
+            let medium = world.media.media[number as usize].at(wavelengths);
+            left *= medium.transmittance(length);
+        }
+        let Some(hit) = hit else {
+            return (left, rays);
+        };
+        let body = world.objects[hit.instance as usize].body;
+        let Some(body) = body.filter(|body| body.is_matched && !left.is_zero()) else {
+            return (Lanes::ZERO, rays);
+        };
+        let surface = world.geometry.surface(&hit);
+        let place = world.objects.body_place(hit.instance);
+        let normal = surface.geometric_normal;
+        inside.leave_boundary(place, body, normal, ray.direction());
+        from = hit.t;
+        ray = ray.starting_at(from.next_up());
+    }
 }

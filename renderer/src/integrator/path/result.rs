@@ -2,9 +2,9 @@
 
 use glam::Vec3;
 
-use crate::integrator::encounter::Encounter;
 use crate::scene::world::World;
 use crate::spectrum::Lanes;
+use crate::walk::encounter::Encounter;
 
 /// The result of one path.
 #[derive(Clone, Copy, Debug)]

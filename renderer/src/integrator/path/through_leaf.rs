@@ -3,26 +3,23 @@
 use glam::Vec3;
 
 use super::lamps::sampled_light;
-use super::media::Passage;
-use super::scatterer::Scatterer;
-use super::{Bounce, Cone, Leg, PathResult, Paths, Receiver, VERTEX_SETS, Vertex};
+use super::passage::Passage;
+use super::paths::{Bounce, Leg, Paths};
+use super::result::PathResult;
+use super::vertex::Vertex;
 use crate::bsdf::View;
 use crate::geometry::Hit;
 use crate::geometry::frame::Frame;
 use crate::geometry::surface::SurfacePoint;
-use crate::integrator::facet::Facet;
-use crate::integrator::leaf_walk::LeafWalk;
+use crate::light::Receiver;
 use crate::material::leaf::Inside;
+use crate::sampling::dimensions::{FACES, picture as sets};
 use crate::sampling::stream::Stream;
 use crate::spectrum::Lanes;
-
-/// Sets of random numbers for lights at the faces that light meets from inside, behind those of all
-/// vertices.
-const FACE_SETS: u32 = 0x4000_0000;
-/// The same on paths that excite fluorescence.
-const EXCITED_FACE_SETS: u32 = 0x8000_0000;
-/// Faces of one walk that have such sets; lights at later ones are sampled by the same numbers.
-const FACES: u32 = 64;
+use crate::walk::cone::Cone;
+use crate::walk::facet::Facet;
+use crate::walk::leaf_walk::LeafWalk;
+use crate::walk::{Scatterer, roulette};
 
 /// Where a path meets the leaf.
 pub(super) struct Entry<'a, const N: usize> {
@@ -48,7 +45,7 @@ impl<const N: usize> Paths<'_, N> {
     ) -> Option<Leg<N>> {
         let (throughput, width) = entry.leg;
         let world = self.world;
-        stream.seek(self.set_of(entry.depth));
+        stream.seek(sets::VERTEX.of(entry.depth));
         let numbers = stream.next4();
         let light_samples = self.light_samples(entry.depth);
         let mut walk = LeafWalk::new(
@@ -85,7 +82,7 @@ impl<const N: usize> Paths<'_, N> {
                     throughput: throughput * walk.weight(),
                     width,
                     gathered: result.radiance,
-                    inside: &entry.passage.inside,
+                    inside: &entry.passage.around.inside,
                     boundary: None,
                     cap: None,
                 };
@@ -100,13 +97,8 @@ impl<const N: usize> Paths<'_, N> {
                     if brightness <= 0.0 {
                         return None;
                     }
-                    if brightness < self.effort.roulette_below {
-                        let survival = brightness / self.effort.roulette_below;
-                        if walk.number() >= survival {
-                            return None;
-                        }
-                        throughput *= 1.0 / survival;
-                    }
+                    let below = self.effort.roulette_below;
+                    throughput *= roulette(brightness, below, || walk.number())?;
                     let towards = facet.leaving(leaving.towards);
                     // Light of one facet may have been mirrored into the same direction.
                     let density = |own: f32| {
@@ -119,7 +111,7 @@ impl<const N: usize> Paths<'_, N> {
                         ray: facet.spawn(towards),
                         cone: Cone::scattered(width),
                         throughput,
-                        bounce: Bounce {
+                        origin: Bounce {
                             pdf: leaving.pdf.map_or(f32::INFINITY, density),
                             from: receiver,
                             light_samples,
@@ -134,12 +126,8 @@ impl<const N: usize> Paths<'_, N> {
                 }
             }
             result.rays += 1;
-            let place = entry.depth.saturating_mul(FACES) + face.min(FACES - 1);
-            let first = match self.excitation_sets {
-                None => FACE_SETS,
-                Some(_) => EXCITED_FACE_SETS,
-            };
-            stream.seek(first.wrapping_add(place.wrapping_mul(VERTEX_SETS)));
+            let place = entry.depth * FACES + face.min(FACES - 1);
+            stream.seek(sets::FACE.of(place));
             [_, x, y, _] = stream.next4();
         }
         None

@@ -3,15 +3,15 @@
 use glam::{Vec2, Vec3};
 
 use super::drops::Cap;
-use super::media::Passage;
-use super::scatterer::Scatterer;
-use super::{Bounce, Leg, Paths};
+use super::passage::Passage;
+use super::paths::{Bounce, Leg, Paths};
 use crate::bsdf::View;
-use crate::integrator::cone::Cone;
-use crate::integrator::encounter::Encounter;
 use crate::light::Receiver;
-use crate::medium::{Body, BodyPlace, Inside};
+use crate::medium::Inside;
 use crate::spectrum::Lanes;
+use crate::walk::cone::Cone;
+use crate::walk::encounter::Encounter;
+use crate::walk::{Boundary, Scatterer, roulette};
 
 /// A point where a path is scattered.
 pub(in crate::integrator) struct Vertex<'a, const N: usize> {
@@ -30,9 +30,8 @@ pub(in crate::integrator) struct Vertex<'a, const N: usize> {
     pub(in crate::integrator) gathered: Lanes<N>,
     /// The bodies from whose inside the ray came.
     pub(in crate::integrator) inside: &'a Inside,
-    /// The body on whose boundary the point lies, with its outward shading normal, in scenes with
-    /// media.
-    pub(in crate::integrator) boundary: Option<(BodyPlace, Body, Vec3)>,
+    /// The boundary of a body on which the point lies, in scenes with media.
+    pub(in crate::integrator) boundary: Option<Boundary>,
     /// The drop on whose surface the point lies.
     pub(in crate::integrator) cap: Option<Cap>,
 }
@@ -49,7 +48,7 @@ impl<const N: usize> Vertex<'_, N> {
         roulette_below: f32,
         leg: &mut Leg<N>,
     ) -> bool {
-        let [lobe, x, y, roulette] = numbers;
+        let [lobe, x, y, chance] = numbers;
         let Some(sample) = self.scatterer.sample(lobe, Vec2::new(x, y)) else {
             return false;
         };
@@ -58,20 +57,17 @@ impl<const N: usize> Vertex<'_, N> {
         if brightness <= 0.0 {
             return false;
         }
-        if brightness < roulette_below {
-            let survival = brightness / roulette_below;
-            if roulette >= survival {
-                return false;
-            }
-            throughput *= 1.0 / survival;
-        }
+        let Some(factor) = roulette(brightness, roulette_below, || chance) else {
+            return false;
+        };
+        throughput *= factor;
         leg.throughput = throughput;
         leg.ray = match (&self.scatterer, self.boundary) {
             (Scatterer::Surface { facet, .. }, Some(_)) => facet.spawn_whole(sample.wi_world),
             (scatterer, _) => scatterer.spawn(sample.wi_world),
         };
         leg.cone = Cone::scattered(self.width);
-        leg.bounce = Bounce {
+        leg.origin = Bounce {
             // Where lamps were not sampled, what the bounce finds has no other weight.
             pdf: if self.is_lit {
                 sample.pdf
@@ -87,8 +83,8 @@ impl<const N: usize> Vertex<'_, N> {
     /// The bodies around a ray that leaves in a direction.
     pub(in crate::integrator) fn inside_towards(&self, direction: Vec3) -> Inside {
         let mut inside = *self.inside;
-        if let Some((place, body, normal)) = self.boundary {
-            inside.leave_boundary(place, body, normal, direction);
+        if let Some(boundary) = &self.boundary {
+            boundary.leave(&mut inside, direction);
         }
         inside
     }
@@ -104,10 +100,8 @@ impl<const N: usize> Vertex<'_, N> {
         if self.boundary.is_none() && self.cap.is_none() {
             return None;
         }
-        let mut beyond = Passage {
-            inside: self.inside_towards(direction),
-            ..*passage
-        };
+        let mut beyond = *passage;
+        beyond.around.inside = self.inside_towards(direction);
         if let Some(cap) = &self.cap {
             beyond.drops = cap.drops_towards(beyond.drops, direction);
         }
@@ -144,11 +138,8 @@ impl<const N: usize> Paths<'_, N> {
             throughput: leg.throughput,
             width: encounter.width,
             gathered,
-            inside: &passage.inside,
-            boundary: objects[surface.instance as usize].body.map(|body| {
-                let place = objects.body_place(surface.instance);
-                (place, body, surface.shading_normal)
-            }),
+            inside: &passage.around.inside,
+            boundary: Boundary::at(objects, surface),
             cap: if objects.have_drops() {
                 self.cap_at(surface, leg.ray.direction())
             } else {

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use super::{Begun, Contact, Progress};
+use super::begun::{Begun, Contact, Progress};
 use crate::film::{FEATURE_SAMPLES, PixelSums};
 use crate::integrator::effort::Effort;
 use crate::integrator::features::Sight;

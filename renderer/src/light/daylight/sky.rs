@@ -5,12 +5,12 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::{Vec2, Vec3};
 
+use super::day::{Daylight, curve};
 use super::forest::{self, Forest};
 use super::sky_shape::{SkyShape, daylight_basis};
 use super::spctrl2::Irradiance;
-use super::{Daylight, curve};
 use crate::light::radiance_table::RadianceTable;
-use crate::light::{LightSample, unevenness};
+use crate::light::sample::{LightSample, unevenness};
 use crate::sampling::distribution::Piecewise2d;
 use crate::spectrum::{Curve, Lanes, Share, Table, WavelengthGrid, Wavelengths, cie};
 

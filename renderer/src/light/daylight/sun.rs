@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::{Vec2, Vec3};
 
 use crate::geometry::frame::Frame;
-use crate::light::LightSample;
+use crate::light::sample::LightSample;
 use crate::spectrum::{Curve, Lanes, Share, Table, WavelengthGrid, Wavelengths};
 
 /// Half the angular diameter of the sun at its mean distance, 0.53° across, rad.

@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3};
 use super::sky::SkyLight;
 use super::spctrl2::Atmosphere;
 use super::*;
-use crate::spectrum::Wavelengths;
+use crate::spectrum::{Curve, Wavelengths};
 
 /// Wavelengths from the ultraviolet to the end of the films, at rows of the table and between.
 const NM: [f32; 8] = [370.0, 405.0, 450.0, 560.0, 695.0, 850.0, 1240.0, 2200.0];

@@ -14,7 +14,7 @@
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use super::offset;
+use crate::light::sample::offset;
 
 /// Tolerance of rectangles: for the distance of the fourth corner from its place by the other
 /// three, as a share of the diagonal, and for the cosines of corners.

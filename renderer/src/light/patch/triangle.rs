@@ -12,7 +12,7 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::offset;
+use crate::light::sample::offset;
 use crate::sampling::warp;
 
 /// A triangle in space.

@@ -6,7 +6,7 @@ use std::ops::Range;
 use glam::Vec3;
 
 use super::{CHILD_BITS, Emitter, IS_LIGHT, LightTree, Node, WIDTH};
-use crate::light::angle;
+use crate::light::sample::angle;
 
 /// Number of bins along an axis.
 const BINS: usize = 16;

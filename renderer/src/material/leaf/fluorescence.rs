@@ -49,13 +49,6 @@ impl<const N: usize> Excited<N> {
     }
 }
 
-impl Source {
-    /// All photons emitted, at whatever wavelength.
-    pub fn emitted(&self) -> f64 {
-        self.0.iter().sum()
-    }
-}
-
 impl<const N: usize> Emitting<N> {
     /// Whether nothing is emitted at any of the wavelengths.
     pub fn is_nothing(&self) -> bool {

@@ -8,6 +8,7 @@ use crate::bsdf::fresnel;
 use crate::bsdf::leaf_face::{Crossed, FaceView, LeafFace, Likelihood};
 use crate::material::held::Held;
 use crate::material::palette::Palette;
+use crate::sampling::mixer::Sequence;
 use crate::spectrum::{Lanes, Wavelengths};
 
 /// Weight, in the lane where it is greatest, below which chance decides whether light goes on with
@@ -21,30 +22,22 @@ const TEXELS: f32 = 1.0;
 /// Random numbers of a walk, which needs no one knows how many: splitmix64, seeded by numbers of
 /// the path's stream.
 #[derive(Clone, Debug)]
-pub struct Chance(u64);
+pub struct Chance(Sequence);
 
 impl Chance {
     /// Random numbers that depend on these alone.
     pub fn new(numbers: [f32; 4]) -> Self {
-        let mut chance = Self(0x1a7e_5eed);
+        let mut chance = Sequence(0x1a7e_5eed);
         for number in numbers {
             chance.0 ^= u64::from(number.to_bits());
             chance.0 = chance.next();
         }
-        chance
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut x = self.0;
-        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^ (x >> 31)
+        Self(chance)
     }
 
     /// A number in [0, 1).
     pub fn number(&mut self) -> f32 {
-        (self.next() >> 40) as f32 / 16_777_216.0
+        (self.0.next() >> 40) as f32 / 16_777_216.0
     }
 }
 

@@ -6,7 +6,8 @@
 
 use glam::{IVec2, Vec2};
 
-use super::SPREAD;
+use super::grid::{SPREAD, smooth};
+use crate::sampling::mixer;
 
 /// How far a cell's middle strays within its place of the grid.
 const JITTER: f32 = 0.7;
@@ -56,11 +57,10 @@ impl Cells {
     pub(super) fn at(&self, uv: Vec2, width: f32) -> Option<Resolved> {
         let wide = width * self.count.y;
         let [least, most] = SEEN;
-        let seen = ((most - wide) / (most - least)).clamp(0.0, 1.0);
+        let seen = smooth((most - wide) / (most - least));
         if seen == 0.0 {
             return None;
         }
-        let seen = seen * seen * (3.0 - 2.0 * seen);
         let from_middle = way_from_middle(uv * self.count);
         Some(Resolved {
             // Outwards convex: the height falls away from the middle.
@@ -87,13 +87,9 @@ fn way_from_middle(place: Vec2) -> Vec2 {
 
 /// The middle of the cell at a place of the grid. Rows are staggered, as bricks are.
 fn middle(cell: IVec2) -> Vec2 {
-    let mut z = (u64::from(cell.x as u32) << 32 | u64::from(cell.y as u32))
-        .wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^= z >> 31;
+    let bits = mixer::of_cell(cell.to_array(), 0);
     let unit = |bits: u64| (bits & 0xff_ffff) as f32 / 16_777_216.0;
-    let strayed = Vec2::new(unit(z), unit(z >> 32)) - 0.5;
+    let strayed = Vec2::new(unit(bits), unit(bits >> 32)) - 0.5;
     cell.as_vec2() + 0.5 + JITTER * strayed
 }
 

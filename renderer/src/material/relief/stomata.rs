@@ -9,7 +9,8 @@ use std::f32::consts::{PI, TAU};
 
 use glam::{IVec2, Vec2};
 
-use super::SPREAD;
+use super::grid::{SPREAD, smooth};
+use crate::sampling::mixer;
 
 /// Jitter of scattered stomata, and of those in rows across and along, in cells of the grid.
 const JITTER: [Vec2; 2] = [Vec2::splat(0.6), Vec2::new(0.12, 0.5)];
@@ -180,10 +181,8 @@ impl Stomata {
         for dy in -1..=1 {
             for dx in -1..=1 {
                 let cell = home + IVec2::new(dx, dy);
-                let bits = mixed(
-                    cell,
-                    self.origin ^ row.map_or(0, |row| row.wrapping_mul(31)),
-                );
+                let other = self.origin ^ row.map_or(0, |row| row.wrapping_mul(31));
+                let bits = mixer::of_cell(cell.to_array(), other);
                 let unit = |shift: u32| (bits >> shift & 0xffff) as f32 / 65_536.0;
                 let jitter = JITTER[usize::from(row.is_some())];
                 let strayed = (Vec2::new(unit(0), unit(16)) - 0.5) * jitter;
@@ -202,21 +201,6 @@ impl Stomata {
         }
         nearest.1
     }
-}
-
-/// 0 below 0, 1 above 1, `3x² − 2x³` between.
-fn smooth(x: f32) -> f32 {
-    let x = x.clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
-}
-
-fn mixed(cell: IVec2, other: i32) -> u64 {
-    let mut z = (u64::from(cell.x as u32) << 32 | u64::from(cell.y as u32))
-        ^ u64::from(other as u32).wrapping_mul(0xd134_2543_de82_ef95);
-    z = z.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

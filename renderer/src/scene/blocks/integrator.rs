@@ -4,6 +4,7 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::{Flag, Integer, Number};
 
+use crate::sampling::dimensions::MOST_EVENTS;
 use crate::scene::description::Integrator;
 
 /// The keys of `[integrator]`.
@@ -12,7 +13,7 @@ pub(super) fn integrator(integrator: &mut Integrator, keys: &mut Keys<'_>) {
     let about = "Most scattering events of a path. A limit darkens the picture: in the infrared, \
         where leaves hardly absorb, a limit of 8 loses some 2 %. How many paths it cuts is reported.";
     keys.optional("max_depth", &mut integrator.max_depth, count, about);
-    let count = Integer::within(1, 1_000_000);
+    let count = Integer::within(1, u64::from(MOST_EVENTS));
     let about = "Events after which a path is cut, in pictures and in instruments: scatterings, \
         flights through media, and ways between scatterings in a leaf of layers. It is for light \
         that is caught. How many paths were cut is reported, and how much light that may lose.";

@@ -7,7 +7,7 @@ use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::{Number, Word};
 use leafmodel::leaf::LeafPlan;
 use leafmodel::plan_file::{self, require_prospect};
-use leafmodel::species::surfaces::adaxial_roughness;
+use leafmodel::species::{self, Preset};
 
 use super::fluorescence::fluorescence;
 use super::spectrum::SpectrumOf;
@@ -81,7 +81,8 @@ pub(super) fn leaf(leaf: &mut Leaf, keys: &mut Keys<'_>) {
         leaf.extrapolate = block.cx.extrapolate.get();
     }
     plan_file::leaf_preset(&mut leaf.plan, keys);
-    if let Some(alpha) = keys.base().and_then(adaxial_roughness) {
+    let preset = keys.base().and_then(species::find);
+    if let Some(alpha) = preset.and_then(Preset::adaxial_roughness) {
         let [adaxial, _] = &mut leaf.faces.coats;
         (adaxial.alpha_across, adaxial.alpha_along) = (alpha, alpha);
     }

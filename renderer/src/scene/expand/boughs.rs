@@ -122,7 +122,7 @@ fn remedy(error: &PlantError, plant: &Plant) -> (&'static str, &'static str) {
             "relief",
             "use a longer `edge_mm`, or fewer nodes or branches",
         ),
-        PlantError::OutOfRange { .. } | PlantError::NoRoom { .. } | PlantError::TooLarge => {
+        PlantError::Range(_) | PlantError::NoRoom { .. } | PlantError::TooLarge => {
             ("nodes", "use fewer nodes or branches")
         }
     }

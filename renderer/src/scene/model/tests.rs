@@ -9,13 +9,13 @@ use super::*;
 use crate::bsdf::Bsdf;
 use crate::geometry::{Geometry, Instance, Ray};
 use crate::image::portable_network;
-use crate::integrator::cone::Cone;
-use crate::integrator::encounter::Encounter;
 use crate::material::Material;
 use crate::material::model::ModelMaterial;
 use crate::material::reflectance::Reflectance;
 use crate::spectrum::rgb::Primaries;
 use crate::spectrum::{Curve, Lanes, Wavelengths};
+use crate::walk::cone::Cone;
+use crate::walk::encounter::Encounter;
 
 /// What all but a few tests look at.
 const COLOURS: Wanted = Wanted {

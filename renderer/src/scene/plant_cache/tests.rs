@@ -52,7 +52,7 @@ fn a_leaf_from_the_cache_is_the_one_that_would_be_grown() {
             assert_eq!(take(&cache, &plan), (alone.clone(), is_grown));
             assert_eq!(cache.take_notes(), Vec::<String>::new());
         }
-        assert_eq!(parts_from(&to_bytes(&alone)), Some(alone));
+        assert_eq!(parts_from(&codec::to_bytes(&alone)), Some(alone));
     }
     assert_eq!(names(folder.path()).len(), plans().len());
 }
@@ -117,6 +117,9 @@ fn no_leaf_of_another_plan_or_program_is_taken() {
     std::fs::copy(cache.path(plan), cache.path(&other)).expect("it can be copied");
     assert_eq!(take(&cache, &other), (others, true));
     assert!(cache.take_notes()[0].contains("another plan's"));
+    std::fs::write(cache.path(plan), b"lamina leaf  1\n\nand so on").expect("it can be written");
+    assert_eq!(take(&cache, plan), (leaf.clone(), true));
+    assert!(cache.take_notes()[0].contains("written by Lamina 0.1.0"));
     cache.program = "lamina 0.0.0".to_owned();
     assert_eq!(take(&cache, plan), (leaf, true));
     assert!(cache.take_notes()[0].contains("another program's"));
@@ -125,7 +128,7 @@ fn no_leaf_of_another_plan_or_program_is_taken() {
 #[test]
 fn bytes_of_every_kind_are_refused_and_not_believed() {
     let parts = LeafParts::grow(&plans()[0]).expect("a good plan");
-    let whole = to_bytes(&parts);
+    let whole = codec::to_bytes(&parts);
     // Counts greater than the data that follow.
     for place in (0..whole.len() - 8).step_by(whole.len() / 40) {
         let mut bytes = whole.clone();
@@ -134,11 +137,7 @@ fn bytes_of_every_kind_are_refused_and_not_believed() {
         assert!(read.is_none_or(|read| read.pieces.iter().all(|p| p.mesh < read.meshes.len())));
     }
     for count in [u64::MAX, u64::MAX / 12, 1 << 40] {
-        let mut bytes = whole.clone();
-        bytes[..8].copy_from_slice(&count.to_le_bytes());
-        assert_eq!(parts_from(&bytes), None);
-        bytes.copy_from_slice(&whole);
-        bytes[8..16].copy_from_slice(&count.to_le_bytes());
+        let bytes = [codec::to_bytes(&count), whole[1..].to_vec()].concat();
         assert_eq!(parts_from(&bytes), None);
     }
     assert_eq!(parts_from(&[]), None);

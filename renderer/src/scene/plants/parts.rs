@@ -5,12 +5,13 @@ use leafmodel::blade::surface::{Cover, SlopeMoments};
 use leafmodel::compound::CompoundError;
 use leafmodel::leaf::LeafError;
 use leafmodel::optics::{Contents, Texel};
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::geometry::MeshError;
 
 /// A part of a leaf.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Piece {
     /// Index into [`super::GrownLeaf::meshes`].
     pub mesh: usize,
@@ -35,7 +36,7 @@ pub enum PlantError {
 }
 
 /// The data of a grown leaf, in metres, from which a [`GrownLeaf`] is made.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(in crate::scene) struct LeafParts {
     /// As [`super::GrownLeaf::meshes`].
     pub(in crate::scene) meshes: Vec<MeshParts>,
@@ -50,7 +51,7 @@ pub(in crate::scene) struct LeafParts {
 }
 
 /// The data of a mesh.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(in crate::scene) struct MeshParts {
     pub(in crate::scene) positions: Vec<Vec3>,
     pub(in crate::scene) normals: Vec<Vec3>,
@@ -60,7 +61,7 @@ pub(in crate::scene) struct MeshParts {
 }
 
 /// The data of a map of contents.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(in crate::scene) struct MapParts {
     pub(in crate::scene) width: usize,
     pub(in crate::scene) height: usize,
@@ -72,7 +73,7 @@ pub(in crate::scene) struct MapParts {
 }
 
 /// The data of a relief: slopes on a map of as many texels.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(in crate::scene) struct SurfaceParts {
     pub(in crate::scene) texels: Vec<[SlopeMoments; 2]>,
     /// As many texels, or none.

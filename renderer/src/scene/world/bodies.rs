@@ -117,7 +117,7 @@ pub(super) fn around(point: Vec3, geometry: &Geometry, objects: &WorldObjects) -
         let Some(hit) = geometry.intersect(&ray) else {
             break;
         };
-        let surface = geometry.surface(&ray, &hit);
+        let surface = geometry.surface(&hit);
         if let Some(body) = objects[hit.instance as usize].body {
             let place = objects.body_place(hit.instance);
             if direction.dot(surface.geometric_normal) < 0.0 {

@@ -6,11 +6,11 @@ use crate::geometry::scatter::Most;
 
 /// Memory of a triangle with its fraction of the trees while they are built, bytes; measured with
 /// spheres of 16.8 million triangles (4.9 GB).
-pub const OF_A_TRIANGLE: f64 = 290.0;
+pub(super) const OF_A_TRIANGLE: f64 = 290.0;
 
 /// Memory of an instance of a mesh, bytes: its placement with its fraction of the upper tree;
 /// measured with 168,000 leaves of two parts (363 MB).
-pub const OF_AN_INSTANCE: f64 = 1100.0;
+pub(super) const OF_AN_INSTANCE: f64 = 1100.0;
 
 /// Memory that is left for what is built next.
 #[derive(Debug)]

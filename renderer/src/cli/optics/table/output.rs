@@ -7,7 +7,7 @@ use leafmodel::optics::prospect_d::Coefficients;
 use rayon::prelude::*;
 
 use super::Leaves;
-use crate::cli::fit::quoted;
+use crate::report::table::quoted;
 
 /// Leaves that are computed at a time, 115 kB of text for each at all wavelengths.
 const AT_A_TIME: usize = 64;

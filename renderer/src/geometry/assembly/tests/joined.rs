@@ -51,7 +51,7 @@ fn joined_meshes_are_found_as_every_triangle_is() {
                 );
                 assert_eq!(hit.is_some(), geometry.occluded(&ray), "{ray:?}");
                 let hit = hit.expect("the ray points at a triangle");
-                let point = geometry.surface(&ray, &hit);
+                let point = geometry.surface(&hit);
                 let off = (point.position - ray.at(hit.t)).dot(point.geometric_normal);
                 assert!(off.abs() < 1e-4 * scale, "{off} m off the plane");
                 let (least, most) = geometry.bounds_of(hit.instance);
@@ -125,7 +125,7 @@ fn a_joined_surface_is_that_of_the_mesh_alone() {
             };
             // A ray along the surface finds slightly different points of it.
             (same.b1, same.b2) = (hit.b1, hit.b2);
-            let (a, b) = (both.surface(&ray, &hit), own.surface(&ray, &same));
+            let (a, b) = (both.surface(&hit), own.surface(&same));
             assert!((a.position - b.position).length() < 1e-5);
             for (a, b) in [
                 (a.geometric_normal, b.geometric_normal),

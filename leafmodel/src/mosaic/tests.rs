@@ -1,0 +1,4 @@
+//! Patterns measured, and what the paper claims of them.
+
+mod claims;
+mod statistics;

@@ -1,0 +1,151 @@
+//! The file of a preset: its heading, and the blocks that it inherits.
+
+use std::path::Path;
+
+use super::{BASES, PRESETS, Preset};
+use crate::document::keys::Keys;
+use crate::document::limits::Limits;
+use crate::document::opened::Opened;
+use crate::document::reader::Block;
+use crate::document::schema::BlockSchema;
+use crate::document::source::Place;
+use crate::document::tree::{Entry, Table, Value};
+use crate::document::value_kind::{ListOf, Number, Text};
+
+/// The blocks of a file.
+pub(crate) const BLOCKS: [&str; 6] = ["sources", "traits", "tissues", "age", "counts", "leaf"];
+
+/// The keys at the top of a preset's file, which no other inherits.
+#[derive(Debug, Default)]
+pub(super) struct Heading {
+    pub(super) about: String,
+    pub(super) source: String,
+    pub(super) adaxial_roughness: Option<f64>,
+    base: Option<String>,
+    without: Vec<String>,
+}
+
+impl Heading {
+    /// The heading of a file, whose blocks are not parsed.
+    pub(super) fn of(preset: &Preset) -> Self {
+        let end = preset.text.find("\n[").unwrap_or(preset.text.len());
+        let opened = open(preset.name, &preset.text[..end]);
+        let mut heading = Self::default();
+        read(opened, |keys| heading.declare(keys));
+        heading
+    }
+
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        let text = Text("a text");
+        keys.key("about", &mut self.about, text, "What the preset shows.");
+        let about = "Where its numbers are from.";
+        keys.key("source", &mut self.source, text, about);
+        let about = "The file whose blocks hold where this one says nothing else.";
+        keys.optional("base", &mut self.base, Text("a file's name"), about);
+        let paths = ListOf {
+            of: Text("a path of keys"),
+            least: 0,
+            most: 100,
+            wanted: "a list of paths",
+        };
+        let about = "What the base has and this leaf lacks.";
+        keys.key("without", &mut self.without, paths, about);
+        let limits = Number(Limits::closed(0.0, 1.0));
+        let about = "GGX roughness of the adaxial coat.";
+        let roughness = &mut self.adaxial_roughness;
+        keys.optional("adaxial_roughness", roughness, limits, about);
+    }
+}
+
+/// The file of a preset with the blocks that it inherits in place of what it leaves out.
+pub(super) fn opened(preset: &Preset) -> Opened {
+    let mut opened = open(preset.name, preset.text);
+    let own = std::mem::take(&mut opened.tree);
+    opened.tree = whole(preset, own, &mut opened);
+    opened
+}
+
+/// `own`, the tree of the preset's own file, on top of what it inherits.
+fn whole(preset: &Preset, own: Table, opened: &mut Opened) -> Table {
+    let heading = preset.heading();
+    let mut tree = Table::default();
+    if let Some(base) = &heading.base {
+        let mut bases = BASES.iter().chain(PRESETS);
+        let base = bases.find(|file| file.name == base);
+        let base = base.unwrap_or_else(|| panic!("{} has no such base", preset.name));
+        let beneath = opened.also(base.text, &shown(base.name));
+        tree = whole(base, beneath, opened);
+    }
+    for path in &heading.without {
+        let is_there = remove(&mut tree, path);
+        assert!(is_there, "the base of {} has no {path}", preset.name);
+    }
+    for entry in own.0 {
+        if BLOCKS.contains(&entry.key.as_str()) {
+            // The keys of a leaf change one by one; of other blocks, whole entries do.
+            let depth = if entry.key == "leaf" { usize::MAX } else { 2 };
+            put(&mut tree, entry, depth);
+        }
+    }
+    tree
+}
+
+/// Puts an entry in the place of what is there under its key, tables within `depth` key by key.
+fn put(tree: &mut Table, entry: Entry, depth: usize) {
+    let Some(place) = tree.0.iter_mut().find(|there| there.key == entry.key) else {
+        tree.0.push(entry);
+        return;
+    };
+    match (&mut place.node.value, entry.node.value) {
+        (Value::Table(there), Value::Table(own)) if depth > 1 => {
+            for entry in own.0 {
+                put(there, entry, depth - 1);
+            }
+        }
+        (_, value) => {
+            place.key_at = entry.key_at;
+            place.node.at = entry.node.at;
+            place.node.value = value;
+        }
+    }
+}
+
+/// Removes what is at a path; whether anything was.
+fn remove(tree: &mut Table, path: &str) -> bool {
+    let (key, rest) = path.split_once('.').unwrap_or((path, ""));
+    let Some(index) = tree.0.iter().position(|entry| entry.key == key) else {
+        return false;
+    };
+    if rest.is_empty() {
+        tree.0.remove(index);
+        return true;
+    }
+    if let Value::Table(inner) = &mut tree.0[index].node.value {
+        remove(inner, rest)
+    } else {
+        false
+    }
+}
+
+fn open(name: &str, text: &str) -> Opened {
+    let folder = Path::new(".");
+    let opened = Opened::text(text, &shown(name), folder, &[], BlockSchema::default);
+    opened.expect("no file is as large as that")
+}
+
+fn shown(name: &str) -> String {
+    format!("species/{name}.toml")
+}
+
+/// Reads the keys at the top of a file, all of which are declared. The files are part of the program
+/// and read by its tests, so that an error is a bug.
+pub(crate) fn read(opened: Opened, declare: impl FnOnce(&mut Keys<'_>)) {
+    let start = Place {
+        source: 0,
+        span: 0..0,
+    };
+    let root = Block::new(&opened.cx, &opened.tree, String::new(), start);
+    let is_sound = Keys::read(root, None, declare);
+    let finished = opened.finish(is_sound.then_some(()));
+    finished.unwrap_or_else(|errors| panic!("{errors}"));
+}

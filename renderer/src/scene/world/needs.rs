@@ -1,0 +1,156 @@
+//! Memory that the things of a scene will need, said before any of them is built.
+
+use std::path::PathBuf;
+
+use super::memory::{OF_A_TRIANGLE, OF_AN_INSTANCE};
+use crate::geometry::scatter::{Amount, Volume};
+use crate::image::claimed;
+use crate::scene::assets;
+use crate::scene::description::{
+    Description, Drop, Held, Lump, Mesh, Object, ObjectShape, Reflectance, Shape, StrewnOn,
+};
+
+/// Memory of a place of an object of two parts, as a leaf with its petiole is, bytes.
+const OF_A_PLACE: f64 = 2.0 * OF_AN_INSTANCE;
+
+/// Memory of what a scene builds and grows, bytes, with what it is for.
+///
+/// # Errors
+///
+/// The leaf or body of which nobody can say what it needs, and why.
+pub(crate) fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, String> {
+    let mut pictures = of_pictures(scene);
+    let meshes = scene.meshes.iter().enumerate();
+    let meshes = meshes.map(|(number, named)| match &named.value {
+        Shape::Body(body) => body.triangles.len() as f64 * OF_A_TRIANGLE,
+        Shape::Mesh(
+            Mesh::Sphere { segments, .. }
+            | Mesh::Drop(Drop { segments, .. })
+            | Mesh::Lump(Lump { segments, .. }),
+        ) => f64::from(*segments) * f64::from(*segments) * OF_A_TRIANGLE,
+        Shape::Mesh(Mesh::Terrain(terrain)) => {
+            let [across, along] = terrain.squares();
+            2.0 * across * along * OF_A_TRIANGLE
+        }
+        Shape::Mesh(Mesh::Masonry(wall)) => 2.0 * wall.squares() * OF_A_TRIANGLE,
+        Shape::Mesh(Mesh::Disc { segments, .. }) => f64::from(*segments) * OF_A_TRIANGLE,
+        Shape::Mesh(Mesh::Gltf { file, beside, .. }) => {
+            // Reading reports what is wrong with it.
+            let claims = assets::claims_of_model(file, beside, scene.wanted_of(number));
+            claims.map_or(0.0, |claims| {
+                pictures += claims.pictures;
+                claims.triangles as f64 * OF_A_TRIANGLE
+            })
+        }
+        Shape::Mesh(Mesh::Rectangle { .. } | Mesh::Box { .. } | Mesh::File { .. }) => 0.0,
+    });
+    let meshes: f64 = meshes.fold(0.0, |sum, bytes| sum + bytes);
+    let places = scene.objects.iter().map(|object| {
+        let own = object.value.instances.as_ref().map_or(1, Vec::len);
+        let strewn = object.value.strewn.as_ref();
+        let copies = strewn.map_or(1.0, |strewn| match strewn.plan.amount {
+            Amount::Count(count) => f64::from(count),
+            Amount::PerSquareMetre(density) => density * area(scene, strewn),
+        });
+        let afloat = object.value.volume.as_ref();
+        let copies = afloat.map_or(copies, |volume| leaves_afloat(scene, &object.value, volume));
+        own as f64 * copies * OF_A_PLACE
+    });
+    let mut leaves = Vec::new();
+    for leaf in &scene.leaves {
+        let memory = leaf.value.plan.memory();
+        leaves.push(memory.map_err(|error| format!("leaves.{}: {error}", leaf.name))?);
+    }
+    let kept = leaves.iter().map(|leaf| leaf.kept);
+    // As many leaves grow at once as there are threads; the largest may be among them.
+    let mut growing: Vec<f64> = leaves.iter().map(|leaf| leaf.veins + leaf.blade).collect();
+    growing.sort_by(|a, b| b.total_cmp(a));
+    growing.truncate(rayon::current_num_threads());
+    let mut bodies = 0.0;
+    for solid in &scene.solids {
+        let of_one = solid.value.plan.memory_bytes();
+        bodies += of_one.map_err(|error| format!("solids.{}: {error}", solid.name))?;
+    }
+    // The sums start from 0, since an empty sum is -0.
+    let sum = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, |sum, bytes| sum + bytes);
+    Ok(vec![
+        (meshes, "meshes"),
+        (pictures, "pictures that are read"),
+        (sum(&mut { places }), "places of objects"),
+        (sum(&mut { kept }) + sum(&mut growing.into_iter()), "leaves"),
+        (bodies, "bodies"),
+    ])
+}
+
+/// Memory of the pictures of materials and lights while they are read, bytes.
+fn of_pictures(scene: &Description) -> f64 {
+    let materials = scene.materials.iter().flat_map(|material| {
+        let reflectance = match material.value.reflectance() {
+            Some(Reflectance::Picture { file, .. }) => Some(file),
+            Some(Reflectance::Even(_) | Reflectance::OfMesh(_)) | None => None,
+        };
+        let held = match material.value.held() {
+            Some(Held::Map { file, .. }) => Some(file),
+            Some(Held::Contents { .. }) | None => None,
+        };
+        reflectance.into_iter().chain(held)
+    });
+    let lights = scene.lights.iter();
+    let lights = lights.filter_map(|light| light.value.picture().map(|(file, _)| file));
+    let files = materials.map(PathBuf::as_path).chain(lights);
+    files.fold(0.0, |sum, file| sum + claimed::bytes_of_file(file))
+}
+
+/// About the number of leaves in a volume: of discs, since the areas of other shapes are known only
+/// once they are built.
+fn leaves_afloat(scene: &Description, object: &Object, volume: &Volume) -> f64 {
+    let [least, most] = volume.within;
+    let ground = (most - least).truncate().element_product();
+    let Some(ObjectShape::Mesh { mesh, .. }) = object.shapes.first() else {
+        return 0.0;
+    };
+    let Shape::Mesh(mesh) = &scene.meshes[*mesh].value else {
+        return 0.0;
+    };
+    match mesh {
+        Mesh::Disc { radius, .. } => volume.lai * ground / (std::f64::consts::PI * radius * radius),
+        Mesh::Rectangle { width, height } => volume.lai * ground / (width * height),
+        Mesh::Sphere { .. }
+        | Mesh::Box { .. }
+        | Mesh::Drop(_)
+        | Mesh::Lump(_)
+        | Mesh::Terrain(_)
+        | Mesh::Masonry(_)
+        | Mesh::File { .. }
+        | Mesh::Gltf { .. } => 0.0,
+    }
+}
+
+/// About the area over which something is strewn, m²: that of its rectangle or of an even or uneven
+/// ground in one place; of other surfaces none, since it is known only once they are built.
+fn area(scene: &Description, strewn: &StrewnOn) -> f64 {
+    if let Some([least, most]) = strewn.plan.within {
+        return (most - least).element_product();
+    }
+    let on = &scene.objects[strewn.on].value;
+    let (Some(ObjectShape::Mesh { mesh, .. }), None) = (on.shapes.first(), &on.instances) else {
+        return 0.0;
+    };
+    let Shape::Mesh(mesh) = &scene.meshes[*mesh].value else {
+        return 0.0;
+    };
+    let size = match mesh {
+        Mesh::Rectangle { width, height } => width * height,
+        Mesh::Terrain(terrain) => terrain.size[0] * terrain.size[1],
+        Mesh::Sphere { .. }
+        | Mesh::Box { .. }
+        | Mesh::Disc { .. }
+        | Mesh::Drop(_)
+        | Mesh::Lump(_)
+        | Mesh::Masonry(_)
+        | Mesh::File { .. }
+        | Mesh::Gltf { .. } => return 0.0,
+    };
+    let [x, y] = [on.to_world.x_axis, on.to_world.y_axis].map(glam::DVec4::truncate);
+    size * x.cross(y).length()
+}
