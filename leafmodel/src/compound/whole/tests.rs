@@ -3,7 +3,7 @@
 use super::super::Feather;
 use super::super::tests::{feather, leaflet, palmate};
 use super::*;
-use crate::compound::FlatLeaf;
+use crate::compound::{Arrangement, FlatLeaf};
 use crate::leaf::Lamina;
 use crate::optics::Constituent;
 use crate::shape::outline::Outline;
