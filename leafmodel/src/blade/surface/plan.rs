@@ -109,8 +109,10 @@ impl SurfacePlan {
 }
 
 fn refuse_tiny_cells(plan: &mut SurfacePlan, keys: &mut Keys<'_>) {
-    let help = "cells of an epidermis are 10 to 200 µm wide; write 0 for none";
-    refuse_gap(keys, ("cells_um", plan.cells_um), [5.0, 500.0], help);
+    if keys.is_sound() {
+        let help = "cells of an epidermis are 10 to 200 µm wide; write 0 for none";
+        refuse_gap(keys, ("cells_um", plan.cells_um), [5.0, 500.0], help);
+    }
 }
 
 /// Refuses a value that is neither 0 nor within a range that begins above 0.
@@ -120,7 +122,7 @@ pub(super) fn refuse_gap(
     [least, most]: [f64; 2],
     help: &str,
 ) {
-    if keys.is_sound() && value > 0.0 && value < least {
+    if value > 0.0 && value < least {
         let problem = format!("{value} is neither 0 nor from {least} to {most}");
         keys.refuse(&[key], problem, help);
     }

@@ -33,6 +33,9 @@ pub struct StomataPlan {
 }
 
 fn refuse_few(plan: &mut StomataPlan, keys: &mut Keys<'_>) {
+    if !keys.is_sound() {
+        return;
+    }
     let help = "rows of stomata are some 50 to 300 µm apart; write 0 for scattered ones";
     refuse_gap(keys, ("row_um", plan.row_um), [20.0, 1000.0], help);
     let help = "leaves have 5 to 1000 a mm²; write 0 for none";
