@@ -205,8 +205,8 @@ fn a_leaf_that_its_curl_would_roll_up_is_refused_unless_it_lies_on_the_ground() 
         petiole: 0.02,
         curl,
         ..plan(Arrangement::Bipinnate {
-            pinnae: pinnae.clone(),
-            leaflets: leaflets.clone(),
+            pinnae,
+            leaflets,
             stalk: 1.0,
         })
     };

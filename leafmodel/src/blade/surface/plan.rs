@@ -111,19 +111,6 @@ impl SurfacePlan {
 fn refuse_tiny_cells(plan: &mut SurfacePlan, keys: &mut Keys<'_>) {
     if keys.is_sound() {
         let help = "cells of an epidermis are 10 to 200 µm wide; write 0 for none";
-        refuse_gap(keys, ("cells_um", plan.cells_um), [5.0, 500.0], help);
-    }
-}
-
-/// Refuses a value that is neither 0 nor within a range that begins above 0.
-pub(super) fn refuse_gap(
-    keys: &Keys<'_>,
-    (key, value): (&str, f64),
-    [least, most]: [f64; 2],
-    help: &str,
-) {
-    if value > 0.0 && value < least {
-        let problem = format!("{value} is neither 0 nor from {least} to {most}");
-        keys.refuse(&[key], problem, help);
+        keys.refuse_gap("cells_um", plan.cells_um, [5.0, 500.0], help);
     }
 }

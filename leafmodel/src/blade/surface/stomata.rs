@@ -1,6 +1,5 @@
 //! Stomata: how many a face has, of which size, and how they lie.
 
-use super::plan::refuse_gap;
 use crate::document::declared::Declared;
 use crate::document::keys::Keys;
 use crate::document::ranges::RangeError;
@@ -37,11 +36,11 @@ fn refuse_few(plan: &mut StomataPlan, keys: &mut Keys<'_>) {
         return;
     }
     let help = "rows of stomata are some 50 to 300 µm apart; write 0 for scattered ones";
-    refuse_gap(keys, ("row_um", plan.row_um), [20.0, 1000.0], help);
+    keys.refuse_gap("row_um", plan.row_um, [20.0, 1000.0], help);
     let help = "leaves have 5 to 1000 a mm²; write 0 for none";
     let [adaxial, abaxial] = plan.per_mm2;
-    refuse_gap(keys, ("adaxial_per_mm2", adaxial), [1.0, 2000.0], help);
-    refuse_gap(keys, ("abaxial_per_mm2", abaxial), [1.0, 2000.0], help);
+    keys.refuse_gap("adaxial_per_mm2", adaxial, [1.0, 2000.0], help);
+    keys.refuse_gap("abaxial_per_mm2", abaxial, [1.0, 2000.0], help);
 }
 
 impl StomataPlan {

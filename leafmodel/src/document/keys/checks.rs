@@ -108,6 +108,14 @@ impl<'p> Keys<'p> {
         block.cx.error(&place_of(block, path), error);
     }
 
+    /// Refuses a value that is neither 0 nor within a range that begins above 0.
+    pub(crate) fn refuse_gap(&self, key: &str, value: f64, [least, most]: [f64; 2], help: &str) {
+        if value > 0.0 && value < least {
+            let problem = format!("{value} is neither 0 nor from {least} to {most}");
+            self.refuse(&[key], problem, help);
+        }
+    }
+
     /// Whether a path is in the file that is read.
     pub fn has_path(&self, path: &[&str]) -> bool {
         self.reader()
