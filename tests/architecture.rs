@@ -189,18 +189,25 @@ fn deepest(mut at: Module, rest: &[String], modules: &BTreeSet<Module>) -> Optio
     modules.contains(&at).then_some(at)
 }
 
+/// Crates, and the least number of their files.
+const CRATES: [(&str, usize); 6] = [
+    ("leafmodel/document", 20),
+    ("leafmodel/numerics", 20),
+    ("leafmodel/optics", 30),
+    ("leafmodel", 200),
+    ("renderer/trace", 100),
+    ("renderer", 200),
+];
+
 #[test]
 fn no_files_import_each_other_in_a_circle() {
-    for krate in ["leafmodel", "renderer"] {
+    for (krate, files) in CRATES {
         let house = House::of(krate);
-        assert!(
-            house.imports.len() > 100,
-            "{krate}: {}",
-            house.imports.len()
-        );
+        let found = house.imports.len();
+        assert!(found >= files, "{krate}: {found}");
         let some = house.imports.values().map(BTreeSet::len).sum::<usize>();
         assert!(
-            some > 300,
+            some > files / 2,
             "{krate} has only {some} imports: they are not read"
         );
         let circles: Vec<_> = house
@@ -214,57 +221,21 @@ fn no_files_import_each_other_in_a_circle() {
 
 #[test]
 fn files_of_the_core_import_in_one_direction() {
-    let house = House::of("renderer");
-    let core = |module: &&Module| {
-        let core = [
-            "bsdf",
-            "camera",
-            "film",
-            "geometry",
-            "instruments",
-            "integrator",
-            "light",
-            "material",
-            "medium",
-            "sampling",
-            "simd",
-            "spectrum",
-            "walk",
-        ];
-        core.contains(&module[0].as_str())
-    };
-    let core: Vec<_> = house.imports.keys().filter(core).collect();
-    assert!(core.len() > 150, "{}", core.len());
-    let circles: Vec<_> = core
-        .into_iter()
-        .filter_map(|module| house.circle(module, true))
-        .collect();
-    assert!(circles.is_empty(), "{circles:#?}");
-}
-
-#[test]
-fn what_is_below_a_scene_imports_nothing_from_it() {
-    let house = House::of("renderer");
-    for (module, imports) in &house.imports {
-        let below = [
-            "spectrum", "camera", "image", "geometry", "sampling", "bsdf", "film",
-        ];
-        if !below.contains(&module[0].as_str()) {
-            continue;
-        }
-        let above = imports.iter().find(|other| other[0] == "scene");
-        assert!(above.is_none(), "{} imports {above:?}", module.join("::"));
-    }
-}
-
-#[test]
-fn documents_know_nothing_of_leaves() {
-    let house = House::of("leafmodel");
-    for (module, imports) in &house.imports {
-        if module[0] == "document" {
-            let other = imports.iter().find(|other| other[0] != "document");
-            assert!(other.is_none(), "{} imports {other:?}", module.join("::"));
-        }
+    for (krate, core) in [
+        ("renderer/trace", &[][..]),
+        ("renderer", &["instruments", "integrator", "walk"]),
+    ] {
+        let house = House::of(krate);
+        let files = house.imports.keys();
+        let files: Vec<_> = files
+            .filter(|module| core.is_empty() || core.contains(&module[0].as_str()))
+            .collect();
+        assert!(files.len() > 30, "{}", files.len());
+        let circles: Vec<_> = files
+            .into_iter()
+            .filter_map(|module| house.circle(module, true))
+            .collect();
+        assert!(circles.is_empty(), "{circles:#?}");
     }
 }
 

@@ -68,35 +68,28 @@
 //! `leafmodel/examples` has whole programs: a leaf within one's own margin, a sweep of two
 //! parameters, a network as CSV, a spectrum.
 
-// Derived code names this crate as others do.
-extern crate self as leafmodel;
-
 pub mod blade;
-mod buckets;
 pub mod compound;
 pub mod development;
-pub mod document;
 pub mod export;
 pub mod import;
-pub mod inference;
 pub mod leaf;
 pub mod measure;
-pub mod memory;
 pub mod mosaic;
-mod numeric;
-pub mod optics;
 pub mod plan_file;
-mod plane;
 pub mod plant;
-mod random;
-pub mod rest;
-mod rotation;
 pub mod shape;
 mod shell;
 pub mod solid;
 pub mod species;
-#[cfg(test)]
-mod testing;
 pub mod tracing;
 pub mod transport;
 pub mod venation;
+
+#[doc(inline)]
+pub use document;
+pub(crate) use numerics::{buckets, numeric, plane, random, rotation};
+#[doc(inline)]
+pub use numerics::{inference, memory, rest};
+#[doc(inline)]
+pub use optics;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the colour tables that the renderer compiles in (`renderer/src/spectrum/*.csv`).
+"""Writes the colour tables that the renderer compiles in (`renderer/trace/src/spectrum/*.csv`).
 
 - `cie_1931_2deg.csv`: the CIE 1931 2° colour-matching functions, 360-830 nm by 1 nm.
 - `cie_d65.csv`: CIE standard illuminant D65, 300-830 nm by 5 nm, 100 at 560 nm.

@@ -71,29 +71,20 @@
 //! The command `lamina` is [`cli`]. The book in `docs/` describes the scene format and derives what
 //! is computed here.
 
-pub mod bsdf;
-pub mod camera;
 pub mod checkpoint;
 pub mod cli;
 mod codec;
 mod comparison;
 pub mod export;
-pub mod film;
-pub mod geometry;
 pub mod image;
 pub mod instruments;
 pub mod integrator;
-pub mod light;
-pub mod material;
 pub mod measured;
-pub mod medium;
 mod plot;
 mod report;
-pub mod sampling;
 pub mod scene;
-pub mod simd;
-pub mod spectrum;
 pub mod sweep;
-#[cfg(test)]
-mod testing;
 pub mod walk;
+
+#[doc(inline)]
+pub use trace::{bsdf, camera, film, geometry, light, material, medium, sampling, simd, spectrum};

@@ -68,7 +68,7 @@ impl Limits {
         match self {
             Self::Ends(made, low, high) => {
                 let made = syn::Ident::new(made, proc_macro2::Span::call_site());
-                quote! { ::leafmodel::document::limits::Limits::#made(#low, #high) }
+                quote! { ::document::limits::Limits::#made(#low, #high) }
             }
             Self::Named(limits) => limits.to_token_stream(),
         }

@@ -17,8 +17,8 @@ pub(crate) fn of_struct(input: &DeriveInput, data: &DataStruct) -> Result<TokenS
     }
     Ok(quote! {
         #[automatically_derived]
-        impl ::leafmodel::document::declared::Declared for #name {
-            fn declare(&mut self, keys: &mut ::leafmodel::document::keys::Keys<'_>) {
+        impl ::document::declared::Declared for #name {
+            fn declare(&mut self, keys: &mut ::document::keys::Keys<'_>) {
                 #(#calls)*
             }
         }
@@ -49,7 +49,7 @@ fn of_key(field: &Field, key: &Key, place: &TokenStream) -> Result<TokenStream> 
     let value = key.value.as_ref();
     if matches!(value, Some(ValueKind::Flat)) {
         let declare = key.with.as_ref().map_or_else(
-            || quote! { ::leafmodel::document::declared::Declared::declare },
+            || quote! { ::document::declared::Declared::declare },
             |with| quote! { #with },
         );
         return Ok(quote! { #declare(#place, keys); });
@@ -72,20 +72,20 @@ fn of_key(field: &Field, key: &Key, place: &TokenStream) -> Result<TokenStream> 
         Some(ValueKind::Block) => return Ok(block(key, name, &about, &place, ty)),
         Some(ValueKind::List { most, wanted }) => {
             return Ok(quote! {
-                let list = ::leafmodel::document::keys::BlockList {
+                let list = ::document::keys::BlockList {
                     most: #most,
                     new: &::core::default::Default::default,
                     wanted: #wanted,
                     is_inside_itself: false,
                 };
-                let declare = ::leafmodel::document::declared::Declared::declare;
+                let declare = ::document::declared::Declared::declare;
                 keys.blocks(#name, #place, &list, #about, declare);
             });
         }
         Some(ValueKind::Flat) | None => of_type(of)?,
         Some(ValueKind::Word) => quote! {
-            ::leafmodel::document::value_kind::Word(
-                <#of as ::leafmodel::document::declared::Words>::WORDS
+            ::document::value_kind::Word(
+                <#of as ::document::declared::Words>::WORDS
             )
         },
         Some(ValueKind::Numbers { limits, degrees }) => numbers(of, limits, *degrees)?,
@@ -110,7 +110,7 @@ fn block(
     let declare = if let Some(with) = &key.with {
         quote! { #with }
     } else {
-        quote! { <#of as ::leafmodel::document::declared::Declared>::declare }
+        quote! { <#of as ::document::declared::Declared>::declare }
     };
     match (inner, key.is_required) {
         (Some(_), _) => {
@@ -125,7 +125,7 @@ fn block(
             let kinds = if key.with.is_some() {
                 quote! { &[] }
             } else {
-                quote! { &<#of as ::leafmodel::document::declared::Declared>::kinds() }
+                quote! { &<#of as ::document::declared::Declared>::kinds() }
             };
             quote! {
                 keys.required_block(#name, #about, #kinds, |keys| #declare(#place, keys));
@@ -138,9 +138,9 @@ fn block(
 /// The kind that follows from a type alone.
 fn of_type(ty: &Type) -> Result<TokenStream> {
     match last_word(ty).as_deref() {
-        Some("bool") => Ok(quote! { ::leafmodel::document::value_kind::Flag }),
+        Some("bool") => Ok(quote! { ::document::value_kind::Flag }),
         Some("u64") => Ok(quote! {
-            ::leafmodel::document::value_kind::Integer::within(0, ::core::primitive::u64::MAX)
+            ::document::value_kind::Integer::within(0, ::core::primitive::u64::MAX)
         }),
         Some(_) | None => Err(Error::new_spanned(
             ty,
@@ -154,20 +154,18 @@ fn numbers(ty: &Type, limits: &crate::attribute::Limits, degrees: bool) -> Resul
     if let Type::Array(array) = ty {
         let length = &array.len;
         return Ok(if degrees {
-            quote! { ::leafmodel::document::value_kind::DegreesList::<{ #length }>(#within) }
+            quote! { ::document::value_kind::DegreesList::<{ #length }>(#within) }
         } else {
-            quote! { ::leafmodel::document::value_kind::Numbers::<{ #length }>(#within) }
+            quote! { ::document::value_kind::Numbers::<{ #length }>(#within) }
         });
     }
     match last_word(ty).as_deref() {
-        Some("f64") if degrees => {
-            Ok(quote! { ::leafmodel::document::value_kind::Degrees(#within) })
-        }
-        Some("f64") => Ok(quote! { ::leafmodel::document::value_kind::Number(#within) }),
-        Some("DVec3") => Ok(quote! { ::leafmodel::document::value_kind::Vector(#within) }),
+        Some("f64") if degrees => Ok(quote! { ::document::value_kind::Degrees(#within) }),
+        Some("f64") => Ok(quote! { ::document::value_kind::Number(#within) }),
+        Some("DVec3") => Ok(quote! { ::document::value_kind::Vector(#within) }),
         Some("u8" | "u16" | "u32" | "u64" | "usize") => match limits {
             crate::attribute::Limits::Ends("closed", low, high) => {
-                Ok(quote! { ::leafmodel::document::value_kind::Integer::within(#low, #high) })
+                Ok(quote! { ::document::value_kind::Integer::within(#low, #high) })
             }
             crate::attribute::Limits::Ends(..) | crate::attribute::Limits::Named(_) => {
                 Err(Error::new_spanned(ty, "integers lie within `low..=high`"))

@@ -14,17 +14,17 @@ pub(crate) fn of_enum(input: &DeriveInput, data: &DataEnum) -> Result<TokenStrea
     let kinds = kinds.collect::<Result<Vec<TokenStream>>>()?;
     Ok(quote! {
         #[automatically_derived]
-        impl ::leafmodel::document::declared::Kinds for #name {
-            const KINDS: &'static [::leafmodel::document::keys::Variant<Self>] = &[#(#kinds),*];
+        impl ::document::declared::Kinds for #name {
+            const KINDS: &'static [::document::keys::Variant<Self>] = &[#(#kinds),*];
         }
         #[automatically_derived]
-        impl ::leafmodel::document::declared::Declared for #name {
-            fn declare(&mut self, keys: &mut ::leafmodel::document::keys::Keys<'_>) {
-                keys.kind(self, <Self as ::leafmodel::document::declared::Kinds>::KINDS);
+        impl ::document::declared::Declared for #name {
+            fn declare(&mut self, keys: &mut ::document::keys::Keys<'_>) {
+                keys.kind(self, <Self as ::document::declared::Kinds>::KINDS);
             }
 
             fn kinds() -> ::std::vec::Vec<&'static str> {
-                let kinds = <Self as ::leafmodel::document::declared::Kinds>::KINDS;
+                let kinds = <Self as ::document::declared::Kinds>::KINDS;
                 kinds.iter().map(|kind| kind.name).collect()
             }
         }
@@ -45,7 +45,7 @@ fn of_variant(variant: &Variant) -> Result<TokenStream> {
                 |default| quote! { #default },
             );
             let declare = key.with.as_ref().map_or_else(
-                || quote! { ::leafmodel::document::declared::Declared::declare },
+                || quote! { ::document::declared::Declared::declare },
                 |with| quote! { #with },
             );
             let declare = quote! {
@@ -87,7 +87,7 @@ fn of_variant(variant: &Variant) -> Result<TokenStream> {
         quote! { |value, keys| }
     };
     Ok(quote! {
-        ::leafmodel::document::keys::Variant {
+        ::document::keys::Variant {
             name: #name,
             about: #about,
             new: || #new,
@@ -115,7 +115,7 @@ pub(crate) fn words(input: &DeriveInput) -> Result<TokenStream> {
     let words = words.collect::<Result<Vec<TokenStream>>>()?;
     Ok(quote! {
         #[automatically_derived]
-        impl ::leafmodel::document::declared::Words for #name {
+        impl ::document::declared::Words for #name {
             const WORDS: &'static [(&'static str, Self)] = &[#(#words),*];
         }
     })

@@ -164,7 +164,7 @@ mod tests {
     use super::super::tissue::tests::GREEN;
     use super::*;
     use crate::optics::{Contents, PerConstituent, VeinFactors};
-    use crate::testing::fixed;
+    use properties::fixed;
 
     const FRAME: UvFrame = UvFrame {
         min: DVec2::new(-3.0, 0.0),

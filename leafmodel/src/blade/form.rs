@@ -282,7 +282,7 @@ mod tests {
 
     use super::*;
     use crate::blade::tests::{ellipse, flat};
-    use crate::testing::fixed;
+    use properties::fixed;
 
     fn bent() -> BladeForm {
         BladeForm {

@@ -327,7 +327,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::testing::fixed;
+    use properties::fixed;
 
     fn volume(mesh: &StalkMesh) -> f64 {
         let cones = mesh.triangles.iter().map(|triangle| {

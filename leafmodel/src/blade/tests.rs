@@ -6,8 +6,8 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::shape::outline::Outline;
-use crate::testing::fixed;
 use crate::venation::network::VeinSegment;
+use properties::fixed;
 
 /// A form without any bend, which tests modify.
 pub(super) fn flat() -> BladeForm {

@@ -237,7 +237,7 @@ mod tests {
 
     use super::super::tissue::tests::GREEN;
     use super::*;
-    use crate::testing::fixed;
+    use properties::fixed;
 
     fn vein(from: [f64; 2], to: [f64; 2], radius_from: f64, radius_to: f64) -> VeinSegment {
         VeinSegment {

@@ -178,7 +178,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::testing::fixed;
+    use properties::fixed;
 
     fn segment((ax, ay, bx, by): (f64, f64, f64, f64), radius: f64) -> VeinSegment {
         VeinSegment {

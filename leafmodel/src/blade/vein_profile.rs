@@ -154,7 +154,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::testing::fixed;
+    use properties::fixed;
 
     #[test]
     fn a_vein_is_full_inside_its_radius_and_gone_beyond_its_sheath() {

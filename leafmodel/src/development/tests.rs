@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::shape::outline::Outline;
-use crate::testing::fixed;
+use properties::fixed;
 
 const LENGTH_MM: f64 = 80.0;
 

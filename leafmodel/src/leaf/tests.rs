@@ -8,9 +8,9 @@ use super::*;
 use crate::leaf::outline_plan::Contour;
 use crate::optics::{Constituent, Contents, VeinFactors};
 use crate::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
-use crate::testing::fixed;
 use crate::transport::VeinStyle;
 use crate::venation::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
+use properties::fixed;
 
 fn outline_of(half: HalfForm) -> OutlinePlan {
     let midrib = Axis {

@@ -95,7 +95,7 @@ fn interval(values: &[f64], measure: Measure, draws: u32, seed: u64) -> Option<(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::uniform;
+    use properties::uniform;
 
     fn sample(number: u64, count: u64) -> Vec<f64> {
         (0..count).map(|i| uniform(number, 77, i)).collect()

@@ -6,7 +6,7 @@ use glam::DVec2;
 use proptest::prelude::*;
 
 use super::*;
-use crate::testing::fixed;
+use properties::fixed;
 
 fn outline(points: Vec<DVec2>, base: (f64, f64), apex: (f64, f64)) -> Outline {
     Outline::new(points, base.into(), apex.into()).expect("a simple margin")

@@ -264,7 +264,7 @@ fn exponent(pairs: &[(f64, f64)]) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::uniform;
+    use properties::uniform;
 
     const SIDE: i32 = 64;
 

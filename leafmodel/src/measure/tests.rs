@@ -7,8 +7,8 @@ use proptest::prelude::*;
 
 use super::subject::PROBES;
 use super::*;
-use crate::testing::fixed;
 use crate::venation::testing::{hexagons, network, poplar, rectangle, squares, wide};
+use properties::fixed;
 
 fn number(measures: &Measures, key: &str) -> f64 {
     let value = measures.number(key);

@@ -24,7 +24,7 @@ use crate::shape::specimen::Specimen;
 use crate::shape::svg_path::{SvgContour, SvgError, SvgReading};
 use crate::shape::teeth::ToothWave;
 use crate::transport::TransportError;
-use crate::variant;
+use document::variant;
 
 /// The kinds of contour.
 pub(super) const KINDS: [Variant<Contour>; 6] = [

@@ -39,7 +39,7 @@ use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
 use crate::leaf::damage::{Damage, Dieback};
 use crate::leaf::venation_plan::VenationPlan;
-use crate::testing::fixed;
+use properties::fixed;
 
 fn to_toml(plan: &LeafPlan) -> String {
     leaf_to_toml("beech", plan, Extent::Changed)

@@ -11,9 +11,9 @@ use crate::leaf::outline_plan::Contour;
 use crate::leaf::venation_plan::VenationPlan;
 use crate::shape::outline::Outline;
 use crate::transport::{FilledPlan, TransportError};
-use crate::variant;
 use crate::venation::plan::{AuxinPlan, Pattern};
 use crate::venation::{self, VenationError};
+use document::variant;
 
 /// The kinds of venation.
 pub(super) const KINDS: [Variant<VenationPlan>; 6] = [

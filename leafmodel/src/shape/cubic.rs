@@ -75,7 +75,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::testing::fixed;
+    use properties::fixed;
 
     /// Distance from `p` to the polyline.
     fn distance(p: DVec2, line: &[DVec2]) -> f64 {

@@ -72,7 +72,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::testing::fixed;
+    use properties::fixed;
 
     fn place() -> impl Strategy<Value = DVec3> {
         [-2.0..2.0, -2.0..2.0, -2.0..2.0].prop_map(DVec3::from_array)

@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     proptest! {
-        #![proptest_config(crate::testing::fixed(64))]
+        #![proptest_config(properties::fixed(64))]
         #[test]
         fn distances_are_those_of_a_search_through_all_pixels(
             bits in proptest::collection::vec(0_u8..8, 17 * 23),

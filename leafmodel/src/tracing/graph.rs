@@ -335,7 +335,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::testing::fixed(64))]
+        #![proptest_config(properties::fixed(64))]
         #[test]
         fn parts_and_holes_stay_and_each_hole_is_a_loop_of_the_graph(
             seeds in proptest::collection::vec((0.0..64.0, 0.0..64.0, 0.0..64.0, 0.0..64.0), 1..14),

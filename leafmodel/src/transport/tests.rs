@@ -11,7 +11,7 @@ use super::cost::TransportSystem;
 use super::growth::Growth;
 use super::leaf::unfolded;
 use super::*;
-use crate::testing::fixed;
+use properties::fixed;
 
 impl TransportLeaf {
     /// The leaf without the cells that are dead at this share of its revenue; `deaths` is from

@@ -202,8 +202,8 @@ mod tests {
 
     use super::*;
     use crate::shape::outline::Outline;
-    use crate::testing::fixed;
     use crate::venation::plan::Growth;
+    use properties::fixed;
 
     proptest! {
         #![proptest_config(fixed(300))]

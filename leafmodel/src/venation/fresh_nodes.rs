@@ -112,7 +112,7 @@ mod tests {
 
     use super::*;
     use crate::plane::rectangle_distance_squared;
-    use crate::testing::fixed;
+    use properties::fixed;
 
     /// Gathers the nodes in a circle.
     struct Circle {

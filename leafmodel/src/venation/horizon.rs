@@ -162,7 +162,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::testing::fixed;
+    use properties::fixed;
 
     /// Whether a node at `w` hides what is at `v` from the source at the origin: Eq. 2 as written.
     fn hides(w: DVec2, v: DVec2) -> bool {

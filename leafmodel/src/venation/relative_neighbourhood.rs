@@ -148,7 +148,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::testing::fixed;
+    use properties::fixed;
 
     /// Eq. 2 as written.
     fn by_definition(source: DVec2, nodes: &[DVec2]) -> Vec<u32> {

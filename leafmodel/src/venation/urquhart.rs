@@ -203,8 +203,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::testing::fixed;
     use crate::venation::relative_neighbourhood::RelativeNeighbourhood;
+    use properties::fixed;
 
     fn tree(nodes: &[(f64, f64)]) -> PointTree {
         let mut tree = PointTree::new(DVec2::splat(-16.0), DVec2::splat(16.0));

@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::blade::tissue::tests::GREEN;
-use crate::testing::fixed;
+use properties::fixed;
 
 const FRAME: UvFrame = UvFrame {
     min: DVec2::new(-5.0, 0.0),

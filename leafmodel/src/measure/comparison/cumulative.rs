@@ -122,7 +122,7 @@ fn limit(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::uniform;
+    use properties::uniform;
 
     // Two samples, statistic and p of scipy.stats.ks_2samp(method='exact'); SciPy 1.17.1.
     const STEPS: [(&[f64], &[f64], f64, f64); 4] = [

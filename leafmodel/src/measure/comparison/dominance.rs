@@ -69,7 +69,7 @@ pub fn cliffs_delta(first: &[f64], second: &[f64]) -> Option<Effect> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::uniform;
+    use properties::uniform;
 
     #[test]
     fn a_published_example_comes_out_as_published() {

@@ -152,7 +152,7 @@ fn drawn(seed: u64, draw: u64, count: usize, all: usize) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::uniform;
+    use properties::uniform;
 
     /// Leaves of 40 values that share a shift of their own, which may be large.
     fn leaves(number: u64, count: u64, shift: f64, own: f64) -> Vec<Vec<f64>> {

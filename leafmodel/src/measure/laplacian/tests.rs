@@ -1,7 +1,7 @@
 //! Flows that balance, and resistances that are known.
 
 use super::*;
-use crate::testing::uniform;
+use properties::uniform;
 
 /// A square lattice of pipes whose conductances span many powers of ten; corner 0 is joined to
 /// ground.

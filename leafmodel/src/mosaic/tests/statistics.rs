@@ -16,7 +16,7 @@ pub(crate) use self::rings::{PatternClass, element_count, ring};
 use crate::mosaic::surface::{Surface, SurfacePoint};
 use crate::mosaic::voronoi::Voronoi;
 use crate::random::bits_of;
-use crate::testing::uniform;
+use properties::uniform;
 
 /// Separates the random numbers of the null model from others.
 const SHUFFLE: u64 = 16;

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::testing::fixed;
+use properties::fixed;
 
 fn lobe(rate_ratio: f64) -> Axis {
     Axis {

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::measure::shape;
 use crate::shape::outline::OutlineError;
-use crate::testing::fixed;
+use properties::fixed;
 
 fn half(veins: Vec<VeinRow>) -> HalfForm {
     HalfForm {

@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::shape::tips::Point;
-use crate::testing::fixed;
+use properties::fixed;
 
 /// A blunt blade 50 mm long and about 30 wide, broadest at a third.
 fn blunt() -> Outline {

@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::testing::fixed;
+use properties::fixed;
 
 /// A strip 2 mm wide and 10 mm long, pointed at both ends where base and apex are.
 fn strip() -> Outline {

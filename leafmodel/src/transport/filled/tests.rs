@@ -6,8 +6,8 @@ use super::*;
 use crate::blade::BladeForm;
 use crate::blade::mesh::BladeMesh;
 use crate::species;
-use crate::testing::fixed;
 use crate::transport::cells::NONE;
+use properties::fixed;
 
 /// Outlines that other models grew, that were drawn by hand, and that have sinuses narrower than a
 /// cell.

@@ -6,10 +6,10 @@ use super::margin::Margin;
 use super::*;
 use crate::shape::outline::Outline;
 use crate::species;
-use crate::testing::fixed;
 use crate::venation::areole::areoles;
 use crate::venation::plan::{AuxinPlan, Growth, PlanError};
 use crate::venation::{VenationError, check, grow};
+use properties::fixed;
 
 fn outline(name: &str) -> Outline {
     let plan = species::find(name).expect("a preset").plan();

@@ -6,8 +6,8 @@ use super::spline::Quadratic;
 use super::*;
 use crate::shape::cubic::FLATNESS;
 use crate::species::{PRESETS, Preset, find};
-use crate::testing::fixed;
 use crate::venation::areole::areoles;
+use properties::fixed;
 
 const LENGTH: f64 = 100.0;
 

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use proptest::prelude::*;
 
 use super::*;
-use crate::testing::fixed;
 use crate::venation::testing::{hexagons, network, poplar, squares};
+use properties::fixed;
 
 fn places(list: &[(f64, f64)]) -> Vec<DVec2> {
     list.iter().copied().map(DVec2::from).collect()

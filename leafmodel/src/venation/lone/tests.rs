@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::testing::fixed;
+use properties::fixed;
 
 /// Squared distances from a place to all nodes, computed as in the other modules.
 fn squared(place: DVec2, nodes: &[DVec2]) -> Vec<f64> {

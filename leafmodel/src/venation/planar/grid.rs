@@ -230,7 +230,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::testing::fixed;
+    use properties::fixed;
 
     fn edge(from: u32, to: u32) -> VeinEdge {
         VeinEdge {

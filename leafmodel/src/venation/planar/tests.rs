@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use proptest::prelude::*;
 
 use super::*;
-use crate::testing::fixed;
 use crate::venation::areole::areoles;
 use crate::venation::testing::network;
+use properties::fixed;
 
 /// Whether two segments share a point, up to a slack, that is not an end of both.
 fn meet(graph: &PlaneGraph, e: &VeinEdge, f: &VeinEdge) -> bool {

@@ -10,7 +10,6 @@ use super::all_pairs;
 use crate::shape::growth::RateCurve;
 use crate::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
 use crate::shape::outline::Outline;
-use crate::testing::fixed;
 use crate::venation::lamina::Lamina;
 use crate::venation::lamina_clock::LaminaClock;
 use crate::venation::network::{Ending, VenationNetwork};
@@ -18,6 +17,7 @@ use crate::venation::plan::{
     AuxinPlan, FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern, PlanError,
 };
 use crate::venation::{Grown, VenationError, carry_out, grow};
+use properties::fixed;
 
 fn shape(slope: f64, lobe_decay: f64) -> GrowthForm {
     let half = HalfForm {

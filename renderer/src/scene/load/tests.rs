@@ -16,7 +16,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::scene::description::{Coat, SolidOptics};
-use crate::testing::fixed;
+use properties::fixed;
 
 const PLAIN: &str = "format = 1
 [leaves.beech]

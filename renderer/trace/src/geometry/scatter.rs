@@ -1,0 +1,351 @@
+//! Places for many shapes on a surface: drawn at random, standing or at rest.
+//!
+//! - **In**: the surface as triangles in the world, what else lies on it, and the shapes as rigid
+//!   bodies; metres.
+//! - **Out**: for each thing its shape and its place in the world.
+//! - **Always true**: the same plan gives the same places on every machine. A body at rest touches
+//!   nothing with its inside: over each cell of a grid it lies above all that came before. It does
+//!   not hang in the air: it is lowered and turned until its centre of mass is as low as its
+//!   contacts let it be.
+//! - **Left out**: forces, friction, bending. Bodies fall straight down, one after the other.
+//!
+//! A body comes to rest where its centre of mass is lowest; for small turns that is a linear
+//! programme in three unknowns ([`numerics::rest`]), which is solved again after each turn.
+
+mod body;
+mod drops;
+mod inclination;
+mod pile;
+mod place;
+mod points;
+#[cfg(test)]
+mod tests;
+mod volume;
+
+use glam::{DAffine3, DMat3, DVec2, DVec3};
+
+use self::drops::{Nearby, Standing, merged};
+use self::pile::Pile;
+use self::place::from_z;
+use self::points::{Measure, Spaced};
+
+pub use self::body::Body;
+pub use self::inclination::Inclination;
+pub use self::place::{MOST_AT_REST, MOST_THINGS, Most, NoPlace, ScatterError, Strewn};
+pub use self::points::{Ground, triangles};
+pub use self::volume::{Arrangement, Centres, Volume, VolumeError};
+use crate::sampling::mixer;
+
+/// How many things lie on a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Amount {
+    /// So many.
+    Count(u32),
+    /// So many for each m² of the surface (where things come to rest, of its plan).
+    PerSquareMetre(f64),
+}
+
+/// How things lie on a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scatter {
+    /// How many.
+    pub amount: Amount,
+    /// The rectangle in the ground plan to which they keep: its least and greatest x and y, m.
+    pub within: Option<[DVec2; 2]>,
+    /// Least distance between the points where they stand, m.
+    pub least_distance: f64,
+    /// Least and greatest factor on their size, > 0.
+    pub scale: [f64; 2],
+    /// Greatest angle between a thing's own upright axis and the surface's normal (or the vertical)
+    /// before it comes to rest, rad; all directions within it are equally likely.
+    pub tilt: f64,
+    /// Greatest turn about that axis to either side, rad.
+    pub turn: f64,
+    /// Share that lies upside down.
+    pub flipped: f64,
+    /// Whether things stand upright instead of along the surface's normal.
+    pub upright: bool,
+    /// How a thing lies once it is there.
+    pub rest: Rest,
+    /// Share of things that stand in hollows of the surface, such as furrows above veins; without
+    /// effect on what comes to rest.
+    pub furrows: f64,
+    /// Whether things that touch run together into one of their summed volume, as drops do; without
+    /// effect on what comes to rest.
+    pub merge: bool,
+    /// Same plan and seed, same places.
+    pub seed: u64,
+}
+
+/// How a thing lies once it is there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rest {
+    /// Its origin lies on the surface, or below it.
+    Fixed {
+        /// How deep the origin lies below the surface, m.
+        sink: f64,
+    },
+    /// It falls, and turns until it lies on the surface and on what has come before.
+    Settled {
+        /// Distance that is kept from what it lies on, m.
+        gap: f64,
+    },
+}
+
+/// Points that are tried for each thing before a surface counts as full.
+const TRIES: usize = 30;
+
+/// Points among which a thing that stands in a hollow has the most hollow one.
+const CHOICES: u64 = 24;
+
+/// Failures in a row after which a surface counts as full, for things that settle (each takes long
+/// to find out) and for others.
+const IN_A_ROW: [usize; 2] = [100, 20_000];
+
+/// What a random number of a thing is for.
+#[derive(Clone, Copy, Debug)]
+enum Use {
+    Triangle,
+    Across,
+    Along,
+    Shape,
+    Scale,
+    Tilt,
+    TiltTowards,
+    Turn,
+    Flip,
+    Furrow,
+}
+
+impl Scatter {
+    /// Places for things on `ground`; what comes to rest lies on `others` too. `bodies` are the
+    /// shapes, of which each is drawn equally often.
+    ///
+    /// # Errors
+    ///
+    /// [`ScatterError`] if there is no room.
+    ///
+    /// # Panics
+    ///
+    /// If there is no body.
+    pub fn places(
+        &self,
+        ground: &Ground,
+        others: impl IntoIterator<Item = [DVec3; 3]>,
+        bodies: &[Body],
+    ) -> Result<Vec<Strewn>, ScatterError> {
+        self.places_told(ground, others, bodies, Most::UNBOUND, &|_| {})
+    }
+
+    /// As [`Scatter::places`], for at most so many things; `told` is called for each thing that has
+    /// come to rest, with the number of those that are wanted.
+    ///
+    /// # Errors
+    ///
+    /// As [`Scatter::places`].
+    ///
+    /// # Panics
+    ///
+    /// As [`Scatter::places`].
+    pub fn places_told(
+        &self,
+        ground: &Ground,
+        others: impl IntoIterator<Item = [DVec3; 3]>,
+        bodies: &[Body],
+        most: Most,
+        told: &dyn Fn(usize),
+    ) -> Result<Vec<Strewn>, ScatterError> {
+        assert!(!bodies.is_empty(), "something is strewn");
+        let rests = matches!(self.rest, Rest::Settled { .. });
+        let measure = ground.measure(self.within, rests);
+        if measure.total() <= 0.0 {
+            return Err(ScatterError::NoSurface { rests });
+        }
+        let wanted = self.wanted(measure.total(), rests, most)?;
+        let mut pile = None;
+        if rests {
+            let radii = || bodies.iter().map(Body::radius);
+            let reach = radii().fold(0.0, f64::max) * self.scale[1];
+            let least = radii().fold(f64::INFINITY, f64::min) * self.scale[0];
+            let below = pile.insert(Pile::over(measure.bounds(), reach, least)?);
+            ground
+                .triangles()
+                .chain(others)
+                .for_each(|triangle| below.add(triangle));
+        }
+        let mut spaced = Spaced::new(self.least_distance);
+        let widths: Vec<f64> = bodies.iter().map(Body::width).collect();
+        // Hollows are looked for as wide as things are.
+        let reach = widths.iter().copied().fold(0.0, f64::max) * self.scale[1];
+        let prefers = !rests && (self.furrows > 0.0 || self.merge) && reach > 0.0;
+        let nearby = prefers.then(|| Nearby::of(measure.triangles(), reach));
+        let mut standing = Vec::new();
+        let mut found = Vec::with_capacity(wanted);
+        let mut failures = [0; NoPlace::ALL.len()];
+        let mut in_a_row = 0;
+        for number in 0..(TRIES * wanted) as u64 {
+            if found.len() == wanted || in_a_row >= IN_A_ROW[usize::from(!rests)] {
+                break;
+            }
+            in_a_row += 1;
+            let random = |what: Use| self.random(number, what);
+            let (point, normal) = self.point(number, &measure, nearby.as_ref());
+            if !spaced.has_room(point) {
+                failures[NoPlace::Near as usize] += 1;
+                continue;
+            }
+            let shape = (random(Use::Shape) * bodies.len() as f64) as usize;
+            let [least, most] = self.scale;
+            let scale = least + (most - least) * random(Use::Scale);
+            let up = if self.upright || rests {
+                DVec3::Z
+            } else {
+                normal
+            };
+            let turn = from_z(up) * self.posture(random);
+            let to_world = match (self.rest, &mut pile) {
+                (Rest::Settled { gap }, Some(pile)) => {
+                    let body = &bodies[shape];
+                    match pile.settle(body, turn * scale, point.truncate(), gap) {
+                        Ok((turn, at)) => {
+                            told(wanted);
+                            DAffine3::from_mat3_translation(turn, at - turn * body.middle())
+                        }
+                        Err(why) => {
+                            failures[why as usize] += 1;
+                            continue;
+                        }
+                    }
+                }
+                (Rest::Fixed { sink }, _) => {
+                    DAffine3::from_mat3_translation(turn * scale, point - up * sink)
+                }
+                (Rest::Settled { .. }, None) => unreachable!("what comes to rest has a pile"),
+            };
+            in_a_row = 0;
+            spaced.take(point);
+            standing.push(Standing {
+                body: shape as u32,
+                point,
+                up,
+                turn,
+                scale,
+            });
+            found.push(Strewn {
+                body: shape as u32,
+                to_world,
+            });
+        }
+        if found.len() < wanted {
+            let why = NoPlace::ALL
+                .into_iter()
+                .max_by_key(|why| failures[*why as usize]);
+            return Err(ScatterError::NoRoom {
+                found: found.len(),
+                wanted,
+                why: why.unwrap_or(NoPlace::Near),
+            });
+        }
+        match (&nearby, self.rest) {
+            (Some(nearby), Rest::Fixed { sink }) if self.merge => {
+                Ok(self.run_together(standing, &widths, nearby, sink))
+            }
+            _ => Ok(found),
+        }
+    }
+
+    /// How many things are wanted on a surface of this area, m².
+    fn wanted(&self, area: f64, rests: bool, most: Most) -> Result<usize, ScatterError> {
+        let wanted = match self.amount {
+            Amount::Count(count) => f64::from(count),
+            Amount::PerSquareMetre(density) => (density * area).round(),
+        };
+        let most = if rests {
+            Most::Ever(MOST_AT_REST).and(most)
+        } else {
+            most
+        };
+        if wanted > most.things() as f64 {
+            return Err(ScatterError::TooMany { wanted, most });
+        }
+        if wanted < 1.0 {
+            return Err(ScatterError::None { area });
+        }
+        Ok(wanted as usize)
+    }
+
+    /// Where a thing with this number comes to stand, and the surface's normal there: with the share
+    /// `furrows` the deepest hollow of some random places.
+    fn point(&self, number: u64, measure: &Measure, nearby: Option<&Nearby>) -> (DVec3, DVec3) {
+        let places = [Use::Triangle, Use::Across, Use::Along];
+        let (mut point, mut normal) = measure.point(places.map(|what| self.random(number, what)));
+        if let Some(nearby) = nearby
+            && self.random(number, Use::Furrow) < self.furrows
+        {
+            let mut most = nearby.hollowness(point, normal);
+            for choice in 1..CHOICES {
+                let other = |what: Use| self.random(number | (choice << 40), what);
+                let (place, up) = measure.point(places.map(other));
+                let hollow = nearby.hollowness(place, up);
+                if hollow > most {
+                    (point, normal, most) = (place, up, hollow);
+                }
+            }
+        }
+        (point, normal)
+    }
+
+    /// Things of which those that touch have run together, `sink` below the surface.
+    fn run_together(
+        &self,
+        standing: Vec<Standing>,
+        widths: &[f64],
+        nearby: &Nearby,
+        sink: f64,
+    ) -> Vec<Strewn> {
+        let turned = |from: DVec3, to: DVec3, turn: DMat3| {
+            if self.upright {
+                turn
+            } else {
+                from_z(to) * from_z(from).transpose() * turn
+            }
+        };
+        let drops = merged(standing, widths, nearby, turned).into_iter();
+        let drops = drops.map(|drop| {
+            let up = if self.upright { DVec3::Z } else { drop.up };
+            let at = drop.point - up * sink;
+            Strewn {
+                body: drop.body,
+                to_world: DAffine3::from_mat3_translation(drop.turn * drop.scale, at),
+            }
+        });
+        drops.collect()
+    }
+
+    /// The turn of a thing about its own axes, before the surface turns it.
+    fn posture(&self, random: impl Fn(Use) -> f64) -> DMat3 {
+        // Evenly over the cap of directions.
+        let cos_tilt = 1.0 - (1.0 - libm::cos(self.tilt)) * random(Use::Tilt);
+        let sin_tilt = (1.0 - cos_tilt * cos_tilt).max(0.0).sqrt();
+        let (sin, cos) = libm::sincos(std::f64::consts::TAU * random(Use::TiltTowards));
+        let leaning = from_z(DVec3::new(sin_tilt * cos, sin_tilt * sin, cos_tilt));
+        let (sin, cos) = libm::sincos(self.turn * (2.0 * random(Use::Turn) - 1.0));
+        let turned = DMat3::from_cols(
+            DVec3::new(cos, sin, 0.0),
+            DVec3::new(-sin, cos, 0.0),
+            DVec3::Z,
+        );
+        let flip = if random(Use::Flip) < self.flipped {
+            // About y, along which a leaf's midrib runs.
+            DMat3::from_diagonal(DVec3::new(-1.0, 1.0, -1.0))
+        } else {
+            DMat3::IDENTITY
+        };
+        leaning * turned * flip
+    }
+
+    /// A number in [0, 1) for each use of each thing.
+    fn random(&self, number: u64, what: Use) -> f64 {
+        mixer::of_use(self.seed, number, what as u64)
+    }
+}

@@ -1,0 +1,282 @@
+//! Media that absorb and scatter light on its way through bodies.
+//!
+//! - **In**: absorption and scattering coefficients by wavelength, m⁻¹, a [`Phase`] function, the
+//!   throughput of a path at its wavelengths.
+//! - **Out**: how far light goes before it is scattered, and the throughput of every wavelength
+//!   there or where the way ends before.
+//! - **Always true**: a medium is the same everywhere in its body; the mean of what is left over
+//!   all flights is what the law of Beer and Lambert leaves and what is scattered.
+//! - **Left out**: media that glow, and coefficients that vary within a body.
+//!
+//! Only scattering ends a flight. Absorption weakens light along the whole way, by the same factor
+//! however it was sampled, so that a clear medium needs no random numbers at all.
+//!
+//! ```
+//! use trace::medium::{Medium, Phase};
+//! use trace::spectrum::{Curve, Lanes, Wavelengths};
+//!
+//! // A filter that absorbs 2 per metre of red light, and nothing of blue.
+//! let absorption = Curve::from_points(&[(590.0, 0.0), (610.0, 2.0)]);
+//! let filter = Medium::new(absorption, Curve::Constant(0.0), Phase::HenyeyGreenstein { g: 0.0 });
+//! let at = filter.at(&Wavelengths::new([450.0, 550.0, 650.0, 750.0]));
+//! assert_eq!(at.reach(&Lanes::ONE, [0.5, 0.5]), f32::INFINITY);
+//! let [blue, .., red] = at.passed(&Lanes::ONE, 0.5).0;
+//! assert!(blue == 1.0 && (red - (-1.0_f32).exp()).abs() < 1e-6);
+//! ```
+
+mod inside;
+mod phase;
+
+use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthGrid, Wavelengths};
+
+pub use self::inside::{Body, BodyPlace, Inside};
+pub use self::phase::{Phase, Scattering};
+
+/// A homogeneous medium.
+#[derive(Clone, Debug)]
+pub struct Medium {
+    absorption: Spectrum,
+    scattering: Spectrum,
+    phase: Phase,
+}
+
+/// The media of a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Media {
+    /// The media.
+    pub media: Vec<Medium>,
+    /// Whether there are bodies whose boundary lets light pass straight or that a medium fills. If
+    /// not, rays need not be told where they are.
+    pub are_present: bool,
+    /// The bodies in which the camera stands.
+    pub around_camera: Inside,
+}
+
+/// The coefficients of a medium at a path's wavelengths.
+#[derive(Clone, Copy, Debug)]
+pub struct Coefficients<const N: usize> {
+    /// Absorption, m⁻¹, ≥ 0.
+    pub absorption: Lanes<N>,
+    /// Scattering, m⁻¹, ≥ 0.
+    pub scattering: Lanes<N>,
+    /// Where light goes that is scattered.
+    pub phase: Phase,
+}
+
+impl Medium {
+    /// A medium with these coefficients, m⁻¹, ≥ 0.
+    pub fn new(absorption: Curve, scattering: Curve, phase: Phase) -> Self {
+        Self {
+            absorption: absorption.into(),
+            scattering: scattering.into(),
+            phase,
+        }
+    }
+
+    /// Evaluates its coefficients at every wavelength of a grid.
+    pub fn tabulate(&mut self, grid: &WavelengthGrid) {
+        self.absorption.tabulate(grid);
+        self.scattering.tabulate(grid);
+    }
+
+    /// Its coefficients at a path's wavelengths.
+    pub fn at<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> Coefficients<N> {
+        Coefficients {
+            absorption: self.absorption.lanes(wavelengths),
+            scattering: self.scattering.lanes(wavelengths),
+            phase: self.phase,
+        }
+    }
+}
+
+/// Sampling of flights: one wavelength is chosen in proportion to the path's throughput, and its
+/// scattering coefficient decides how far light goes. Each wavelength is weighted by its own
+/// probability over that of all of them (the balance heuristic for one sample). With weights w in
+/// proportion to the throughputs, the density of a flight that ends at d is Σ wⱼ sⱼ exp(−sⱼ d), and
+/// the probability of one longer than d is Σ wⱼ exp(−sⱼ d).
+///
+/// # Source
+///
+/// \[wilkie2014\] and \[miller2019\] for the weights over wavelengths. There all wavelengths share
+/// one choice along a path; a choice at each flight in proportion to the throughput is the same
+/// where media alone change the throughput, and leaves out wavelengths that have none left.
+impl<const N: usize> Coefficients<N> {
+    /// How far light goes before it is scattered, m; infinite if it never is. The throughput is not
+    /// zero everywhere; the numbers are in [0, 1).
+    pub fn reach(&self, throughput: &Lanes<N>, [choice, distance]: [f32; 2]) -> f32 {
+        let target = choice * throughput.sum();
+        let (mut chosen, mut below) = (0, 0.0);
+        for (lane, &share) in throughput.0.iter().enumerate() {
+            // The last lane with any throughput takes what rounding leaves over.
+            if share > 0.0 && below <= target {
+                chosen = lane;
+            }
+            below += share;
+        }
+        let scattering = self.scattering.0[chosen];
+        if scattering > 0.0 {
+            -libm::logf(1.0 - distance) / scattering
+        } else {
+            f32::INFINITY
+        }
+    }
+
+    /// Factor on the throughput of light that has gone `length`, m, and was not scattered.
+    pub fn passed(&self, throughput: &Lanes<N>, length: f32) -> Lanes<N> {
+        let (least, weights) = self.weights(throughput);
+        let mut probability = 0.0;
+        for (weight, scattering) in weights.0.iter().zip(self.scattering.0) {
+            probability += weight * beyond(scattering - least, length);
+        }
+        if probability <= 0.0 {
+            return Lanes::ZERO;
+        }
+        let extinction = self.absorption + self.scattering;
+        Lanes::from_fn(|lane| beyond(extinction.0[lane] - least, length) / probability)
+    }
+
+    /// Factor on the throughput of light that is scattered after `length`, m, which is finite.
+    pub fn scattered(&self, throughput: &Lanes<N>, length: f32) -> Lanes<N> {
+        let (least, weights) = self.weights(throughput);
+        let mut density = 0.0;
+        for (weight, scattering) in weights.0.iter().zip(self.scattering.0) {
+            density += weight * scattering * beyond(scattering - least, length);
+        }
+        if density <= 0.0 {
+            return Lanes::ZERO;
+        }
+        let extinction = self.absorption + self.scattering;
+        Lanes::from_fn(|lane| {
+            self.scattering.0[lane] * beyond(extinction.0[lane] - least, length) / density
+        })
+    }
+
+    /// Share of light that goes `length`, m, straight on.
+    pub fn transmittance(&self, length: f32) -> Lanes<N> {
+        let extinction = self.absorption + self.scattering;
+        Lanes::from_fn(|lane| beyond(extinction.0[lane], length))
+    }
+
+    /// Share of the light that is lost by extinction which is scattered.
+    pub fn albedo(&self) -> Lanes<N> {
+        let extinction = self.absorption + self.scattering;
+        Lanes::from_fn(|lane| {
+            let scattering = self.scattering.0[lane];
+            if scattering > 0.0 {
+                scattering / extinction.0[lane]
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// The least scattering coefficient of lanes with any throughput, and the shares of the lanes in
+    /// the throughput. Taken out of all exponents, that coefficient keeps ratios from being 0 / 0.
+    fn weights(&self, throughput: &Lanes<N>) -> (f32, Lanes<N>) {
+        let mut least = f32::INFINITY;
+        for (share, scattering) in throughput.0.iter().zip(self.scattering.0) {
+            if *share > 0.0 {
+                least = least.min(scattering);
+            }
+        }
+        (least, *throughput / throughput.sum())
+    }
+}
+
+/// exp(−coefficient · length); 1 for no coefficient at any length. A coefficient below 0 is that of
+/// a lane without throughput, whose factor does not matter but must be finite.
+fn beyond(coefficient: f32, length: f32) -> f32 {
+    if coefficient > 0.0 {
+        libm::expf(-coefficient * length)
+    } else {
+        1.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampling::stream::Stream;
+
+    fn medium() -> Coefficients<4> {
+        Coefficients {
+            absorption: Lanes([0.0, 0.5, 3.0, 1.0]),
+            scattering: Lanes([2.0, 2.0, 0.3, 0.0]),
+            phase: Phase::HenyeyGreenstein { g: 0.0 },
+        }
+    }
+
+    #[test]
+    fn flights_leave_of_every_wavelength_what_beer_and_lambert_do() {
+        // Whatever the throughput was, the mean of what passes is exp(−(a + s) L), and of what is
+        // scattered s / (a + s) of the rest.
+        let (at, length, count) = (medium(), 0.7, 1 << 16);
+        for before in [Lanes::ONE, Lanes([0.1, 2.0, 0.5, 1.0])] {
+            let (mut passed, mut scattered) = ([0.0; 4], [0.0; 4]);
+            for i in 0..count {
+                let [u, v, ..] = Stream::new(3, 0, 0, i).next4();
+                let reach = at.reach(&before, [u, v]);
+                let (sums, factor) = if reach < length {
+                    (&mut scattered, at.scattered(&before, reach))
+                } else {
+                    (&mut passed, at.passed(&before, length))
+                };
+                for (sum, factor) in sums.iter_mut().zip(factor.0) {
+                    *sum += f64::from(factor) / f64::from(count);
+                }
+            }
+            for lane in 0..4 {
+                let (a, s) = (at.absorption.0[lane], at.scattering.0[lane]);
+                let left = libm::exp(f64::from(-(a + s) * length));
+                let expected = f64::from(s / (a + s)) * (1.0 - left);
+                // Sobol points: far below 1/√count = 4e-3.
+                assert!((passed[lane] - left).abs() < 4e-4, "{lane}: {passed:?}");
+                assert!(
+                    (scattered[lane] - expected).abs() < 4e-4,
+                    "{lane}: {scattered:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn wavelengths_that_are_scattered_alike_have_one_weight_and_absorption_no_noise() {
+        let at = Coefficients {
+            scattering: Lanes::splat(2.0),
+            ..medium()
+        };
+        for length in [0.1_f32, 1.0, 30.0] {
+            let passed = at.passed(&Lanes::ONE, length);
+            let scattered = at.scattered(&Lanes::ONE, length);
+            for lane in 0..4 {
+                let expected = (-at.absorption.0[lane] * length).exp();
+                assert!((passed.0[lane] - expected).abs() < 1e-6);
+                assert!((scattered.0[lane] - expected).abs() < 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn deep_media_give_numbers() {
+        let at = Coefficients {
+            scattering: Lanes([1e6, 1e6, 1e5, 1e6]),
+            ..medium()
+        };
+        let one_lane = Lanes([0.0, 0.0, 0.0, 1.0]);
+        for throughput in [Lanes::ONE, one_lane] {
+            for length in [1e-9, 1.0, f32::INFINITY] {
+                let passed = at.passed(&throughput, length) * throughput;
+                assert!(
+                    passed.0.iter().all(|factor| factor.is_finite()),
+                    "{passed:?}"
+                );
+            }
+            let reach = at.reach(&throughput, [0.999_999, 0.999_999_94]);
+            let scattered = at.scattered(&throughput, reach) * throughput;
+            assert!(
+                scattered.0.iter().all(|factor| factor.is_finite()),
+                "{scattered:?}"
+            );
+        }
+    }
+}
