@@ -223,14 +223,14 @@ fn no_files_import_each_other_in_a_circle() {
 fn files_of_the_core_import_in_one_direction() {
     for (krate, core) in [
         ("renderer/trace", &[][..]),
-        ("renderer", &["instruments", "integrator", "walk"]),
+        ("renderer", &["instruments", "integrator"]),
     ] {
         let house = House::of(krate);
         let files = house.imports.keys();
         let files: Vec<_> = files
             .filter(|module| core.is_empty() || core.contains(&module[0].as_str()))
             .collect();
-        assert!(files.len() > 30, "{}", files.len());
+        assert!(files.len() > 15, "{}", files.len());
         let circles: Vec<_> = files
             .into_iter()
             .filter_map(|module| house.circle(module, true))

@@ -156,7 +156,7 @@ const LIGHT: u64 = 0x816e_ae9b_cd36_0388;
 fn every_level_of_instructions_gives_the_same_committed_light() {
     for level in Level::all() {
         let (_, mut world) = world_of(SCENE);
-        world.geometry = world.geometry.at_level(level);
+        world.traced.geometry = world.traced.geometry.at_level(level);
         let job = job([40, 30], 20);
         let go_on = AtomicBool::new(false);
         let rendered =

@@ -1,8 +1,8 @@
 //! What pictures tell of their own error, against the error over seeds.
 
 use renderer::film::{Film, Pixel, Series};
-use renderer::image::LUMINANCE;
 use renderer::integrator::render::{Halt, Rendered};
+use renderer::spectrum::rgb::LUMINANCE;
 use support::picture::{mean_and_error_of, mean_of, picture_of, picture_until};
 
 use crate::radiometry::{FACING_THE_ORIGIN, GREY_FLOOR, assert_agrees, glowing_room, scene};

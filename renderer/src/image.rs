@@ -124,15 +124,6 @@ pub const REC709: Attribute = Attribute::Chromaticities(REC709_POINTS);
 /// x and y of red, green, blue and white of Rec. 709.
 const REC709_POINTS: [[f32; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]];
 
-/// Share of each channel of linear sRGB in luminance.
-pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
-
-/// Luminance of linear sRGB.
-pub fn luminance(colour: [f64; 3]) -> f64 {
-    let channels = colour.into_iter().zip(LUMINANCE);
-    channels.map(|(value, weight)| value * weight).sum()
-}
-
 /// Why a picture could not be read or written.
 #[derive(Debug, Error)]
 pub enum ImageError {

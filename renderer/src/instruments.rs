@@ -77,8 +77,8 @@ pub use self::period::MOST_TURNS;
 pub use self::row::{Direction, Reading, Row, ViewAngles};
 pub use self::stage::CutPaths;
 use crate::scene::description::{Description, InstrumentKind};
-use crate::scene::world::World;
 use crate::spectrum::WavelengthSampler;
+use trace::world::World;
 
 /// The wavelengths of all instruments of a scene, and the first set of each; `None` if there are no
 /// instruments.

@@ -45,14 +45,8 @@
 
 pub mod caption;
 pub mod develop;
-pub mod effort;
-pub mod features;
-mod fluorescence;
-mod job;
-pub mod layers;
-pub mod mis;
-pub mod noise;
-pub mod path;
-pub mod render;
-pub mod sample_map;
-mod trial;
+
+#[doc(inline)]
+pub use trace::integrator::{
+    effort, features, layers, mis, noise, path, render, sample_map, settings,
+};

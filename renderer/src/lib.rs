@@ -84,7 +84,8 @@ mod plot;
 mod report;
 pub mod scene;
 pub mod sweep;
-pub mod walk;
 
 #[doc(inline)]
-pub use trace::{bsdf, camera, film, geometry, light, material, medium, sampling, simd, spectrum};
+pub use trace::{
+    bsdf, camera, film, geometry, light, material, medium, sampling, simd, spectrum, walk,
+};

@@ -125,9 +125,9 @@ fn tell_world(
     memory: Option<f64>,
 ) -> Result<(), Failure> {
     let patience = Patience::building(description.leaves.len(), memory);
-    let world = World::build_with(description, &patience.options()).map_err(Failure::bad)?;
+    let mut world = World::build_with(description, &patience.options()).map_err(Failure::bad)?;
     drop(patience);
-    note(world.notes);
+    note(std::mem::take(&mut world.notes));
     for Named { name, value } in &description.crossing {
         let [crossing, leaves] = value;
         eprintln!(

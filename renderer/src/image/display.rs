@@ -16,8 +16,9 @@ use super::light_colour;
 use super::pixels::{Depth, Pixels};
 use super::tone::Tone;
 use super::white::{White, neutralised};
-use super::{ImageError, Picture, atomic, jpeg, luminance, portable_network};
+use super::{ImageError, Picture, atomic, jpeg, portable_network};
 use crate::spectrum::observer::Observer;
+use crate::spectrum::rgb::luminance;
 use crate::spectrum::{Share, WavelengthSampler};
 
 /// Settings of `[picture]`.

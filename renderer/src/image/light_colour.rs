@@ -13,7 +13,8 @@ use leafmodel::document::source::escaped;
 use serde::{Deserialize, Serialize};
 
 use super::white::is_balanceable;
-use super::{Attribute, ImageError, Picture, luminance};
+use super::{Attribute, ImageError, Picture};
+use crate::spectrum::rgb::luminance;
 
 /// The attribute that holds them.
 const NAME: &str = "lamina:lights";

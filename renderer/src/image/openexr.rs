@@ -47,15 +47,6 @@ const STRUCTURAL: [&str; 15] = [
 /// file is: those of a sky of 2048 × 1024 pixels.
 const MOST_EMPTY: u64 = 24 << 20;
 
-/// Name of the channel that holds spectral radiance at a wavelength.
-///
-/// # Source
-///
-/// \[fichet2021\]: `S0.` for the unpolarised component, a comma as decimal mark, the unit.
-pub fn spectral_channel_name(nm: f64) -> String {
-    format!("S0.{}nm", format!("{nm:.6}").replace('.', ","))
-}
-
 /// The attributes that mark a file of spectral radiance in W m⁻² sr⁻¹ nm⁻¹.
 ///
 /// # Source

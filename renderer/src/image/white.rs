@@ -133,7 +133,7 @@ mod tests {
     fn a_colour_that_is_to_be_neutral_is_and_keeps_its_luminance() {
         for colour in [[0.4, 0.3, 0.1], [0.02, 0.03, 0.05], [7.0; 3]] {
             let found = neutralised(colour) * DVec3::from_array(colour);
-            let expected = crate::image::luminance(colour);
+            let expected = crate::spectrum::rgb::luminance(colour);
             close(found / expected, [1.0; 3], 1e-3);
         }
     }

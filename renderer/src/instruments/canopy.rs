@@ -22,8 +22,8 @@ use crate::geometry::frame::Frame;
 use crate::sampling::stream::Stream;
 use crate::sampling::warp;
 use crate::scene::description::{Canopy, Description, Instrument, Named};
-use crate::scene::world::World;
 use crate::spectrum::Wavelengths;
+use trace::world::World;
 
 /// Rays along each side of the box by which soil is looked for.
 const SOIL_PROBES: u32 = 48;

@@ -16,7 +16,7 @@ use super::spectral::{Series, plain, rows};
 use super::stage::CutPaths;
 use crate::material::Tissue;
 use crate::scene::description::{DepthProfile, Description, Instrument, Named};
-use crate::scene::world::World;
+use trace::world::World;
 
 /// Optical depth of absorption of a slice from which on its fluence can be told from what it absorbs.
 const LEAST_DEPTH: f64 = 1e-9;

@@ -9,13 +9,14 @@ use crate::material::Material;
 use crate::medium::BodyPlace;
 use crate::sampling::dimensions::{Sets, instrument as sets};
 use crate::sampling::stream::Stream;
-use crate::scene::world::{World, WorldObjects};
 use crate::spectrum::{Lanes, Wavelengths};
 use crate::walk::cone::Cone;
 use crate::walk::encounter::Encounter;
 use crate::walk::facet::{Facet, Surroundings};
 use crate::walk::leaf_walk::{LeafWalk, Leaving};
 use crate::walk::{self, Ahead, Arrival, Boundary, Collision, Walk, roulette};
+use trace::world::World;
+use trace::world::WorldObjects;
 
 /// Number of wavelengths that a path carries.
 pub(super) const LANES: usize = 8;

@@ -16,8 +16,8 @@ use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
 use crate::sampling::stream::Stream;
 use crate::scene::description::{Description, Gonio, Instrument, Named};
-use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
+use trace::world::World;
 
 /// One light on one face, at one set of wavelengths.
 struct Lit<'a> {

@@ -11,7 +11,7 @@ use crate::geometry::frame::Frame;
 use crate::sampling::stream::Stream;
 use crate::sampling::warp;
 use crate::scene::description::{Description, Incidence, Sample};
-use crate::scene::world::World;
+use trace::world::World;
 
 /// Names of the faces.
 pub(super) const FACES: [&str; 2] = ["adaxial", "abaxial"];

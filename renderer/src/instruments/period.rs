@@ -10,9 +10,9 @@ use super::flux::{Course, LANES, Straight};
 use super::stage::Stage;
 use crate::geometry::{GeometryError, Ray, origin_near};
 use crate::scene::description::Description;
-use crate::scene::world::World;
 use crate::spectrum::Lanes;
 use crate::walk::Ahead;
+use trace::world::World;
 
 /// Most times that a ray passes the sides of the box from one surface to the next; then it is cut. In
 /// a box as high as wide these are rays within a thousandth of a degree of the horizon.

@@ -20,8 +20,8 @@ use super::stage::Stage;
 use crate::geometry::Ray;
 use crate::sampling::stream::Stream;
 use crate::scene::description::{Description, Instrument, Named, Sample};
-use crate::scene::world::World;
 use crate::spectrum::Wavelengths;
+use trace::world::World;
 
 /// Ways in which light goes on from where it first meets the sample. Whether it is reflected or
 /// transmitted is most of what differs between rays, and costs less than another ray.

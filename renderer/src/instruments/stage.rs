@@ -6,8 +6,9 @@ use glam::DVec3;
 
 use crate::geometry::{Geometry, GeometryError, origin_near};
 use crate::material::Material;
-use crate::scene::world::{World, WorldObjects};
 use crate::spectrum::Lanes;
+use trace::world::World;
+use trace::world::WorldObjects;
 
 /// Counts paths that a limit cuts; sums of integers are the same on any number of threads.
 #[derive(Debug)]

@@ -16,6 +16,7 @@ mod strewing;
 #[cfg(test)]
 mod tests;
 
+use std::ops::Deref;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -31,7 +32,7 @@ use self::lights::build_lights;
 use self::materials::{Known, build_materials};
 use self::meshes::{OwnSurface, build_mesh};
 pub use self::notes::on_mesh;
-pub use self::placing::{Pieces, WorldObject, WorldObjects};
+pub use self::placing::Pieces;
 use self::placing::{Placed, place};
 use self::seen::Seen;
 pub use self::strewing::Places;
@@ -46,54 +47,39 @@ use crate::light::selection::Selections;
 use crate::material::Material;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
-use crate::medium::Media;
 use crate::scene::description::{self, Description};
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::plants::{self, Piece};
 use crate::spectrum::{WavelengthGrid, WavelengthSampler};
+use trace::world::{self as traced, WorldObjects};
 
-/// Everything that paths need.
+/// The world of a scene, and where its parts come from.
 #[derive(Debug)]
 pub struct World {
-    /// The placed surfaces. Its [origin](Geometry::origin) is also that of the lights and the
-    /// camera.
-    pub geometry: Geometry,
-    /// The object, material and light of each instance of the geometry.
-    pub objects: WorldObjects,
+    /// What rays meet.
+    pub traced: traced::World,
     /// The parts of leaves and bodies.
     pub pieces: Pieces,
     /// The places of each object that is strewn, in the scene's frame, by its number.
     pub strewn: Places,
-    /// Materials: the scene's, then those of each grown leaf, then that of each grown body.
-    pub materials: Vec<Material>,
-    /// The media that fill bodies.
-    pub media: Media,
     /// The owner of each material.
     pub owners: Vec<MaterialOwner>,
     /// The distinct palettes of pigments.
     pub palettes: Palettes,
-    /// Lights, in the scene's order; daylight is two, sun and sky.
-    pub lights: Vec<Light>,
     /// The colours of the lights' spectra on the film; none without a film.
     pub light_colours: Vec<LightColour>,
-    /// The selection of lights for sampling.
-    pub selections: Selections,
-    /// The camera.
-    pub camera: Camera,
-    /// Its view, focused.
+    /// The camera's view, focused.
     pub view: View,
-    /// The pixel filter.
-    pub filter: PixelFilter,
-    /// Settings of the integrator.
-    pub integrator: description::Integrator,
-    /// The wavelengths of paths.
-    pub wavelengths: WavelengthSampler,
-    /// A radiance that lights exceed nowhere, W m⁻² sr⁻¹ nm⁻¹; infinite if one has no extent.
-    pub brightest: f32,
-    /// Whether any of its materials fluoresces.
-    pub fluoresces: bool,
     /// Notes for the user, such as dropped faces or clamped reflectance.
     pub notes: Vec<String>,
+}
+
+impl Deref for World {
+    type Target = traced::World;
+
+    fn deref(&self) -> &traced::World {
+        &self.traced
+    }
 }
 
 /// The owner of a material.
@@ -222,31 +208,28 @@ impl World {
             media.around_camera = around((view.start() - origin).as_vec3(), &geometry, &objects);
         }
         Ok(Self {
-            geometry,
-            objects,
+            traced: traced::World {
+                geometry,
+                objects,
+                materials,
+                media,
+                brightest: brightest(&lights, &wavelengths, fluoresces),
+                selections: Selections::new(&lights, lit_range(range_nm, fluoresces)),
+                lights,
+                camera: Camera::new(&view, scene.film.width, scene.film.height),
+                filter: PixelFilter::new(scene.film.filter_radius as f32),
+                integrator: scene.integrator,
+                wavelengths,
+                fluoresces,
+            },
             pieces,
             strewn,
-            materials,
-            media,
             owners,
             palettes: known.palettes,
-            brightest: brightest(&lights, &wavelengths, fluoresces),
-            selections: Selections::new(&lights, lit_range(range_nm, fluoresces)),
-            lights,
             light_colours,
-            camera: Camera::new(&view, scene.film.width, scene.film.height),
             view,
-            filter: PixelFilter::new(scene.film.filter_radius as f32),
-            integrator: scene.integrator,
-            wavelengths,
-            fluoresces,
             notes,
         })
-    }
-
-    /// The material of an instance.
-    pub fn material_of(&self, instance: u32) -> &Material {
-        &self.materials[self.objects[instance as usize].material]
     }
 }
 

@@ -1,9 +1,8 @@
 use std::process::Command;
 
 use super::super::{Attribute, ImageError, Layer, MOST_TEXTURE_BYTES, Picture, REC709};
-use super::{
-    decode, decode_within, encode, read, spectral_attributes, spectral_channel_name, write,
-};
+use super::{decode, decode_within, encode, read, spectral_attributes, write};
+use crate::spectrum::recorded::spectral_channel_name;
 
 fn bits(seed: u64) -> u64 {
     let bits = (seed ^ (seed >> 31)).wrapping_mul(0x9e37_79b9_7f4a_7c15);

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 
 use glam::Vec3;
 
-use super::placing::{WorldObject, WorldObjects};
 use super::{MaterialOwner, WorldError};
 use crate::geometry::{Geometry, Instance, Ray, TriangleMesh};
 use crate::medium::{Body, Inside, Media, Medium, Phase};
 use crate::scene::description::{self, Description, MediumPhase};
 use crate::spectrum::{Curve, WavelengthGrid};
+use trace::world::{WorldObject, WorldObjects};
 
 /// Surfaces after which the search for the bodies around the camera ends.
 const MOST_SURFACES: u32 = 100_000;

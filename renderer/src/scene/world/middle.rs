@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::placing::WorldObjects;
 use super::seen::corners_of;
 use crate::geometry::{Instance, TriangleMesh};
+use trace::world::WorldObjects;
 
 /// The middle of the box, along the axes of the scene, around all parts of an object in all its
 /// places, m.

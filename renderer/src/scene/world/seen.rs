@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use glam::{DAffine3, DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::placing::WorldObjects;
 use crate::camera::frustum::{Frustum, Glimpse};
 use crate::camera::view::{Near, View};
 use crate::geometry::instance::FAR;
 use crate::geometry::{Instance, TriangleMesh, origin_near};
 use crate::scene::description::Description;
+use trace::world::WorldObjects;
 
 /// How far before what is seen rays start at least, m.
 const MARGIN: f64 = 1.0;

@@ -99,6 +99,15 @@ impl Primaries {
     }
 }
 
+/// Fraction of luminance in each channel of linear sRGB.
+pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+/// Luminance of linear sRGB.
+pub fn luminance(colour: [f64; 3]) -> f64 {
+    let channels = colour.into_iter().zip(LUMINANCE);
+    channels.map(|(value, weight)| value * weight).sum()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,7 +3,7 @@
 /// The factor on light of a brightness if Russian roulette lets it continue, which it may end below
 /// a threshold; `number` gives a random number in [0, 1) and is asked below the threshold only.
 #[inline(always)]
-pub(crate) fn roulette(brightness: f32, below: f32, number: impl FnOnce() -> f32) -> Option<f32> {
+pub fn roulette(brightness: f32, below: f32, number: impl FnOnce() -> f32) -> Option<f32> {
     if brightness < below {
         let survival = brightness / below;
         (number() < survival).then(|| 1.0 / survival)

@@ -25,11 +25,11 @@ use crate::light::Receiver;
 use crate::material::Material;
 use crate::sampling::dimensions::{Sets, picture as sets};
 use crate::sampling::stream::Stream;
-use crate::scene::world::{World, WorldObjects};
 use crate::spectrum::{Lanes, Wavelengths};
 use crate::walk::cone::Cone;
 use crate::walk::encounter::Encounter;
 use crate::walk::{Ahead, Arrival, Collision, Scatterer, Walk};
+use crate::world::{World, WorldObjects};
 
 /// Adds to `result` what a path through a random place in a pixel finds; `stream` gives the random
 /// numbers. Returns its wavelengths.

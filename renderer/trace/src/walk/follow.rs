@@ -12,39 +12,39 @@ use crate::material::Material;
 use crate::medium::BodyPlace;
 use crate::sampling::dimensions::Sets;
 use crate::sampling::stream::Stream;
-use crate::scene::world::{World, WorldObjects};
 use crate::spectrum::{Lanes, Wavelengths};
+use crate::world::{World, WorldObjects};
 
 /// A ray of a walk and what it carries.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Leg<const N: usize, O> {
+pub struct Leg<const N: usize, O> {
     /// The ray.
-    pub(crate) ray: Ray,
+    pub ray: Ray,
     /// Its width.
-    pub(crate) cone: Cone,
+    pub cone: Cone,
     /// Factor on radiance along the ray up to the camera, or weight of the flux along it.
-    pub(crate) throughput: Lanes<N>,
+    pub throughput: Lanes<N>,
     /// What is remembered of where it starts.
-    pub(crate) origin: O,
+    pub origin: O,
 }
 
 /// Light that comes to a surface through a medium, or to a boundary that lets it pass straight.
 #[derive(Debug)]
-pub(crate) struct Arrival<'a, const N: usize> {
+pub struct Arrival<'a, const N: usize> {
     /// The ray.
-    pub(crate) ray: &'a Ray,
+    pub ray: &'a Ray,
     /// The body through whose medium it comes.
-    pub(crate) around: Option<BodyPlace>,
+    pub around: Option<BodyPlace>,
     /// Where it is.
-    pub(crate) surface: &'a SurfacePoint,
+    pub surface: &'a SurfacePoint,
     /// What it carried before the flight.
-    pub(crate) before: Lanes<N>,
+    pub before: Lanes<N>,
     /// What it carries.
-    pub(crate) after: Lanes<N>,
+    pub after: Lanes<N>,
 }
 
 /// What light comes to.
-pub(crate) enum Met<const N: usize> {
+pub enum Met<const N: usize> {
     Surface(Hit),
     Medium(Collision<N>),
     Nothing,
@@ -57,7 +57,7 @@ pub(crate) enum Met<const N: usize> {
 /// A walk has legs between *events*. At each event it calls one of the methods that say so, which
 /// turn the leg into the next one, or return false if the walk ends. Everything is dispatched
 /// statically.
-pub(crate) trait Walk<'w, const N: usize, F> {
+pub trait Walk<'w, const N: usize, F> {
     /// What a leg remembers of its start.
     type Origin;
     /// Where light is.

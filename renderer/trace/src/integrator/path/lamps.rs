@@ -9,8 +9,8 @@ use crate::integrator::mis;
 use crate::light::selection::Choice;
 use crate::medium::Inside;
 use crate::sampling::stream::Stream;
-use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
+use crate::world::World;
 
 /// The radiance that the sampled lights contribute at a vertex, and the number of rays traced for
 /// it.

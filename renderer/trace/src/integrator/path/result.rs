@@ -2,9 +2,9 @@
 
 use glam::Vec3;
 
-use crate::scene::world::World;
 use crate::spectrum::Lanes;
 use crate::walk::encounter::Encounter;
+use crate::world::World;
 
 /// The result of one path.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 use super::*;
 use crate::film::FEATURE_SAMPLES;
-use crate::scene::description::Band;
+use crate::spectrum::recorded::Band;
 
 /// A film of each kind.
 fn kinds() -> [FilmKind; 2] {

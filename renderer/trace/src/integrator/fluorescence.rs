@@ -6,7 +6,7 @@
 //! and what the leaf then emits towards the camera at the path's own wavelengths is added. That path
 //! excites nothing in turn.
 
-use leafmodel::optics::fluorescence::EXCITED_NM;
+use optics::fluorescence::EXCITED_NM;
 
 use super::path::PathResult;
 use super::path::lamps::sampled_light;

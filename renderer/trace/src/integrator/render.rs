@@ -16,7 +16,7 @@ use crate::integrator::layers::Layout;
 use crate::integrator::noise::{self, NoiseWatch};
 use crate::integrator::sample_map::SampleMap;
 use crate::integrator::trial;
-use crate::scene::world::World;
+use crate::world::World;
 
 /// Conditions that end a render before every pixel has all the samples of its [`Job`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

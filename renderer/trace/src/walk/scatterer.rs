@@ -13,7 +13,7 @@ use crate::spectrum::Lanes;
 
 /// What scatters a path.
 #[derive(Debug)]
-pub(crate) enum Scatterer<'a, const N: usize, S = Geometry> {
+pub enum Scatterer<'a, const N: usize, S = Geometry> {
     /// A surface.
     Surface {
         /// The place.
@@ -36,20 +36,20 @@ pub(crate) enum Scatterer<'a, const N: usize, S = Geometry> {
 
 /// A direction that was drawn.
 #[derive(Debug)]
-pub(crate) struct Drawn<const N: usize> {
+pub struct Drawn<const N: usize> {
     /// Unit, world.
-    pub(crate) wi_world: Vec3,
+    pub wi_world: Vec3,
     /// What light from there is multiplied by.
-    pub(crate) weight: Lanes<N>,
+    pub weight: Lanes<N>,
     /// Density over solid angle, sr⁻¹; infinite if it is one of finitely many directions.
-    pub(crate) pdf: f32,
+    pub pdf: f32,
 }
 
 impl<const N: usize, S: Surroundings> Scatterer<'_, N, S> {
     /// What light from a direction is multiplied by, sr⁻¹, the cosine of a surface included, and the
     /// density with which the direction is drawn.
     #[inline]
-    pub(crate) fn scatter(&self, wi_world: Vec3) -> Scattered<N> {
+    pub fn scatter(&self, wi_world: Vec3) -> Scattered<N> {
         match self {
             Self::Surface { facet, frame, view } => {
                 let (wi, Scattered { f, pdf }) = facet.scatter((frame, view), wi_world);
@@ -70,7 +70,7 @@ impl<const N: usize, S: Surroundings> Scatterer<'_, N, S> {
 
     /// Draws a direction; `lobe` chooses the lobe, `u` the direction in it.
     #[inline]
-    pub(crate) fn sample(&self, lobe: f32, u: Vec2) -> Option<Drawn<N>> {
+    pub fn sample(&self, lobe: f32, u: Vec2) -> Option<Drawn<N>> {
         match self {
             Self::Surface { facet, frame, view } => {
                 let (wi_world, sample) = facet.sample((frame, view), lobe, u)?;
@@ -97,7 +97,7 @@ impl<const N: usize, S: Surroundings> Scatterer<'_, N, S> {
 
     /// The ray that leaves in a direction.
     #[inline]
-    pub(crate) fn spawn(&self, direction: Vec3) -> Ray {
+    pub fn spawn(&self, direction: Vec3) -> Ray {
         match self {
             Self::Surface { facet, .. } => facet.spawn(direction),
             Self::Medium { position, .. } => Ray::new(*position, direction),
@@ -106,7 +106,7 @@ impl<const N: usize, S: Surroundings> Scatterer<'_, N, S> {
 
     /// The ray to a point that lies in a direction, as [`SurfacePoint::spawn_to`] gives it.
     #[inline]
-    pub(crate) fn spawn_to(&self, direction: Vec3, target: Vec3) -> Ray {
+    pub fn spawn_to(&self, direction: Vec3, target: Vec3) -> Ray {
         match self {
             Self::Surface { facet, .. } => facet.spawn_to(direction, target),
             Self::Medium { position, .. } => SurfacePoint::shadow(*position, target),

@@ -1,6 +1,6 @@
 //! One walk of light through a scene: what pictures and instruments share.
 //!
-//! - **In**: surfaces and media of a [`World`](crate::scene::world::World), a ray with what it
+//! - **In**: surfaces and media of a [`World`](crate::world::World), a ray with what it
 //!   carries, random numbers.
 //! - **Out**: whatever a walk makes of what the light meets: radiance of a path from the camera,
 //!   or the flux that a detector counts.
@@ -18,7 +18,7 @@ pub mod leaf_walk;
 mod roulette;
 mod scatterer;
 
-pub(crate) use self::flight::{Ahead, Boundary, Collision, Passage};
-pub(crate) use self::follow::{Arrival, Leg, Walk};
-pub(crate) use self::roulette::roulette;
-pub(crate) use self::scatterer::Scatterer;
+pub use self::flight::{Ahead, Boundary, Collision, Passage};
+pub use self::follow::{Arrival, Leg, Walk};
+pub use self::roulette::roulette;
+pub use self::scatterer::Scatterer;

@@ -12,11 +12,11 @@ use glam::DVec3;
 
 use crate::camera::view::View;
 use crate::film::{Film, Pixel, Series, Sum};
-use crate::image::LUMINANCE;
-use crate::image::openexr::spectral_channel_name;
 use crate::integrator::features::{Quantity, Sight};
-use crate::scene::description::FilmKind;
 use crate::spectrum::WavelengthSampler;
+use crate::spectrum::recorded::FilmKind;
+use crate::spectrum::recorded::spectral_channel_name;
+use crate::spectrum::rgb::LUMINANCE;
 
 /// One layer: channels of a picture that belong together.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! Where a path is.
 
 use super::drops::Drops;
-use crate::scene::world::World;
 use crate::walk;
+use crate::world::World;
 
 /// Where a path is.
 #[derive(Clone, Copy, Default)]

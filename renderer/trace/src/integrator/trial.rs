@@ -19,7 +19,7 @@ use crate::integrator::job::Job;
 use crate::integrator::layers::{Layout, MOST_CHANNELS};
 use crate::integrator::path::{self, PathResult};
 use crate::sampling::stream::{Pixel, Stream};
-use crate::scene::world::World;
+use crate::world::World;
 
 /// Numbers of light samples that are tried, each with the pair of `WITHOUT_TRIAL`, with skies and
 /// without.

@@ -5,21 +5,21 @@ use glam::{Vec2, Vec3};
 use crate::geometry::Hit;
 use crate::geometry::surface::SurfacePoint;
 use crate::medium::{Body, BodyPlace, Coefficients, Inside};
-use crate::scene::world::WorldObjects;
 use crate::spectrum::Lanes;
+use crate::world::WorldObjects;
 
 /// Where light is, in scenes with media.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Passage {
+pub struct Passage {
     /// The bodies around.
-    pub(crate) inside: Inside,
+    pub inside: Inside,
     /// Number of flights so far, each with random numbers of its own.
-    pub(crate) flights: u32,
+    pub flights: u32,
 }
 
 /// What is ahead of a ray.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Ahead {
+pub enum Ahead {
     /// A surface.
     Hit(Hit),
     /// The end of a flight of this length in a medium, m.
@@ -32,27 +32,27 @@ pub(crate) enum Ahead {
 
 /// An event of scattering in a medium.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Collision<const N: usize> {
+pub struct Collision<const N: usize> {
     /// Where it is.
-    pub(crate) position: Vec3,
+    pub position: Vec3,
     /// The body that the medium fills.
-    pub(crate) place: BodyPlace,
+    pub place: BodyPlace,
     /// The medium.
-    pub(crate) medium: Coefficients<N>,
+    pub medium: Coefficients<N>,
     /// Whether light reaches the place straight, through boundaries with one index on both sides;
     /// through others only bounces find it.
-    pub(crate) is_lit: bool,
+    pub is_lit: bool,
     /// What light carried before the flight.
-    pub(crate) before: Lanes<N>,
+    pub before: Lanes<N>,
     /// Two random numbers of the flight.
-    pub(crate) u: Vec2,
+    pub u: Vec2,
     /// By how much the ray was moved on its way, m.
-    pub(crate) moved: f32,
+    pub moved: f32,
 }
 
 /// The boundary of a body at a point.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Boundary {
+pub struct Boundary {
     place: BodyPlace,
     body: Body,
     /// The outward shading normal.
@@ -62,7 +62,7 @@ pub(crate) struct Boundary {
 impl Boundary {
     /// The boundary on which a point lies, if it lies on one.
     #[inline]
-    pub(crate) fn at(objects: &WorldObjects, surface: &SurfacePoint) -> Option<Self> {
+    pub fn at(objects: &WorldObjects, surface: &SurfacePoint) -> Option<Self> {
         let body = objects[surface.instance as usize].body?;
         Some(Self {
             place: objects.body_place(surface.instance),
@@ -72,7 +72,7 @@ impl Boundary {
     }
 
     /// Light that was in these bodies leaves the point in a direction.
-    pub(crate) fn leave(&self, inside: &mut Inside, direction: Vec3) {
+    pub fn leave(&self, inside: &mut Inside, direction: Vec3) {
         inside.leave_boundary(self.place, self.body, self.normal, direction);
     }
 }

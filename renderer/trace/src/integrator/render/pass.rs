@@ -10,8 +10,8 @@ use crate::integrator::job::Job;
 use crate::integrator::layers::{Layout, MOST_CHANNELS};
 use crate::integrator::path::{self, PathResult};
 use crate::sampling::stream::Pixel;
-use crate::scene::world::World;
 use crate::spectrum::Spectrum;
+use crate::world::World;
 
 /// Data that all passes share.
 pub(super) struct PassOfPaths<'a> {

@@ -5,9 +5,9 @@ use crate::light::Receiver;
 use crate::light::selection::LightSelection;
 use crate::material::Material;
 use crate::material::leaf::LeafMaterial;
-use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
 use crate::walk;
+use crate::world::World;
 
 /// Data that all legs of a path share.
 pub(in crate::integrator) struct Paths<'a, const N: usize> {
