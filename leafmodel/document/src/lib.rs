@@ -21,6 +21,7 @@ pub mod coverage;
 pub mod declared;
 pub mod encoding;
 pub mod error;
+mod inheritance;
 pub mod keys;
 pub mod limits;
 pub mod named_asset;

@@ -11,6 +11,7 @@ use toml::de::DeTable;
 
 use super::context::{Context, QUOTED};
 use super::error::{DocumentError, LocatedError};
+use super::inheritance::inherit;
 use super::other_format::with_equals;
 use super::report::{DocumentErrors, Warning};
 use super::schema::BlockSchema;
@@ -85,6 +86,7 @@ impl Opened {
                 overrides::apply(&cx, &mut tree, "-D", text, &schema);
             }
         }
+        syntax.extend(inherit(&mut tree));
         let recorded = if overridden.is_empty() {
             text.to_owned()
         } else {
@@ -162,6 +164,7 @@ fn with_syntax(
     if syntax.is_empty() {
         let mut errors = errors;
         errors.sort_by_key(order);
+        errors.dedup_by(|one, other| is_same(one, other));
         return errors;
     }
     let text = sources.get(0).map_or("", |source| source.text.as_str());
@@ -202,7 +205,13 @@ fn with_syntax(
     });
     syntax.extend(kept);
     syntax.sort_by_key(order);
+    syntax.dedup_by(|one, other| is_same(one, other));
     syntax
+}
+
+/// Whether both are one error: a value that others inherit is wrong in all of them.
+fn is_same(one: &LocatedError, other: &LocatedError) -> bool {
+    one.at.is_some() && one.at == other.at && one.error.to_string() == other.error.to_string()
 }
 
 /// By place; errors of the file as a whole come last.

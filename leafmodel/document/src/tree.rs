@@ -156,6 +156,47 @@ impl Table {
             Err(key_at.clone())
         }
     }
+
+    /// Puts an entry in the place of what is there under its key, tables within `depth` key by key.
+    pub fn put(&mut self, entry: Entry, depth: usize) {
+        let Some(place) = self.0.iter_mut().find(|there| there.key == entry.key) else {
+            self.0.push(entry);
+            return;
+        };
+        match (&mut place.node.value, entry.node.value) {
+            (Value::Table(there), Value::Table(own)) if depth > 1 => {
+                for entry in own.0 {
+                    there.put(entry, depth - 1);
+                }
+            }
+            (_, value) => {
+                place.key_at = entry.key_at;
+                place.node.at = entry.node.at;
+                place.node.value = value;
+            }
+        }
+    }
+
+    /// Removes what is at a path of keys with dots between them; whether anything was.
+    pub fn remove(&mut self, path: &str) -> bool {
+        let (key, rest) = path.split_once('.').unwrap_or((path, ""));
+        let Some(index) = self.0.iter().position(|entry| entry.key == key) else {
+            return false;
+        };
+        if rest.is_empty() {
+            self.0.remove(index);
+            return true;
+        }
+        match &mut self.0[index].node.value {
+            Value::Table(inner) => inner.remove(rest),
+            Value::Text(_)
+            | Value::Integer(_)
+            | Value::Number(_)
+            | Value::Flag(_)
+            | Value::Other(..)
+            | Value::List(_) => false,
+        }
+    }
 }
 
 impl Node {

@@ -318,3 +318,41 @@ dry_matter_g_per_cm2 = 0.006
 "
     );
 }
+
+#[test]
+fn a_leaf_starts_from_another_leaf_of_the_file() {
+    let read = |text: &str| {
+        let text = format!("format = 1\n{text}");
+        parse(&text, "x", std::path::Path::new("."), &[]).expect("it is sound")
+    };
+    let inherited = read(
+        "[leaves.last]
+        base = \"middle\"
+        without = [\"outline\", \"blade.fold_deg\"]
+        [leaves.middle]
+        base = \"first\"
+        length_mm = 30
+        [leaves.first]
+        preset = \"birch\"
+        map_size = 64
+        outline.curve.points = [[0, 0, \"corner\"], [0.3, 0.5], [0, 1, \"corner\"]]
+        blade = { fold_deg = 3, curl_deg = 1 }",
+    );
+    let alone = read(
+        "[leaves.last]
+        preset = \"birch\"
+        map_size = 64
+        length_mm = 30
+        blade.curl_deg = 1
+        [leaves.middle]
+        preset = \"birch\"
+        map_size = 64
+        length_mm = 30
+        outline.curve.points = [[0, 0, \"corner\"], [0.3, 0.5], [0, 1, \"corner\"]]
+        blade = { fold_deg = 3, curl_deg = 1 }",
+    );
+    assert_eq!(inherited.len(), 3);
+    for (inherited, alone) in inherited.iter().zip(&alone) {
+        assert_eq!(inherited.value, alone.value, "{}", alone.name);
+    }
+}

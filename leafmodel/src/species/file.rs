@@ -9,7 +9,7 @@ use crate::document::opened::Opened;
 use crate::document::reader::Block;
 use crate::document::schema::BlockSchema;
 use crate::document::source::Place;
-use crate::document::tree::{Entry, Table, Value};
+use crate::document::tree::Table;
 use crate::document::value_kind::{ListOf, Number, Text};
 
 /// The blocks of a file.
@@ -77,54 +77,17 @@ fn whole(preset: &Preset, own: Table, opened: &mut Opened) -> Table {
         tree = whole(base, beneath, opened);
     }
     for path in &heading.without {
-        let is_there = remove(&mut tree, path);
+        let is_there = tree.remove(path);
         assert!(is_there, "the base of {} has no {path}", preset.name);
     }
     for entry in own.0 {
         if BLOCKS.contains(&entry.key.as_str()) {
             // The keys of a leaf change one by one; of other blocks, whole entries do.
             let depth = if entry.key == "leaf" { usize::MAX } else { 2 };
-            put(&mut tree, entry, depth);
+            tree.put(entry, depth);
         }
     }
     tree
-}
-
-/// Puts an entry in the place of what is there under its key, tables within `depth` key by key.
-fn put(tree: &mut Table, entry: Entry, depth: usize) {
-    let Some(place) = tree.0.iter_mut().find(|there| there.key == entry.key) else {
-        tree.0.push(entry);
-        return;
-    };
-    match (&mut place.node.value, entry.node.value) {
-        (Value::Table(there), Value::Table(own)) if depth > 1 => {
-            for entry in own.0 {
-                put(there, entry, depth - 1);
-            }
-        }
-        (_, value) => {
-            place.key_at = entry.key_at;
-            place.node.at = entry.node.at;
-            place.node.value = value;
-        }
-    }
-}
-
-/// Removes what is at a path; whether anything was.
-fn remove(tree: &mut Table, path: &str) -> bool {
-    let (key, rest) = path.split_once('.').unwrap_or((path, ""));
-    let Some(index) = tree.0.iter().position(|entry| entry.key == key) else {
-        return false;
-    };
-    if rest.is_empty() {
-        tree.0.remove(index);
-        return true;
-    }
-    if let Value::Table(inner) = &mut tree.0[index].node.value {
-        remove(inner, rest)
-    } else {
-        false
-    }
 }
 
 fn open(name: &str, text: &str) -> Opened {

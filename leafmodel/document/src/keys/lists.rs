@@ -1,6 +1,7 @@
 //! Lists of blocks, and blocks with names of the user's choice.
 
 use super::{Keys, Pass, fresh};
+use crate::inheritance;
 use crate::names::require_name;
 use crate::reader::Block;
 use crate::schema::{BlockSchema, EntrySchema, Is};
@@ -166,6 +167,9 @@ impl Keys<'_> {
                 about,
                 required: list.required,
                 is: Is::Named(Self::describe(|keys| {
+                    if inheritance::SECTIONS.contains(&name) {
+                        inheritance::describe(keys);
+                    }
                     declare(&mut (list.new)("NAME"), keys);
                 })),
             }),
