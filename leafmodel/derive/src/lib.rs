@@ -30,6 +30,14 @@ pub fn declared(input: TokenStream) -> TokenStream {
     made.unwrap_or_else(Error::into_compile_error).into()
 }
 
+/// `Default` of a struct by what `#[key(default = …)]` says at its fields.
+#[proc_macro_derive(Defaults, attributes(key))]
+pub fn defaults(input: TokenStream) -> TokenStream {
+    fields::defaults(&parse_macro_input!(input as DeriveInput))
+        .unwrap_or_else(Error::into_compile_error)
+        .into()
+}
+
 /// The words of an enum without data: the names of its variants as a file writes them.
 #[proc_macro_derive(Words, attributes(word))]
 pub fn words(input: TokenStream) -> TokenStream {

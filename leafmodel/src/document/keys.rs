@@ -31,7 +31,7 @@ mod lists;
 
 use std::rc::Rc;
 
-pub use self::kinds::Variant;
+pub use self::kinds::{Choice, Variant};
 pub use self::lists::{BlockList, NamedList};
 use super::ranges::{RangeError, Ranges};
 use super::reader::Block;

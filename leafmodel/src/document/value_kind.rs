@@ -399,6 +399,26 @@ impl Kind for FilePath {
     }
 }
 
+/// The file behind such a path, of which the path as written is not kept.
+#[derive(Clone, Copy, Debug)]
+pub struct FileOnly(pub FilePath);
+
+impl Kind for FileOnly {
+    type Of = std::path::PathBuf;
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<Self::Of> {
+        self.0.read(cx, node, key).map(|named| named.file)
+    }
+
+    fn write(&self, value: &Self::Of) -> Value {
+        Value::Text(value.display().to_string())
+    }
+
+    fn describe(&self) -> Type {
+        self.0.describe()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
