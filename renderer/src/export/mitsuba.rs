@@ -304,7 +304,7 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
             }
             save(colours::BASIS, rgb::basis_text().as_bytes())?;
         }
-        if let Light::Area { .. } = light.value
+        if light.value.area().is_some()
             && let Some((file, layer)) = light.value.picture()
         {
             let picture = assets::shining(file, layer)?;
@@ -391,7 +391,7 @@ fn summary(scene: &Description) -> serde_json::Value {
     let suns = scene
         .lights
         .iter()
-        .filter(|light| matches!(light.value, Light::Distant { .. } | Light::Daylight(_)));
+        .filter(|light| matches!(light.value, Light::Distant(_) | Light::Daylight(_)));
     json!({
         "name": scene.name,
         "width": scene.film.width,

@@ -1,4 +1,10 @@
-//! Sine and cosine of angles in degrees, exact at quarter turns.
+//! Angles and coordinates of places: sine and cosine of degrees, exact at quarter turns, and how far
+//! from the origin places may lie.
+
+use leafmodel::document::limits::Limits;
+
+/// Limits of world coordinates, m. Beyond them single precision does not resolve a leaf.
+pub(crate) const COORDINATES_M: Limits = Limits::closed(-1e6, 1e6);
 
 /// Sine and cosine of an angle in degrees: 90° gives exactly 1 and 0, so that a turned floor
 /// stays level. The same bits on every machine.

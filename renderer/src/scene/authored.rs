@@ -3,8 +3,14 @@
 //! them.
 
 use glam::DVec3;
+use leafmodel::document::coverage::require_coverage;
+use leafmodel::document::declared::{Declared, Defaults, Kinds, Words};
+use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::plant::PlantPlan;
 
+use super::angle::COORDINATES_M;
+use super::blocks::spectrum::D65_NM;
+use super::description::light::constant::Constant;
 use super::description::{
     self, Camera, Film, Instrument, Integrator, Leaf, Material, Medium, Mesh, Named, Picture, Solid,
 };
@@ -76,6 +82,37 @@ pub(super) enum Light {
     Rig(Rig),
 }
 
+const RIG: Variant<Rig> = Variant {
+    name: "rig",
+    about: "Lights as photographers set them up, around what the camera looks at.",
+    new: Rig::default,
+    is: |_| true,
+    declare: Rig::declare,
+};
+
+impl Default for Light {
+    fn default() -> Self {
+        Self::Single(description::Light::Constant(Constant::default()))
+    }
+}
+
+impl Declared for Light {
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        let rig = RIG.within(Self::Rig, |light| match light {
+            Self::Single(_) => None,
+            Self::Rig(own) => Some(own),
+        });
+        let kinds = description::Light::KINDS.iter();
+        let kinds = kinds.map(|kind| {
+            kind.within(Self::Single, |light| match light {
+                Self::Single(own) => Some(own),
+                Self::Rig(_) => None,
+            })
+        });
+        keys.choose(self, &kinds.chain([rig]).collect::<Vec<_>>());
+    }
+}
+
 /// One of `[objects]`.
 #[derive(Clone, Debug)]
 pub(super) struct Object {
@@ -109,24 +146,32 @@ pub(super) struct Plant {
 }
 
 /// Lights as photographers set them up.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, Defaults, PartialEq)]
+#[key(last = require_d65)]
 pub(super) struct Rig {
-    /// How they stand.
+    /// How the lights stand.
+    #[key("preset", required, word)]
     pub(super) preset: RigPreset,
-    /// What is lit, m; `None` is what the camera looks at.
+    /// What is lit; left out, the point that the camera looks at.
+    #[key("subject_m", within(COORDINATES_M))]
     pub(super) subject: Option<DVec3>,
-    /// Size of the subject, m, > 0.
+    /// Size of the subject, of which sizes and distances of lamps are multiples.
+    #[key("size_m", 1e-4..=1e4, default = 0.1)]
     pub(super) size: f64,
-    /// Azimuth in which the camera is taken to look, rad; `None` is that in which it does.
+    /// Direction along the ground in which the camera is taken to look, from +x towards +y; left out, that in
+    /// which it does.
+    #[key("azimuth_deg", degrees(-360.0..=360.0))]
     pub(super) azimuth: Option<f64>,
-    /// Light more or less than usual, as a power of 2.
+    /// Light more or less than for a picture with `exposure_ev = 0`, as a power of 2.
+    #[key("ev", -30.0..=30.0)]
     pub(super) ev: f64,
 }
 
 /// The arrangements of lights.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Words)]
 pub(super) enum RigPreset {
     /// Three soft boxes.
+    #[default]
     Studio,
     /// A tent of white cloth that is lit from outside.
     Tent,
@@ -135,7 +180,18 @@ pub(super) enum RigPreset {
     /// A sky covered with cloud.
     Overcast,
     /// A low sun before the camera.
+    #[word("golden-hour")]
     GoldenHour,
     /// The sun on open land, a forest behind the subject.
+    #[word("forest-edge")]
     ForestEdge,
+}
+
+/// Reports a film that records more than the spectrum of lamps or of an overcast sky, D65, covers.
+fn require_d65(rig: &mut Rig, keys: &mut Keys<'_>) {
+    let is_day = matches!(rig.preset, RigPreset::GoldenHour | RigPreset::ForestEdge);
+    if let Some(block) = keys.reader().filter(|_| !is_day) {
+        let at = block.node("preset").map_or(&block.at, |node| &node.at);
+        require_coverage(block.cx, at, "the lamps' D65", D65_NM);
+    }
 }

@@ -7,7 +7,6 @@
 //!   and in range, indices are valid, files lie in the scene's folder.
 
 mod camera;
-mod daylight;
 mod film;
 mod fluorescence;
 mod gltf;
@@ -15,7 +14,6 @@ mod instances;
 mod instrument;
 mod integrator;
 mod leaf;
-mod light;
 mod material;
 mod measured;
 mod medium;
@@ -27,11 +25,10 @@ mod placement;
 mod plant;
 mod references;
 mod reflectance;
-mod rig;
 mod scatter;
 mod sensitivities;
 mod solid;
-mod spectrum;
+pub(in crate::scene) mod spectrum;
 mod table_file;
 mod volume;
 
@@ -39,6 +36,7 @@ use std::path::PathBuf;
 use std::rc::Rc;
 
 use leafmodel::document::context::Context;
+use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, NamedList};
 use leafmodel::document::names::{Named, require_title};
@@ -47,14 +45,14 @@ use leafmodel::document::schema::BlockSchema;
 use leafmodel::document::sections::Names;
 use leafmodel::document::source::Place;
 use leafmodel::document::tree::Table;
-use leafmodel::document::value_kind::{FilePath, Flag, NamedFile, Text};
+use leafmodel::document::value_kind::{FileOnly, FilePath, Flag, Text};
 use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 
 pub(crate) use self::solid::solid;
 use super::authored::{Authored, Light, Object, Plant};
 use super::description::{
-    self, Instrument, InstrumentKind, Leaf, Material, Medium, Mesh, Picture, Reflectance, Sample,
-    Solid, Spectrum,
+    Instrument, InstrumentKind, Leaf, Material, Medium, Mesh, Picture, Reflectance, Sample, Solid,
+    Spectrum,
 };
 
 /// All keys at the top of a scene file.
@@ -265,12 +263,14 @@ fn sections(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
         root.cx.range_nm.set(None);
     }
     let about = "Lights; there is one at least.";
-    let new = || {
-        Light::Single(description::Light::Constant {
-            radiance: Spectrum::Constant(0.0),
-        })
-    };
-    section(keys, "lights", &mut scene.lights, &new, about, light::light);
+    section(
+        keys,
+        "lights",
+        &mut scene.lights,
+        &Light::default,
+        about,
+        Light::declare,
+    );
     let about = "What stands in the scene; there is one at least.";
     section(
         keys,
@@ -308,14 +308,6 @@ fn report(keys: &Keys<'_>, key: &str, error: DocumentError) {
     keys.report(&[key], error);
 }
 
-/// The key `layer` of a picture.
-fn picture_layer(layer: &mut Option<String>, keys: &mut Keys<'_>) {
-    const LAYER: Text = Text("the name of a layer of the EXR");
-    let about = "The layer of an EXR whose channels R, G and B, or Y alone, are used: `sky` has `sky.R`. \
-        Without it the channels without a layer are.";
-    keys.optional("layer", layer, LAYER, about);
-}
-
 /// A key with the path of a file that must exist.
 fn file(
     keys: &mut Keys<'_>,
@@ -324,7 +316,5 @@ fn file(
     path: FilePath,
     about: &'static str,
 ) {
-    let mut named = NamedFile::default();
-    keys.required(key, &mut named, path, about);
-    *file = named.file;
+    keys.required(key, file, FileOnly(path), about);
 }

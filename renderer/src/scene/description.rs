@@ -6,7 +6,8 @@
 
 mod camera;
 mod instrument;
-mod light;
+pub mod layer;
+pub mod light;
 mod material;
 mod medium;
 mod object;
@@ -27,7 +28,7 @@ pub use self::instrument::{
     Amount, Canopy, DepthProfile, Detector, Estimator, ExcitationLight, FluorescenceReading, Gonio,
     Incidence, Incident, Index, Instrument, InstrumentKind, Response, Sample, Spot, SpotMiddle,
 };
-pub use self::light::{AreaPattern, Light};
+pub use self::light::Light;
 pub use self::material::{
     Coat, Fluorescence, Held, LeafFaces, LeafOptics, LeafTissue, Material, SolidOptics,
 };

@@ -213,7 +213,7 @@ impl World {
         let seen = (&meshes[..], &instances[..], &objects);
         let origin = look(scene, &mut view, seen, options, &mut notes);
         let placed = (&meshes[..], &surfaces[..], &instances[..], &first[..]);
-        let mut lights = all_lights(scene, placed, origin, &mut objects, &mut notes)?;
+        let mut lights = build_lights(scene, placed, origin, &mut objects, &mut notes)?;
         let light_colours = colours_on_film(scene, &lights, &wavelengths, options)?;
         tabulate(&mut materials, &mut lights, wavelengths.grid());
         let fluoresces = materials.iter().any(|own| own.fluorescing().is_some());
@@ -300,40 +300,6 @@ fn tabulate(materials: &mut [Material], lights: &mut [Light], grid: &WavelengthG
     for light in lights {
         light.tabulate(grid);
     }
-}
-
-/// The meshes with the surfaces that they bring along, their instances, and the first one of each object.
-type Shining<'a> = (
-    &'a [TriangleMesh],
-    &'a [OwnSurface],
-    &'a [Instance],
-    &'a [usize],
-);
-
-/// The scene's lights; objects that emit light are told so.
-fn all_lights(
-    scene: &Description,
-    (meshes, surfaces, instances, first): Shining<'_>,
-    origin: DVec3,
-    objects: &mut WorldObjects,
-    notes: &mut Vec<String>,
-) -> Result<Vec<Light>, WorldError> {
-    let mut lights = Vec::new();
-    for light in &scene.lights {
-        if let description::Light::Area { object, .. } = light.value {
-            objects.shine(first[object], lights.len());
-        }
-        let instance_of = |object: usize| &instances[first[object]];
-        lights.extend(build_lights(
-            &light.name,
-            &light.value,
-            (meshes, surfaces),
-            instance_of,
-            origin,
-            notes,
-        )?);
-    }
-    Ok(lights)
 }
 
 /// Meshes, and the surface that each brings along.

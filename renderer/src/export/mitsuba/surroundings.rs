@@ -63,13 +63,13 @@ pub(super) fn emitters(scene: &Description, world: &World, spectra: &mut Spectra
         .map(|(light, table)| sky(light, &table))
         .collect();
     let constant = scene.lights.iter().filter_map(|light| match &light.value {
-        Light::Constant { radiance } => Some(radiance),
-        Light::Distant { .. }
-        | Light::Environment { .. }
+        Light::Constant(light) => Some(&light.radiance),
+        Light::Distant(_)
+        | Light::Environment(_)
         | Light::Daylight(_)
-        | Light::Overcast { .. }
-        | Light::Area { .. }
-        | Light::Spot { .. } => None,
+        | Light::Overcast(_)
+        | Light::Area(_)
+        | Light::Spot(_) => None,
     });
     if skies.is_empty() {
         return constant

@@ -10,10 +10,9 @@ use leafmodel::document::value_kind::{Degrees, Integer, Number, Numbers, Vector}
 use super::report;
 use crate::camera::thin_lens::{ANGLES_DEG, Field, Focus, Iris, Lens, LensError, Opening};
 use crate::camera::view::{Near, Projection, View};
+pub(super) use crate::scene::angle::COORDINATES_M;
 use crate::scene::description::{Camera, FocusObject};
 
-/// Limits of world coordinates, m. Beyond them single precision does not resolve a leaf.
-pub(super) const COORDINATES_M: Limits = Limits::closed(-1e6, 1e6);
 /// Limits of the size on the sensor over the size in the scene.
 const MAGNIFICATIONS: Limits = Limits::closed(1e-6, 1000.0);
 /// Limits of lengths of lens and sensor, mm.

@@ -101,14 +101,11 @@ fn check_shining(scene: &Authored, keys: &Keys<'_>) {
         mesh.is_some_and(|mesh| !matches!(mesh.value, Mesh::Gltf { .. }))
     };
     for light in &scene.lights {
-        let Light::Single(shining_light) = &light.value else {
-            continue;
-        };
-        let description::Light::Area { object, .. } = *shining_light else {
+        let Light::Single(description::Light::Area(area)) = &light.value else {
             continue;
         };
         // An unknown name is reported where it is written.
-        let Some(named) = scene.objects.get(object) else {
+        let Some(named) = scene.objects.get(area.object) else {
             continue;
         };
         let placed = &named.value.placed;
@@ -123,10 +120,8 @@ fn check_shining(scene: &Authored, keys: &Keys<'_>) {
             "is a body of solid tissue, and those do not shine"
         } else if shape.is_some_and(|shape| is_no_surface(scene, *shape)) {
             "is the boundary of a medium, and those do not shine"
-        } else if shining.insert(object) {
-            if shining_light.emitting_object().is_some()
-                && placed.first_mesh().is_some_and(is_plain)
-            {
+        } else if shining.insert(area.object) {
+            if area.pattern.emission && placed.first_mesh().is_some_and(is_plain) {
                 let problem = format!("`{}` has no mesh from a glTF file", named.name);
                 let help = "leave `emission` out, or name an object with a mesh of the kind `gltf`";
                 let path = ["lights", &light.name, "area", "emission"];

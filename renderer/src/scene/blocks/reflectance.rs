@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 
 use leafmodel::document::coverage::require_coverage;
+use leafmodel::document::declared::Declared;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::names::NameIn;
 use leafmodel::document::value_kind::{FilePath, Number, Numbers, Word};
 
 use super::spectrum::SpectrumOf;
+use crate::scene::description::layer::ChosenLayer;
 use crate::scene::description::{Reflectance, Spectrum, Wrap};
 use crate::spectrum::rgb;
 
@@ -68,8 +70,8 @@ fn picture(keys: &mut Keys<'_>) -> Reflectance {
     let about = "Its lowest row is v = 0. PNG and JPEG hold sRGB values unless they say otherwise, an EXR \
         linear ones of 0 to 1.";
     super::file(keys, "file", &mut file, PATH, about);
-    let mut layer = None;
-    super::picture_layer(&mut layer, keys);
+    let mut layer = ChosenLayer::default();
+    layer.declare(keys);
     let about = "What lies beside it: the same again, its mirror image, or its border.";
     keys.key("wrap", &mut wrap, Word(&Wrap::WORDS), about);
     let limits = Numbers::<2>(Limits::above(0.0, 1e6));
@@ -80,7 +82,7 @@ fn picture(keys: &mut Keys<'_>) -> Reflectance {
     require_colours("file", keys);
     Reflectance::Picture {
         file,
-        layer,
+        layer: layer.0,
         wrap,
         repeats,
         scale,

@@ -14,12 +14,12 @@ use leafmodel::document::values::{finite_at, list, number, number_at, wrong_leng
 
 use super::table_file::{self, Rows};
 use crate::measured::units;
-use crate::scene::description::Spectrum;
 use crate::spectrum::library;
+use crate::spectrum::written::Spectrum;
 
 /// A spectrum with its role.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SpectrumOf {
+pub(in crate::scene) enum SpectrumOf {
     /// A share of light, 0 to 1.
     Share,
     /// A ratio of two shares, above 0.
@@ -167,7 +167,7 @@ impl Kind for SpectrumOf {
 /// Range of wavelengths of tables, nm; solar spectra start in the far ultraviolet.
 pub(super) const TABLE_WAVELENGTHS_NM: Limits = Limits::closed(1.0, 1e7);
 /// Where CIE standard illuminant D65 is defined, nm.
-pub(super) const D65_NM: [f64; 2] = [300.0, 830.0];
+pub(in crate::scene) const D65_NM: [f64; 2] = [300.0, 830.0];
 /// Moisture of soil.
 const MOISTURE: Limits = Limits::closed(0.0, 1.0);
 /// Names of the measured surfaces, with their numbers.

@@ -12,9 +12,11 @@ use leafmodel::document::names::Named;
 use crate::light::daylight::Daylight;
 use crate::light::pattern::Pattern;
 use crate::scene::authored::{self, Rig, RigPreset};
+use crate::scene::description::light::area::{Area, AreaPattern};
+use crate::scene::description::light::constant::Constant;
+use crate::scene::description::light::overcast::Overcast;
 use crate::scene::description::{
-    AreaPattern, Description, Light, Material, Mesh, Object, ObjectShape, Reflectance, Shape,
-    Spectrum,
+    Description, Light, Material, Mesh, Object, ObjectShape, Reflectance, Shape, Spectrum,
 };
 
 /// Irradiance of a level sheet at the subject, of D65, W m⁻² nm⁻¹ at 560 nm. With the tone
@@ -236,10 +238,10 @@ pub(super) fn set_up(scene: &mut Description, lights: Vec<Named<authored::Light>
                 scene,
                 &name,
                 "sky",
-                Light::Overcast {
+                Light::Overcast(Overcast {
                     irradiance: Spectrum::D65 { scale: level },
                     ground_albedo: 0.2,
-                },
+                }),
             ),
             RigPreset::GoldenHour => {
                 // Before the camera, to the left: leaves are lit from behind.
@@ -261,7 +263,7 @@ fn day(elevation_deg: f64, azimuth: f64, turbidity: f64) -> Daylight {
     let mut day = Daylight {
         elevation: elevation_deg.to_radians(),
         azimuth,
-        ..Daylight::usual()
+        ..Daylight::default()
     };
     day.atmosphere.turbidity = turbidity;
     day
@@ -312,7 +314,7 @@ fn build(scene: &mut Description, rig: &str, preset: RigPreset, stage: &Stage, l
         hang(scene, rig, stage, &table, cloth, TABLE * level / ON_PAPER);
     }
     let radiance = Spectrum::D65 { scale: even * unit };
-    add(scene, rig, "room", Light::Constant { radiance });
+    add(scene, rig, "room", Light::Constant(Constant { radiance }));
 }
 
 /// Adds a panel with the radiance in its middle.
@@ -345,18 +347,15 @@ fn hang(
             ..Object::nowhere()
         },
     });
-    let pattern = (panel.edge < 1.0).then_some(AreaPattern {
-        emission: false,
-        edge: panel.edge,
-        picture: None,
-        layer: None,
-    });
-    let light = Light::Area {
+    let light = Area {
         object: scene.objects.len() - 1,
         radiance: Spectrum::D65 { scale: radiance },
-        pattern,
+        pattern: AreaPattern {
+            edge: panel.edge,
+            ..AreaPattern::default()
+        },
     };
-    add(scene, rig, panel.name, light);
+    add(scene, rig, panel.name, Light::Area(light));
 }
 
 fn add(scene: &mut Description, rig: &str, part: &str, value: Light) {

@@ -9,6 +9,7 @@ use crate::film::MOST_RADIANCE;
 use crate::geometry::scatter::{ScatterError, VolumeError};
 use crate::geometry::{GeometryError, ImportError, MeshError};
 use crate::scene::assets::AssetError;
+use crate::scene::description::light::LightError;
 use crate::scene::plants::{PlantError, SolidError};
 
 /// Bytes of a GiB.
@@ -59,24 +60,9 @@ pub enum WorldError {
         /// Why.
         source: Box<SolidError>,
     },
-    /// An area light with a pattern shines from a mesh without texture coordinates.
-    #[error(
-        "lights.{name}.area: the mesh of its object has no texture coordinates, over which `edge` \
-         and `picture` are spread: leave them out, or use a mesh with them, such as a rectangle"
-    )]
-    NoTextureCoordinates {
-        /// Name of the light.
-        name: String,
-    },
-    /// An area light takes the emission of a model that emits nothing.
-    #[error(
-        "lights.{name}.area: no material of its object's mesh emits light: leave `emission` out, so that it \
-         shines evenly"
-    )]
-    NoEmission {
-        /// Name of the light.
-        name: String,
-    },
+    /// A light cannot be made.
+    #[error(transparent)]
+    Light(#[from] LightError),
     /// The mesh of a body with a medium in it has holes.
     #[error(
         "objects.{object}: its mesh does not enclose a body with normals to the outside, and \

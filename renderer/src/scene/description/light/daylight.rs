@@ -1,6 +1,7 @@
 //! `[lights.NAME.daylight]`: where the sun stands, and the air before it.
 
 use leafmodel::document::context::QUOTED;
+use leafmodel::document::declared::Declared;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::source::escaped;
@@ -10,52 +11,47 @@ use toml::value::{Datetime, Offset};
 use crate::light::daylight::spctrl2::distance_factor;
 use crate::light::daylight::sun_position::{Moment, sun_position};
 use crate::light::daylight::{Daylight, ELEVATIONS_DEG};
+use crate::spectrum::written::Spectrum;
 
 /// Years in which the position of the sun is accurate.
 const YEARS: [u16; 2] = [1950, 2050];
 const TIME: &str =
     "a date and time with its offset from UTC, such as \"2026-06-21T12:00:00+02:00\"";
 
-/// The keys of the block.
-pub(super) fn daylight(day: &mut Daylight, keys: &mut Keys<'_>) {
-    for chosen in keys.one_of(&["elevation_deg", "time"], Some("elevation_deg")) {
-        if chosen == "time" {
-            place_and_time(day, keys);
-        } else {
-            angles(day, keys);
+impl Declared for Daylight {
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        for chosen in keys.one_of(&["elevation_deg", "time"], Some("elevation_deg")) {
+            if chosen == "time" {
+                place_and_time(self, keys);
+            } else {
+                angles(self, keys);
+            }
         }
+        self.atmosphere.declare(keys);
+        let limits = Number(Limits::above(0.0, 1e12));
+        keys.key("scale", &mut self.scale, limits, "Factor on sun and sky.");
+        let limits = Degrees(Limits::closed(-360.0, 360.0));
+        let about = "Direction of the middle of a forest, from +x towards +y, at whose edge the scene \
+            lies: crowns before the sky there, and green ground. The sun shines past them.";
+        keys.optional("forest_azimuth_deg", &mut self.forest, limits, about);
     }
-    let air = &mut day.atmosphere;
-    let limits = Number(Limits::closed(2.0, 10.0));
-    let about = "Extinction by the hazy air over that by pure air: 2 very clear, 3 clear, 6 warm \
-        and moist, 10 hazy.";
-    keys.key("turbidity", &mut air.turbidity, limits, about);
-    let limits = Number(Limits::closed(0.0, 1.0));
-    let about = "Ozone above the place, as the height of the pure gas (100 Dobson units are 0.1).";
-    keys.key("ozone_atm_cm", &mut air.ozone_cm, limits, about);
-    let limits = Number(Limits::closed(0.0, 10.0));
-    let about = "Water vapour above the place, as the height of the liquid.";
-    keys.key("water_vapour_cm", &mut air.water_cm, limits, about);
-    let mut pressure_hpa = air.pressure_pa / 100.0;
-    let limits = Number(Limits::closed(300.0, 1100.0));
-    let about = "Air pressure at the place: 1013 at the sea, 795 at 2000 m.";
-    keys.key("pressure_hpa", &mut pressure_hpa, limits, about);
-    air.pressure_pa = pressure_hpa * 100.0;
-    let about = "Share of light that the ground far around reflects. It brightens the sky, and \
-        the directions below the horizon shine with it.";
-    ground_albedo(&mut air.ground_albedo, about, keys);
-    let limits = Number(Limits::above(0.0, 1e12));
-    keys.key("scale", &mut day.scale, limits, "Factor on sun and sky.");
-    let limits = Degrees(Limits::closed(-360.0, 360.0));
-    let about = "Direction of the middle of a forest, from +x towards +y, at whose edge the scene \
-        lies: crowns before the sky there, and green ground. The sun shines past them.";
-    keys.optional("forest_azimuth_deg", &mut day.forest, limits, about);
 }
 
-/// The share of light that the ground reflects.
-pub(super) fn ground_albedo(albedo: &mut f64, about: &'static str, keys: &mut Keys<'_>) {
-    let limits = Number(Limits::closed(0.0, 1.0));
-    keys.key("ground_albedo", albedo, limits, about);
+impl Daylight {
+    /// The spectrum of sun and sky on a level plane, relative.
+    pub(super) fn on_level_ground(&self) -> Spectrum {
+        let (sun, sky) = self.lights();
+        let up = libm::sin(self.elevation);
+        let points = sun.irradiance().points().into_iter();
+        let points = points.map(|(nm, direct)| {
+            let diffuse = f64::from(sky.diffuse().at(nm as f32));
+            (nm, direct * up + diffuse)
+        });
+        Spectrum::Table {
+            points: points.collect(),
+            extrapolate: true,
+        }
+    }
 }
 
 /// The sun by two angles.
