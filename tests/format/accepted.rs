@@ -6,9 +6,13 @@ use renderer::camera::view::Projection;
 use renderer::scene::description::light::constant::Constant;
 use renderer::scene::description::light::environment::Environment;
 use renderer::scene::description::light::spot::Spotlight;
+use renderer::scene::description::material::diffuse::Diffuse;
+use renderer::scene::description::material::leaf::{LeafTissue, PlainLeaf};
+use renderer::scene::description::material::model::GltfSurface;
+use renderer::scene::description::material::plastic::Plastic;
 use renderer::scene::description::{
-    Band, Depth, Description, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape,
-    Reflectance, Shape, Spectrum, Tone, Wrap,
+    Band, Depth, Description, FilmKind, Light, Material, Mesh, ObjectShape, Reflectance, Shape,
+    Spectrum, Tone, Wrap,
 };
 
 use super::{accept, folder, load, text_of};
@@ -207,22 +211,22 @@ fn names_become_indices_in_the_order_of_the_file() {
 #[test]
 fn spectra_are_read_in_every_form() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
-    let Material::Diffuse {
+    let Material::Diffuse(Diffuse {
         reflectance:
             Reflectance::Even(Spectrum::Table {
                 points,
                 extrapolate,
             }),
-    } = &scene.materials[0].value
+    }) = &scene.materials[0].value
     else {
         panic!("paper is {:?}", scene.materials[0].value);
     };
     assert!(*extrapolate && points.len() == 2);
     assert_near(points[0].1, 0.7);
-    let Material::Leaf {
+    let Material::Leaf(PlainLeaf {
         tissue: LeafTissue::Measured { transmittance, .. },
         ..
-    } = &scene.materials[4].value
+    }) = &scene.materials[4].value
     else {
         panic!("measured is {:?}", scene.materials[4].value);
     };
@@ -267,32 +271,25 @@ fn spectra_are_read_in_every_form() {
 #[test]
 fn reflectances_may_be_a_pictures_or_a_models() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
-    let Material::Diffuse {
-        reflectance:
-            Reflectance::Picture {
-                file,
-                layer: None,
-                wrap,
-                repeats,
-                scale,
-            },
-    } = &scene.materials[7].value
-    else {
+    let Some(Reflectance::Picture(bark)) = scene.materials[7].value.reflectance() else {
         panic!("bark is {:?}", scene.materials[7].value);
     };
-    assert!(file.ends_with("bark.png"));
-    assert_eq!((*wrap, *repeats, *scale), (Wrap::Mirror, [2.0, 3.0], 0.5));
+    assert!(bark.file.ends_with("bark.png") && bark.layer.name().is_none());
+    assert_eq!(
+        (bark.wrap, bark.repeats, bark.scale),
+        (Wrap::Mirror, [2.0, 3.0], 0.5)
+    );
     assert!(matches!(
         scene.materials[8].value,
-        Material::Plastic {
+        Material::Plastic(Plastic {
             reflectance: Reflectance::OfMesh(6),
             eta: 1.4,
             roughness: 0.3
-        }
+        })
     ));
     assert!(matches!(
         scene.materials[9].value,
-        Material::Model { mesh: 6 }
+        Material::Model(GltfSurface { mesh: 6 })
     ));
     assert!(
         matches!(&scene.meshes[6].value, Shape::Mesh(Mesh::Gltf { beside, scale: 0.01, .. }) if beside.is_empty())

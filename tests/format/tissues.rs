@@ -6,6 +6,8 @@ use leafmodel::optics::betalains::{Betacyanin, Betaxanthin};
 use leafmodel::optics::pigments::{AnthocyaninMix, CarotenoidMix, ChlorophyllMix};
 use leafmodel::optics::{Constituent, Pigments};
 use leafmodel::solid::SolidShape;
+use renderer::scene::description::material::leaf::PlainLeaf;
+use renderer::scene::description::material::solid::PlainSolid;
 use renderer::scene::description::{Held, Material};
 
 use super::{accept, text_of};
@@ -76,11 +78,11 @@ fn bodies_of_solid_tissue_are_planned_as_written() {
     };
     assert_eq!(a_to_b, 6.0);
     assert_eq!(solid(2).plan.pigments, Pigments::default());
-    let Material::Solid {
+    let Material::Solid(PlainSolid {
         held,
         pigments,
         optics,
-    } = &scene.materials[5].value
+    }) = &scene.materials[5].value
     else {
         panic!("rind is {:?}", scene.materials[5].value);
     };
@@ -94,7 +96,7 @@ fn bodies_of_solid_tissue_are_planned_as_written() {
 #[test]
 fn pigments_are_those_that_are_written_and_else_prospects() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
-    let Material::Leaf { pigments, .. } = &scene.materials[2].value else {
+    let Material::Leaf(PlainLeaf { pigments, .. }) = &scene.materials[2].value else {
         panic!("green is {:?}", scene.materials[2].value);
     };
     let green = Pigments {
@@ -119,7 +121,7 @@ fn pigments_are_those_that_are_written_and_else_prospects() {
     };
     assert_eq!(**pigments, green);
     assert_eq!(green.checked(), Ok(green));
-    let Material::Leaf { pigments, .. } = &scene.materials[3].value else {
+    let Material::Leaf(PlainLeaf { pigments, .. }) = &scene.materials[3].value else {
         panic!("mapped is {:?}", scene.materials[3].value);
     };
     assert_eq!(**pigments, Pigments::default());

@@ -71,11 +71,12 @@ pub(crate) fn of_field(field: &Field, place: &TokenStream) -> Result<TokenStream
 }
 
 fn of_key(field: &Field, key: &Key, place: &TokenStream) -> Result<TokenStream> {
-    if let (Some(with), None) = (&key.with, &key.name) {
+    let value = key.value.as_ref();
+    let is_flat = matches!(value, Some(ValueKind::Flat));
+    if let (Some(with), None, false) = (&key.with, &key.name, is_flat) {
         return Ok(quote! { #with(self, keys); });
     }
-    let value = key.value.as_ref();
-    if matches!(value, Some(ValueKind::Flat)) {
+    if is_flat {
         let declare = key.with.as_ref().map_or_else(
             || quote! { ::leafmodel::document::declared::Declared::declare },
             |with| quote! { #with },

@@ -9,7 +9,7 @@ use crate::cli::signals::Signals;
 use crate::cli::{Failure, load_scene, needs, note, say, warn};
 use crate::geometry;
 use crate::scene::assets;
-use crate::scene::description::{Description, Held, Mesh, Named, Reflectance, Shape};
+use crate::scene::description::{Description, Held, Mesh, Named, Shape};
 use crate::scene::load;
 use crate::scene::world::{World, on_mesh};
 
@@ -99,15 +99,13 @@ fn read_files(description: &Description) -> Result<(), Failure> {
         note(on_mesh(name, &mesh, &[]));
     }
     for material in &description.materials {
-        if let Some(Reflectance::Picture { file, layer, .. }) = material.value.reflectance() {
-            let told = |error| Failure::bad(format!("materials.{}: {error}", material.name));
-            assets::reflectances(file, layer.as_deref()).map_err(told)?;
+        let refused = |error| Failure::bad(format!("materials.{}: {error}", material.name));
+        if let Some((file, layer)) = material.value.picture() {
+            assets::reflectances(file, layer).map_err(refused)?;
         }
-        let Some(Held::Map { file, .. }) = material.value.held() else {
-            continue;
-        };
-        let told = |error| Failure::bad(format!("materials.{}: {error}", material.name));
-        assets::contents_map(file).map_err(told)?;
+        if let Some(Held::Map { file, .. }) = material.value.held() {
+            assets::contents_map(file).map_err(refused)?;
+        }
     }
     for light in &description.lights {
         if let Some((file, layer)) = light.value.picture() {

@@ -14,9 +14,6 @@ mod instances;
 mod instrument;
 mod integrator;
 mod leaf;
-mod material;
-mod measured;
-mod medium;
 mod mesh;
 mod name_list;
 mod object;
@@ -24,12 +21,11 @@ mod picture;
 mod placement;
 mod plant;
 mod references;
-mod reflectance;
 mod scatter;
 mod sensitivities;
 mod solid;
 pub(in crate::scene) mod spectrum;
-mod table_file;
+pub(in crate::scene) mod table_file;
 mod volume;
 
 use std::path::PathBuf;
@@ -51,8 +47,7 @@ use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 pub(crate) use self::solid::solid;
 use super::authored::{Authored, Light, Object, Plant};
 use super::description::{
-    Instrument, InstrumentKind, Leaf, Material, Medium, Mesh, Picture, Reflectance, Sample, Solid,
-    Spectrum,
+    Instrument, InstrumentKind, Leaf, Material, Medium, Mesh, Picture, Sample, Solid,
 };
 
 /// All keys at the top of a scene file.
@@ -209,21 +204,18 @@ fn sections(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
         keys,
         "media",
         &mut scene.media,
-        &Medium::clear,
+        &Medium::default,
         about,
-        medium::medium,
+        Medium::declare,
     );
     let about = "What surfaces are made of.";
-    let new = || Material::Diffuse {
-        reflectance: Reflectance::Even(Spectrum::Constant(0.0)),
-    };
     section(
         keys,
         "materials",
         &mut scene.materials,
-        &new,
+        &Material::default,
         about,
-        material::material,
+        Material::declare,
     );
     let about = "Shapes as triangles.";
     section(

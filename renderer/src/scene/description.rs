@@ -8,10 +8,11 @@ mod camera;
 mod instrument;
 pub mod layer;
 pub mod light;
-mod material;
+pub mod material;
 mod medium;
 mod object;
-mod reflectance;
+pub mod reflectance;
+pub mod tissue;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -29,12 +30,11 @@ pub use self::instrument::{
     Incidence, Incident, Index, Instrument, InstrumentKind, Response, Sample, Spot, SpotMiddle,
 };
 pub use self::light::Light;
-pub use self::material::{
-    Coat, Fluorescence, Held, LeafFaces, LeafOptics, LeafTissue, Material, SolidOptics,
-};
+pub use self::material::Material;
 pub use self::medium::{Medium, MediumPhase};
 pub use self::object::{InstancePlace, Object, ObjectShape, StrewnOn};
 pub use self::reflectance::Reflectance;
+pub use self::tissue::{Coat, Fluorescence, Held, LeafFaces, LeafOptics, SolidOptics};
 pub use crate::geometry::shapes::{Drop, Lump, Masonry, MasonryPart, Terrain};
 pub use crate::image::display::Display as Picture;
 pub use crate::image::pixels::Depth;
@@ -96,7 +96,7 @@ impl Description {
         };
         of_it.fold(nothing, |wanted, material| Wanted {
             colours: true,
-            finishes: wanted.finishes || matches!(material, Material::Model { .. }),
+            finishes: wanted.finishes || matches!(material, Material::Model(_)),
             emission,
         })
     }

@@ -212,24 +212,12 @@ fn check_colours(scene: &Authored, keys: &Keys<'_>) {
                 "the mesh `{}` is from no glTF file and has no colours",
                 mesh.name
             );
-            let kind = match material.value {
-                Material::Plastic { .. } => "plastic",
-                Material::Model { .. } => "gltf",
-                Material::Diffuse { .. }
-                | Material::Dielectric { .. }
-                | Material::Leaf { .. }
-                | Material::Solid { .. } => "diffuse",
+            let help = if material.value.reflectance().is_some() {
+                "write `reflectance` or `picture` instead, or name a mesh of the kind `gltf`"
+            } else {
+                "name a mesh of the kind `gltf`"
             };
-            let help = match material.value {
-                Material::Model { .. } => "name a mesh of the kind `gltf`",
-                Material::Plastic { .. }
-                | Material::Diffuse { .. }
-                | Material::Dielectric { .. }
-                | Material::Leaf { .. }
-                | Material::Solid { .. } => {
-                    "write `reflectance` or `picture` instead, or name a mesh of the kind `gltf`"
-                }
-            };
+            let kind = material.value.kind();
             keys.refuse(&["materials", &material.name, kind, "mesh"], problem, help);
         }
     }
@@ -309,14 +297,7 @@ fn warn_of_the_unused(scene: &Authored, keys: &Keys<'_>) {
         materials.extend(plant.value.potting.iter().flatten());
     }
     let media = scene.materials.iter();
-    let media = media.filter_map(|named| match named.value {
-        Material::Dielectric { interior, .. } => interior,
-        Material::Diffuse { .. }
-        | Material::Plastic { .. }
-        | Material::Model { .. }
-        | Material::Leaf { .. }
-        | Material::Solid { .. } => None,
-    });
+    let media = media.filter_map(|named| named.value.interior());
     let media: BTreeSet<usize> = media.collect();
     for (section, used) in [
         ("media", media),

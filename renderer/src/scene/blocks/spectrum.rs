@@ -165,7 +165,7 @@ impl Kind for SpectrumOf {
 }
 
 /// Range of wavelengths of tables, nm; solar spectra start in the far ultraviolet.
-pub(super) const TABLE_WAVELENGTHS_NM: Limits = Limits::closed(1.0, 1e7);
+pub(in crate::scene) const TABLE_WAVELENGTHS_NM: Limits = Limits::closed(1.0, 1e7);
 /// Where CIE standard illuminant D65 is defined, nm.
 pub(in crate::scene) const D65_NM: [f64; 2] = [300.0, 830.0];
 /// Moisture of soil.

@@ -41,7 +41,7 @@ pub(super) fn rows(cx: &Context, path: &str, at: &Place, guess: bool) -> Option<
 }
 
 /// All bytes of a file; an error at the place of its path otherwise.
-pub(super) fn bytes(
+pub(in crate::scene) fn bytes(
     cx: &Context,
     file: &std::path::Path,
     path: &str,
@@ -92,7 +92,7 @@ fn rows_of(cx: &Context, path: &str, at: &Place, bytes: &[u8], guess: bool) -> O
 }
 
 /// The text of a file, or an error at the place of its path.
-pub(super) fn text<'b>(
+pub(in crate::scene) fn text<'b>(
     cx: &Context,
     path: &str,
     at: &Place,
@@ -107,7 +107,7 @@ pub(super) fn text<'b>(
 }
 
 /// Reports a fault in its file, or at the place of the file's path.
-pub(super) fn report(cx: &Context, path: &str, at: &Place, text: &str, fault: &Fault) {
+pub(in crate::scene) fn report(cx: &Context, path: &str, at: &Place, text: &str, fault: &Fault) {
     let name = escaped(path, 2 * QUOTED);
     let error = match &fault.what {
         What::NotFinite { value } => DocumentError::NotFinite {
@@ -140,7 +140,7 @@ pub(super) fn report(cx: &Context, path: &str, at: &Place, text: &str, fault: &F
 }
 
 /// Says what was guessed about a file; `help` says what to do if that is wrong.
-pub(super) fn tell(cx: &Context, path: &str, at: &Place, note: &Guess, help: &str) {
+pub(in crate::scene) fn tell(cx: &Context, path: &str, at: &Place, note: &Guess, help: &str) {
     let name = escaped(path, 2 * QUOTED);
     let message = format!("\"{name}\": {}", note.what);
     let is_guess = note.otherwise.is_some();
@@ -153,7 +153,7 @@ pub(super) fn tell(cx: &Context, path: &str, at: &Place, note: &Guess, help: &st
 }
 
 /// An error of a file.
-pub(super) fn bad_file(path: &str, problem: String, help: &str) -> DocumentError {
+pub(in crate::scene) fn bad_file(path: &str, problem: String, help: &str) -> DocumentError {
     DocumentError::BadFile {
         path: escaped(path, 2 * QUOTED),
         problem,
@@ -162,7 +162,11 @@ pub(super) fn bad_file(path: &str, problem: String, help: &str) -> DocumentError
 }
 
 /// The error of a gap in a file's wavelengths, if it matters to the wavelengths that are needed.
-pub(super) fn gap(cx: &Context, path: &str, [from, to]: [f64; 2]) -> Option<DocumentError> {
+pub(in crate::scene) fn gap(
+    cx: &Context,
+    path: &str,
+    [from, to]: [f64; 2],
+) -> Option<DocumentError> {
     let needed = cx.range_nm.get();
     let matters = needed.is_none_or(|[low, high]| from < high && to > low);
     matters.then(|| {

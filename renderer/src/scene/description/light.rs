@@ -43,6 +43,7 @@ pub enum Light {
     #[key(last = refuse_darkness)]
     Environment(Environment),
     /// The sun and a clear sky, with the spectra of a day.
+    #[key(with = daylight::daylight)]
     Daylight(Daylight),
     /// A sky that is covered with cloud, brightest in the zenith.
     #[key(last = refuse_darkness)]
@@ -129,7 +130,7 @@ impl Light {
             Self::Distant(light) => light.irradiance.clone(),
             Self::Constant(light) => light.radiance.clone(),
             Self::Environment(light) => light.white.clone(),
-            Self::Daylight(day) => day.on_level_ground(),
+            Self::Daylight(day) => daylight::on_level_ground(day),
             Self::Overcast(light) => light.irradiance.clone(),
             Self::Area(light) => light.radiance.clone(),
             Self::Spot(light) => light.intensity.clone(),

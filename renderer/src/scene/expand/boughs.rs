@@ -9,16 +9,17 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::document::names::Named;
-use leafmodel::optics::{Contents, Pigments};
+use leafmodel::optics::Contents;
 use leafmodel::plant::{Crumb, Foot, Organ, Plant as Grown, PlantError, Wall};
 
 use super::individuals::{age, ageless, individuals, scattered_ranks, users};
 use super::{Fault, Planted, walls};
 use crate::geometry::shapes::Lump;
 use crate::scene::authored::Plant;
+use crate::scene::description::material::solid::PlainSolid;
 use crate::scene::description::{
-    Coat, Description, Held, InstancePlace, Leaf, Material, Mesh, ObjectShape, Reflectance, Shape,
-    SolidOptics, Spectrum,
+    Coat, Description, Held, InstancePlace, Leaf, Material, Mesh, ObjectShape, Shape, SolidOptics,
+    Spectrum,
 };
 use crate::spectrum::library;
 
@@ -337,12 +338,10 @@ fn add_body(
 
 /// A matt surface of a measured spectrum.
 fn even(points: Vec<(f64, f64)>, extrapolate: bool) -> Material {
-    Material::Diffuse {
-        reflectance: Reflectance::Even(Spectrum::Table {
-            points,
-            extrapolate,
-        }),
-    }
+    Material::matt(Spectrum::Table {
+        points,
+        extrapolate,
+    })
 }
 
 fn clay(extrapolate: bool) -> Material {
@@ -355,22 +354,18 @@ fn clay(extrapolate: bool) -> Material {
 
 /// Solid tissue with these contents.
 fn tissue(contents: Contents, alpha: f64, extrapolate: bool) -> Material {
-    let usual = SolidOptics::usual();
-    Material::Solid {
+    let optics = SolidOptics::default();
+    Material::Solid(PlainSolid {
         held: Held::Contents {
             contents,
             extrapolate,
         },
-        pigments: Box::new(Pigments::default()),
+        pigments: Box::default(),
         optics: SolidOptics {
-            coat: Coat {
-                alpha_across: alpha,
-                alpha_along: alpha,
-                ..usual.coat
-            },
-            ..usual
+            coat: Coat::even(optics.coat.eta, alpha),
+            ..optics
         },
-    }
+    })
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ use crate::scene::description::light::area::{Area, AreaPattern};
 use crate::scene::description::light::constant::Constant;
 use crate::scene::description::light::overcast::Overcast;
 use crate::scene::description::{
-    Description, Light, Material, Mesh, Object, ObjectShape, Reflectance, Shape, Spectrum,
+    Description, Light, Material, Mesh, Object, ObjectShape, Shape, Spectrum,
 };
 
 /// Irradiance of a level sheet at the subject, of D65, W m⁻² nm⁻¹ at 560 nm. With the tone
@@ -293,9 +293,7 @@ fn build(scene: &mut Description, rig: &str, preset: RigPreset, stage: &Stage, l
     let unit = level / (lit.sum::<f64>() + PI * even * stage.open_share(&panels));
     scene.materials.push(Named {
         name: format!("{rig}.cloth"),
-        value: Material::Diffuse {
-            reflectance: Reflectance::Even(Spectrum::Constant(CLOTH)),
-        },
+        value: Material::matt(Spectrum::Constant(CLOTH)),
     });
     let cloth = scene.materials.len() - 1;
     for panel in panels {

@@ -1,13 +1,11 @@
 //! Memory that the things of a scene will need, said before any of them is built.
 
-use std::path::PathBuf;
-
 use super::memory::{OF_A_TRIANGLE, OF_AN_INSTANCE};
 use crate::geometry::scatter::{Amount, Volume};
 use crate::image::claimed;
 use crate::scene::assets;
 use crate::scene::description::{
-    Description, Drop, Held, Lump, Mesh, Object, ObjectShape, Reflectance, Shape, StrewnOn,
+    Description, Drop, Held, Lump, Mesh, Object, ObjectShape, Shape, StrewnOn,
 };
 
 /// Memory of a place of an object of two parts, as a leaf with its petiole is, bytes.
@@ -85,19 +83,16 @@ pub(crate) fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)
 /// Memory of the pictures of materials and lights while they are read, bytes.
 fn of_pictures(scene: &Description) -> f64 {
     let materials = scene.materials.iter().flat_map(|material| {
-        let reflectance = match material.value.reflectance() {
-            Some(Reflectance::Picture { file, .. }) => Some(file),
-            Some(Reflectance::Even(_) | Reflectance::OfMesh(_)) | None => None,
-        };
-        let held = match material.value.held() {
-            Some(Held::Map { file, .. }) => Some(file),
+        let picture = material.value.picture().map(|(file, _)| file);
+        let map = match material.value.held() {
+            Some(Held::Map { file, .. }) => Some(file.as_path()),
             Some(Held::Contents { .. }) | None => None,
         };
-        reflectance.into_iter().chain(held)
+        picture.into_iter().chain(map)
     });
     let lights = scene.lights.iter();
     let lights = lights.filter_map(|light| light.value.picture().map(|(file, _)| file));
-    let files = materials.map(PathBuf::as_path).chain(lights);
+    let files = materials.chain(lights);
     files.fold(0.0, |sum, file| sum + claimed::bytes_of_file(file))
 }
 

@@ -18,39 +18,36 @@ const YEARS: [u16; 2] = [1950, 2050];
 const TIME: &str =
     "a date and time with its offset from UTC, such as \"2026-06-21T12:00:00+02:00\"";
 
-impl Declared for Daylight {
-    fn declare(&mut self, keys: &mut Keys<'_>) {
-        for chosen in keys.one_of(&["elevation_deg", "time"], Some("elevation_deg")) {
-            if chosen == "time" {
-                place_and_time(self, keys);
-            } else {
-                angles(self, keys);
-            }
+/// The keys of the block.
+pub(super) fn daylight(day: &mut Daylight, keys: &mut Keys<'_>) {
+    for chosen in keys.one_of(&["elevation_deg", "time"], Some("elevation_deg")) {
+        if chosen == "time" {
+            place_and_time(day, keys);
+        } else {
+            angles(day, keys);
         }
-        self.atmosphere.declare(keys);
-        let limits = Number(Limits::above(0.0, 1e12));
-        keys.key("scale", &mut self.scale, limits, "Factor on sun and sky.");
-        let limits = Degrees(Limits::closed(-360.0, 360.0));
-        let about = "Direction of the middle of a forest, from +x towards +y, at whose edge the scene \
-            lies: crowns before the sky there, and green ground. The sun shines past them.";
-        keys.optional("forest_azimuth_deg", &mut self.forest, limits, about);
     }
+    day.atmosphere.declare(keys);
+    let limits = Number(Limits::above(0.0, 1e12));
+    keys.key("scale", &mut day.scale, limits, "Factor on sun and sky.");
+    let limits = Degrees(Limits::closed(-360.0, 360.0));
+    let about = "Direction of the middle of a forest, from +x towards +y, at whose edge the scene \
+        lies: crowns before the sky there, and green ground. The sun shines past them.";
+    keys.optional("forest_azimuth_deg", &mut day.forest, limits, about);
 }
 
-impl Daylight {
-    /// The spectrum of sun and sky on a level plane, relative.
-    pub(super) fn on_level_ground(&self) -> Spectrum {
-        let (sun, sky) = self.lights();
-        let up = libm::sin(self.elevation);
-        let points = sun.irradiance().points().into_iter();
-        let points = points.map(|(nm, direct)| {
-            let diffuse = f64::from(sky.diffuse().at(nm as f32));
-            (nm, direct * up + diffuse)
-        });
-        Spectrum::Table {
-            points: points.collect(),
-            extrapolate: true,
-        }
+/// The spectrum of sun and sky on a level plane, relative.
+pub(super) fn on_level_ground(day: &Daylight) -> Spectrum {
+    let (sun, sky) = day.lights();
+    let up = libm::sin(day.elevation);
+    let points = sun.irradiance().points().into_iter();
+    let points = points.map(|(nm, direct)| {
+        let diffuse = f64::from(sky.diffuse().at(nm as f32));
+        (nm, direct * up + diffuse)
+    });
+    Spectrum::Table {
+        points: points.collect(),
+        extrapolate: true,
     }
 }
 

@@ -1,6 +1,7 @@
 //! `[materials.NAME.leaf.measured]`: spectra of a real leaf, of one face or of both.
 
 use leafmodel::document::coverage::require_coverage;
+use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::reader::Block;
@@ -9,13 +10,13 @@ use leafmodel::document::source::quoted;
 use leafmodel::document::value_kind::{FilePath, NamedFile, Text, Word};
 use leafmodel::document::values::listed;
 
-use super::spectrum::{SpectrumOf, TABLE_WAVELENGTHS_NM};
-use super::table_file::{bad_file, bytes, gap, report, tell, text};
 use crate::measured::Slack;
 use crate::measured::known::{Known, ValueUnit, WavelengthUnit};
 use crate::measured::spectra::{self, Leaf};
 use crate::measured::units;
-use crate::scene::description::{LeafFaces, LeafTissue, Spectrum};
+use crate::scene::blocks::spectrum::{SpectrumOf, TABLE_WAVELENGTHS_NM};
+use crate::scene::blocks::table_file::{bad_file, bytes, gap, report, tell, text};
+use crate::spectrum::written::Spectrum;
 
 /// Largest table of leaves, bytes.
 const MOST_BYTES: u64 = 64 << 20;
@@ -23,39 +24,28 @@ const MOST_BYTES: u64 = 64 << 20;
 const KEYS: [&str; 4] = ["wavelengths", "values", "separator", "decimal"];
 
 /// The spectra of a leaf.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Measured {
-    reflectance: Spectrum,
-    abaxial: Option<Spectrum>,
-    transmittance: Spectrum,
+    pub(super) reflectance: Spectrum,
+    /// That of the abaxial face, if it was measured.
+    pub(super) abaxial: Option<Spectrum>,
+    pub(super) transmittance: Spectrum,
 }
 
-impl Measured {
-    /// The tissue, and the reflectance of the abaxial face if it was measured.
-    pub(super) fn into_parts(self) -> (LeafTissue, Option<Spectrum>) {
-        let tissue = LeafTissue::Measured {
-            reflectance: self.reflectance,
-            transmittance: self.transmittance,
-        };
-        (tissue, self.abaxial)
-    }
-}
-
-/// The keys of the block.
-pub(super) fn measured(keys: &mut Keys<'_>) -> Measured {
-    let mut measured = Measured {
-        reflectance: Spectrum::Constant(0.0),
-        abaxial: None,
-        transmittance: Spectrum::Constant(0.0),
-    };
-    for way in keys.one_of(&["reflectance", "file"], Some("reflectance")) {
-        if way == "reflectance" {
-            spectra_by_key(&mut measured, keys);
-        } else if let Some(found) = of_table(keys) {
-            measured = found;
+impl Declared for Measured {
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        for way in keys.one_of(&["reflectance", "file"], Some("reflectance")) {
+            if way == "reflectance" {
+                spectra_by_key(self, keys);
+            } else {
+                let mut table = Table::default();
+                table.declare(keys);
+                if let Some(found) = table.spectra(keys) {
+                    *self = found;
+                }
+            }
         }
     }
-    measured
 }
 
 fn spectra_by_key(measured: &mut Measured, keys: &mut Keys<'_>) {
@@ -74,48 +64,61 @@ fn spectra_by_key(measured: &mut Measured, keys: &mut Keys<'_>) {
     }
 }
 
-/// `file` and `leaf`: a table with the columns of a leaf.
-fn of_table(keys: &mut Keys<'_>) -> Option<Measured> {
-    const PATH: FilePath = FilePath::of(
-        "the path of a CSV file with R and T",
-        &["csv", "tsv", "txt"],
-        MOST_BYTES,
-    );
-    let mut file = NamedFile::default();
-    let about = "A table with columns wavelength, R, T and, if it was measured, R_abaxial, as \
-        `lamina fit` reads it.";
-    keys.required("file", &mut file, PATH, about);
-    let mut leaf = None;
-    let kind = Text("the name of a leaf of the table");
-    let about = "Which of the table's leaves, if it has several.";
-    keys.optional("leaf", &mut leaf, kind, about);
-    let mut known = Known::default();
-    let about = "Unit of its wavelengths, instead of a guess.";
-    let units = Word(&WavelengthUnit::ALL);
-    keys.optional("wavelengths", &mut known.wavelengths, units, about);
-    let about = "Unit of its values, instead of a guess.";
-    keys.optional("values", &mut known.values, Word(&ValueUnit::ALL), about);
-    let about = "What separates its fields, instead of a guess.";
-    let separators = Word(&Separator::ALL);
-    keys.optional("separator", &mut known.form.separator, separators, about);
-    let about = "Its decimal mark, instead of a guess.";
-    let marks = Word(&Decimal::ALL);
-    keys.optional("decimal", &mut known.form.decimal, marks, about);
-    let block = keys.reader().filter(|_| keys.is_sound())?;
-    let at = &block.node("file")?.at;
-    let bytes = bytes(block.cx, &file.file, &file.written, at)?;
-    let text = &*text(block.cx, &file.written, at, &bytes)?;
-    let refuse = |fault| report(block.cx, &file.written, at, text, &fault);
-    let found = spectra::read(text, &known).map_err(refuse).ok()?;
-    for note in &found.notes {
-        let is_key = note.otherwise.is_some_and(|(key, _)| KEYS.contains(&key));
-        let help = note.key().filter(|_| is_key);
-        let help = help.unwrap_or_else(|| "change the file if that is not meant".to_owned());
-        tell(block.cx, &file.written, at, note, &help);
+/// A table with the columns of a leaf.
+#[derive(Declared, Default)]
+struct Table {
+    /// A table with columns wavelength, R, T and, if it was measured, R_abaxial, as `lamina fit` reads it.
+    #[key("file", required, PATH)]
+    file: NamedFile,
+    /// Which of the table's leaves, if it has several.
+    #[key("leaf", Text("the name of a leaf of the table"))]
+    leaf: Option<String>,
+    /// Unit of its wavelengths, instead of a guess.
+    #[key("wavelengths", Word(&WavelengthUnit::ALL))]
+    wavelengths: Option<WavelengthUnit>,
+    /// Unit of its values, instead of a guess.
+    #[key("values", Word(&ValueUnit::ALL))]
+    values: Option<ValueUnit>,
+    /// What separates its fields, instead of a guess.
+    #[key("separator", Word(&Separator::ALL))]
+    separator: Option<Separator>,
+    /// Its decimal mark, instead of a guess.
+    #[key("decimal", Word(&Decimal::ALL))]
+    decimal: Option<Decimal>,
+}
+
+const PATH: FilePath = FilePath::of(
+    "the path of a CSV file with R and T",
+    &["csv", "tsv", "txt"],
+    MOST_BYTES,
+);
+
+impl Table {
+    fn spectra(&self, keys: &Keys<'_>) -> Option<Measured> {
+        let block = keys.reader().filter(|_| keys.is_sound())?;
+        let at = &block.node("file")?.at;
+        let (cx, name) = (block.cx, &self.file.written);
+        let bytes = bytes(cx, &self.file.file, name, at)?;
+        let text = &*text(cx, name, at, &bytes)?;
+        let refuse = |fault| report(cx, name, at, text, &fault);
+        let mut known = Known {
+            wavelengths: self.wavelengths,
+            values: self.values,
+            ..Known::default()
+        };
+        known.form.separator = self.separator;
+        known.form.decimal = self.decimal;
+        let found = spectra::read(text, &known).map_err(refuse).ok()?;
+        for note in &found.notes {
+            let is_key = note.otherwise.is_some_and(|(key, _)| KEYS.contains(&key));
+            let help = note.key().filter(|_| is_key);
+            let help = help.unwrap_or_else(|| "change the file if that is not meant".to_owned());
+            tell(cx, name, at, note, &help);
+        }
+        let leaf = chosen(block, name, &found.leaves, self.leaf.as_deref())?;
+        leaf.check(text, Slack::NONE).map_err(refuse).ok()?;
+        spectra_of(block, name, leaf)
     }
-    let leaf = chosen(block, &file.written, &found.leaves, leaf.as_deref())?;
-    leaf.check(text, Slack::NONE).map_err(refuse).ok()?;
-    spectra_of(block, &file.written, leaf)
 }
 
 /// The leaf of that name, or the only one.
@@ -192,17 +195,6 @@ fn spectra_of(block: &Block<'_>, file: &str, leaf: &Leaf) -> Option<Measured> {
         abaxial: (!leaf.abaxial.is_empty()).then(|| table(&leaf.abaxial)),
         transmittance: table(&leaf.transmittance),
     })
-}
-
-/// Takes the reflectance of the abaxial face that a measurement gives; a ratio of the faces excludes
-/// it.
-pub(super) fn set_abaxial(faces: &mut LeafFaces, reflectance: Option<Spectrum>, keys: &Keys<'_>) {
-    if reflectance.is_some() && faces.abaxial_ratio.is_some() {
-        let problem = "both faces were measured".to_owned();
-        let help = "leave `abaxial_ratio` out, or the abaxial reflectance";
-        keys.refuse(&["abaxial_ratio"], problem, help);
-    }
-    faces.abaxial_reflectance = reflectance;
 }
 
 /// Reports R + T > 1. The sum is linear between the rows of both tables, so it is greatest at one
