@@ -11,7 +11,7 @@ use super::nearest::nearest;
 use super::reader::Block;
 use super::schema::Type;
 use super::source::escaped;
-use super::tree::{Entry, Node, Table, Value};
+use super::tree::{Node, Table, Value};
 use super::values::{
     integer_at, list, listed, number, number_at, numbers_at, text_at, wrong_length, wrong_type,
 };
@@ -332,16 +332,10 @@ impl<K: Kind> Kind for MapOf<K> {
     }
 
     fn write(&self, value: &Self::Of) -> Value {
-        let entries = value.iter().map(|(name, value)| {
-            let node = Node::unplaced(self.0.write(value));
-            let key_at = node.at.clone();
-            Entry {
-                key: name.clone(),
-                key_at,
-                node,
-            }
-        });
-        Value::Table(Table(entries.collect()))
+        let entries = value.iter();
+        Value::Table(Table::of(
+            entries.map(|(name, value)| (name.as_str(), self.0.write(value))),
+        ))
     }
 
     fn describe(&self) -> Type {

@@ -1,21 +1,21 @@
 //! `[materials.NAME.leaf.measured]`: spectra of a real leaf, of one face or of both.
 
+use leafmodel::document::context::Context;
 use leafmodel::document::coverage::require_coverage;
 use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::reader::Block;
 use leafmodel::document::rows::{Decimal, Separator};
-use leafmodel::document::source::quoted;
+use leafmodel::document::source::{Place, quoted};
 use leafmodel::document::value_kind::{FilePath, NamedFile, Text, Word};
 use leafmodel::document::values::listed;
 
 use crate::measured::Slack;
 use crate::measured::known::{Known, ValueUnit, WavelengthUnit};
 use crate::measured::spectra::{self, Leaf};
-use crate::measured::units;
 use crate::scene::blocks::spectrum::{SpectrumOf, TABLE_WAVELENGTHS_NM};
-use crate::scene::blocks::table_file::{bad_file, bytes, gap, report, tell, text};
+use crate::scene::blocks::table_file::{TableFile, bad_file, first_gap};
 use crate::spectrum::written::Spectrum;
 
 /// Largest table of leaves, bytes.
@@ -97,10 +97,7 @@ impl Table {
     fn spectra(&self, keys: &Keys<'_>) -> Option<Measured> {
         let block = keys.reader().filter(|_| keys.is_sound())?;
         let at = &block.node("file")?.at;
-        let (cx, name) = (block.cx, &self.file.written);
-        let bytes = bytes(cx, &self.file.file, name, at)?;
-        let text = &*text(cx, name, at, &bytes)?;
-        let refuse = |fault| report(cx, name, at, text, &fault);
+        let file = TableFile::read(block.cx, &self.file.file, &self.file.written, at)?;
         let mut known = Known {
             wavelengths: self.wavelengths,
             values: self.values,
@@ -108,93 +105,83 @@ impl Table {
         };
         known.form.separator = self.separator;
         known.form.decimal = self.decimal;
-        let found = spectra::read(text, &known).map_err(refuse).ok()?;
+        let found = file.sound(spectra::read(&file.text, &known))?;
         for note in &found.notes {
             let is_key = note.otherwise.is_some_and(|(key, _)| KEYS.contains(&key));
             let help = note.key().filter(|_| is_key);
             let help = help.unwrap_or_else(|| "change the file if that is not meant".to_owned());
-            tell(cx, name, at, note, &help);
+            file.note(note, &help);
         }
-        let leaf = chosen(block, name, &found.leaves, self.leaf.as_deref())?;
-        leaf.check(text, Slack::NONE).map_err(refuse).ok()?;
-        spectra_of(block, name, leaf)
+        let leaf = self.chosen(block, &found.leaves)?;
+        file.sound(leaf.check(&file.text, Slack::NONE))?;
+        self.complete(block.cx, at, &file, leaf)
     }
-}
 
-/// The leaf of that name, or the only one.
-fn chosen<'l>(
-    block: &Block<'_>,
-    file: &str,
-    leaves: &'l [Leaf],
-    name: Option<&str>,
-) -> Option<&'l Leaf> {
-    let found = match (name, leaves) {
-        (None, [only]) => return Some(only),
-        (None, _) => None,
-        (Some(name), _) => leaves.iter().find(|leaf| leaf.name == name),
-    };
-    if found.is_none() {
-        let names: Vec<String> = leaves
-            .iter()
-            .take(12)
-            .map(|leaf| quoted(&leaf.name))
-            .collect();
-        let names = listed(names.iter().map(String::as_str));
-        let key = if name.is_some() { "leaf" } else { "file" };
-        let at = block.node(key).map_or(&block.at, |node| &node.at);
-        let problem = match name {
-            Some(name) => format!("has no leaf `{}`", quoted(name)),
-            None => format!("has {} leaves", leaves.len()),
+    /// The leaf of that name, or the only one.
+    fn chosen<'l>(&self, block: &Block<'_>, leaves: &'l [Leaf]) -> Option<&'l Leaf> {
+        let found = match (&self.leaf, leaves) {
+            (None, [only]) => return Some(only),
+            (None, _) => None,
+            (Some(name), _) => leaves.iter().find(|leaf| leaf.name == *name),
         };
-        let help = format!("write `leaf` with one of its names: {names}");
-        block.cx.error(at, bad_file(file, problem, &help));
+        if found.is_none() {
+            let names = leaves.iter().take(12).map(|leaf| quoted(&leaf.name));
+            let names: Vec<String> = names.collect();
+            let names = listed(names.iter().map(String::as_str));
+            let (key, problem) = match &self.leaf {
+                Some(name) => ("leaf", format!("has no leaf `{}`", quoted(name))),
+                None => ("file", format!("has {} leaves", leaves.len())),
+            };
+            let at = block.node(key).map_or(&block.at, |node| &node.at);
+            let help = format!("write `leaf` with one of its names: {names}");
+            let error = bad_file(&self.file.written, problem, &help);
+            block.cx.error(at, error);
+        }
+        found
     }
-    found
-}
 
-/// What a scene needs of a leaf: R and T without gaps, over the wavelengths that are needed.
-fn spectra_of(block: &Block<'_>, file: &str, leaf: &Leaf) -> Option<Measured> {
-    let cx = block.cx;
-    let at = &block.node("file")?.at;
-    for (what, values) in [("R", &leaf.reflectance), ("T", &leaf.transmittance)] {
-        if values.is_empty() {
-            let problem = format!("has no column {what}");
-            let help = "a leaf needs its reflectance and its transmittance";
-            cx.error(at, bad_file(file, problem, help));
+    /// What a scene needs of a leaf: R and T without gaps, over the wavelengths that are needed.
+    fn complete(
+        &self,
+        cx: &Context,
+        at: &Place,
+        file: &TableFile<'_>,
+        leaf: &Leaf,
+    ) -> Option<Measured> {
+        for (what, values) in [("R", &leaf.reflectance), ("T", &leaf.transmittance)] {
+            if values.is_empty() {
+                let help = "a leaf needs its reflectance and its transmittance";
+                file.refuse(format!("has no column {what}"), help);
+                return None;
+            }
+        }
+        let (Some(first), Some(last)) = (leaf.nm.first(), leaf.nm.last()) else {
+            return None;
+        };
+        if leaf.nm.len() < 2 || !TABLE_WAVELENGTHS_NM.contain(*first) {
+            let problem = format!("has {} wavelengths from {first} nm on", leaf.nm.len());
+            file.refuse(problem, "at least 2 are needed, from 1 nm on");
             return None;
         }
-    }
-    let (Some(first), Some(last)) = (leaf.nm.first(), leaf.nm.last()) else {
-        return None;
-    };
-    if leaf.nm.len() < 2 || !TABLE_WAVELENGTHS_NM.contain(*first) {
-        let problem = format!("has {} wavelengths from {first} nm on", leaf.nm.len());
-        let help = "at least 2 are needed, from 1 nm on";
-        cx.error(at, bad_file(file, problem, help));
-        return None;
-    }
-    let mut holes = units::gaps(&leaf.nm, units::WIDE_GAP);
-    let hole = holes.find_map(|i| gap(cx, file, [leaf.nm[i - 1], leaf.nm[i]]));
-    if let Some(error) = hole {
-        cx.error(at, error);
-        return None;
-    }
-    require_coverage(cx, at, "the file", [*first, *last]).then_some(())?;
-    let table = |values: &[f64]| {
-        let points = leaf.nm.iter().zip(values);
-        Spectrum::Table {
-            // Rounding may leave them.
-            points: points
-                .map(|(nm, value)| (*nm, value.clamp(0.0, 1.0)))
-                .collect(),
-            extrapolate: cx.extrapolate.get(),
+        if let Some((_, error)) = first_gap(cx, &self.file.written, &leaf.nm) {
+            cx.error(at, error);
+            return None;
         }
-    };
-    Some(Measured {
-        reflectance: table(&leaf.reflectance),
-        abaxial: (!leaf.abaxial.is_empty()).then(|| table(&leaf.abaxial)),
-        transmittance: table(&leaf.transmittance),
-    })
+        require_coverage(cx, at, "the file", [*first, *last]).then_some(())?;
+        let table = |values: &[f64]| {
+            // Rounding may leave the range.
+            let values = values.iter().map(|value| value.clamp(0.0, 1.0));
+            Spectrum::Table {
+                points: leaf.nm.iter().copied().zip(values).collect(),
+                extrapolate: cx.extrapolate.get(),
+            }
+        };
+        Some(Measured {
+            reflectance: table(&leaf.reflectance),
+            abaxial: (!leaf.abaxial.is_empty()).then(|| table(&leaf.abaxial)),
+            transmittance: table(&leaf.transmittance),
+        })
+    }
 }
 
 /// Reports R + T > 1. The sum is linear between the rows of both tables, so it is greatest at one
