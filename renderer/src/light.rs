@@ -47,6 +47,7 @@ use daylight::sky::SkyLight;
 use daylight::sun::SunLight;
 use distant::DistantLight;
 use environment::EnvironmentLight;
+use radiance_table::RadianceTable;
 pub use sample::{LightSample, Receiver};
 use spot::SpotLight;
 use tree::Emitter;
@@ -189,6 +190,17 @@ impl Light {
             Self::Sky(light) => light.sample(wavelengths, u),
             Self::Area(light) => light.sample(part, receiver, wavelengths, u),
             Self::Spot(light) => light.sample(receiver, wavelengths),
+        }
+    }
+
+    /// Its radiance over directions as a table, if it is one.
+    pub fn radiance_table(&self) -> Option<RadianceTable<'_>> {
+        match self {
+            Self::Environment(light) => Some(light.tabulated()),
+            Self::Sky(light) => Some(light.tabulated()),
+            Self::Distant(_) | Self::Constant(_) | Self::Sun(_) | Self::Area(_) | Self::Spot(_) => {
+                None
+            }
         }
     }
 

@@ -48,16 +48,11 @@ pub(super) fn texture(id: &str, name: &'static str, map: Option<&ColourMap>) -> 
 pub(super) fn maps(id: &str, material: &Material) -> Vec<(String, ColourMap)> {
     let colours = material.colour_map().cloned();
     let colours = colours.map(|map| (id.to_owned(), map));
-    let further = match material {
-        Material::Model(model) => {
-            let ids = ["finish", "normals"].map(|of| format!("{id}.{of}"));
-            ids.into_iter().zip(model.finish_maps()).collect()
-        }
-        Material::Diffuse(_)
-        | Material::Dielectric(_)
-        | Material::Plastic(_)
-        | Material::Leaf(_)
-        | Material::Solid(_) => Vec::new(),
+    let further = if let Material::Model(model) = material {
+        let ids = ["finish", "normals"].map(|of| format!("{id}.{of}"));
+        ids.into_iter().zip(model.finish_maps()).collect()
+    } else {
+        Vec::new()
     };
     colours.into_iter().chain(further).collect()
 }

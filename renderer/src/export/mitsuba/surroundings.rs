@@ -44,15 +44,7 @@ pub(super) fn tables<'w>(
     world: &'w World,
 ) -> impl Iterator<Item = (&'w str, RadianceTable<'w>)> {
     built(scene, world).filter_map(|(light, own)| {
-        let table = own.iter().find_map(|light| match light {
-            Built::Environment(light) => Some(light.tabulated()),
-            Built::Sky(light) => Some(light.tabulated()),
-            Built::Distant(_)
-            | Built::Constant(_)
-            | Built::Sun(_)
-            | Built::Area(_)
-            | Built::Spot(_) => None,
-        });
+        let table = own.iter().find_map(Built::radiance_table);
         table.map(|table| (light.name.as_str(), table))
     })
 }
@@ -62,14 +54,12 @@ pub(super) fn emitters(scene: &Description, world: &World, spectra: &mut Spectra
     let skies: Vec<Element> = tables(scene, world)
         .map(|(light, table)| sky(light, &table))
         .collect();
-    let constant = scene.lights.iter().filter_map(|light| match &light.value {
-        Light::Constant(light) => Some(&light.radiance),
-        Light::Distant(_)
-        | Light::Environment(_)
-        | Light::Daylight(_)
-        | Light::Overcast(_)
-        | Light::Area(_)
-        | Light::Spot(_) => None,
+    let constant = scene.lights.iter().filter_map(|light| {
+        if let Light::Constant(light) = &light.value {
+            Some(&light.radiance)
+        } else {
+            None
+        }
     });
     if skies.is_empty() {
         return constant
