@@ -37,13 +37,16 @@ macro_rules! variant {
     };
 }
 
+/// What names the keys of a value.
+type Declaration<'v, T> = Box<dyn Fn(&mut T, &mut Keys<'_>) + 'v>;
+
 /// One of several kinds, of a value itself or of what lies in it.
 pub struct Choice<'v, T> {
     name: &'static str,
     about: &'static str,
     new: Box<dyn Fn() -> T + 'v>,
     is: Box<dyn Fn(&mut T) -> bool + 'v>,
-    declare: Box<dyn Fn(&mut T, &mut Keys<'_>) + 'v>,
+    declare: Declaration<'v, T>,
 }
 
 impl<T: 'static> Variant<T> {

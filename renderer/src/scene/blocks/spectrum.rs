@@ -162,7 +162,7 @@ impl SpectrumOf {
                     let mut named = None;
                     let about = "Such a table in a file, ASCII export of an ASD, or a `.sig` file of an SVC.";
                     keys.optional("file", &mut named, table_file::SPECTRUM, about);
-                    self.in_file(named.as_ref(), guess, keys)
+                    Self::in_file(named.as_ref(), guess, keys)
                 }
                 "measured" => {
                     let mut number = None;
@@ -203,7 +203,7 @@ impl SpectrumOf {
         }
     }
 
-    fn in_file(self, named: Option<&NamedFile>, guess: bool, keys: &Keys<'_>) -> Option<Rows> {
+    fn in_file(named: Option<&NamedFile>, guess: bool, keys: &Keys<'_>) -> Option<Rows> {
         let form = keys.reader()?;
         table_file::rows(form.cx, named?, &form.node("file")?.at, guess)
     }

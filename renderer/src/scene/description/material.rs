@@ -87,7 +87,7 @@ impl Material {
             Self::Diffuse(of) => material::Material::Diffuse(sources.reflectance(&of.reflectance)?),
             Self::Dielectric(of) => material::Material::Dielectric(of.built()),
             Self::Plastic(of) => material::Material::Plastic(Box::new(of.built(sources)?)),
-            Self::Model(of) => material::Material::Model(Box::new(of.built(sources))),
+            Self::Model(_) => material::Material::Model(Box::new(GltfSurface::built(sources))),
             Self::Leaf(of) => material::Material::Leaf(Box::new(of.built(sources)?)),
             Self::Solid(of) => material::Material::Solid(Box::new(of.built(sources)?)),
         })
@@ -191,7 +191,7 @@ impl Sources<'_> {
         Ok(material::reflectance::Reflectance::Picture(Box::new(map)))
     }
 
-    fn held(&self, held: &Held) -> Result<material::held::Held, AssetError> {
+    fn held(held: &Held) -> Result<material::held::Held, AssetError> {
         Ok(match held {
             Held::Contents { contents, .. } => material::held::Held::Uniform(*contents),
             Held::Map { file, .. } => material::held::Held::Map(assets::contents_map(file)?),

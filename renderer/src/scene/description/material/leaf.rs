@@ -134,7 +134,7 @@ impl PlainLeaf {
 
     pub(super) fn built(&self, sources: &mut Sources<'_>) -> Result<LeafMaterial, AssetError> {
         let made = match &self.tissue {
-            LeafTissue::Held(held) => material::leaf::LeafTissue::Held(sources.held(held)?),
+            LeafTissue::Held(held) => material::leaf::LeafTissue::Held(Sources::held(held)?),
             LeafTissue::Measured {
                 reflectance,
                 transmittance,

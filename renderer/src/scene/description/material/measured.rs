@@ -67,8 +67,12 @@ fn spectra_by_key(measured: &mut Measured, keys: &mut Keys<'_>) {
 /// A table with the columns of a leaf.
 #[derive(Declared, Default)]
 struct Table {
-    /// A table with columns wavelength, R, T and, if it was measured, R_abaxial, as `lamina fit` reads it.
-    #[key("file", required, PATH)]
+    #[key(
+        "file",
+        required,
+        PATH,
+        about = "A table with columns wavelength, R, T and, if it was measured, R_abaxial, as `lamina fit` reads it."
+    )]
     file: NamedFile,
     /// Which of the table's leaves, if it has several.
     #[key("leaf", Text("the name of a leaf of the table"))]

@@ -11,7 +11,7 @@ use crate::scene::description::reflectance::{MODEL, require_colours};
 
 /// All that a mesh from a glTF file says of its surface.
 #[derive(Clone, Debug, Declared, Defaults)]
-#[key(last = Self::require_colours)]
+#[key(last = require_colours_of_mesh)]
 pub struct GltfSurface {
     /// Each part of that mesh has its own material.
     ///
@@ -22,13 +22,13 @@ pub struct GltfSurface {
 }
 
 impl GltfSurface {
-    fn require_colours(&mut self, keys: &mut Keys<'_>) {
-        require_colours("mesh", keys);
-    }
-
-    pub(super) fn built(&self, sources: &Sources<'_>) -> ModelMaterial {
+    pub(super) fn built(sources: &Sources<'_>) -> ModelMaterial {
         let both = sources.colours.zip(sources.finishes);
         let (colours, finishes) = both.expect("a mesh whose surface is wanted was read with it");
         ModelMaterial::new(colours.clone(), Arc::clone(finishes))
     }
+}
+
+fn require_colours_of_mesh(_: &mut GltfSurface, keys: &mut Keys<'_>) {
+    require_colours("mesh", keys);
 }

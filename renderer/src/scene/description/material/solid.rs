@@ -40,7 +40,7 @@ impl PlainSolid {
     pub(super) fn built(&self, sources: &mut Sources<'_>) -> Result<SolidMaterial, AssetError> {
         let palette = sources.palettes.of(&self.pigments);
         let table = sources.reflectances.of(self.optics.tissue.eta);
-        let held = sources.held(&self.held)?;
+        let held = Sources::held(&self.held)?;
         Ok(tissue::solid(held, palette, &self.optics, table))
     }
 }
