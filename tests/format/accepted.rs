@@ -200,7 +200,7 @@ fn names_become_indices_in_the_order_of_the_file() {
         Light::Area { object: 0, .. }
     ));
     assert!(
-        matches!(&scene.meshes[2].value, Shape::Mesh(Mesh::File { file, scale }) if file.is_absolute() && *scale == 0.001)
+        matches!(&scene.meshes[2].value, Shape::Mesh(Mesh::File(mesh)) if mesh.path.file.is_absolute() && mesh.scale == 0.001)
     );
 }
 
@@ -299,7 +299,7 @@ fn reflectances_may_be_a_pictures_or_a_models() {
         Material::Model { mesh: 6 }
     ));
     assert!(
-        matches!(&scene.meshes[6].value, Shape::Mesh(Mesh::Gltf { beside, scale: 0.01, .. }) if beside.is_empty())
+        matches!(&scene.meshes[6].value, Shape::Mesh(Mesh::Gltf(model)) if model.beside.is_empty() && model.scale == 0.01)
     );
 }
 

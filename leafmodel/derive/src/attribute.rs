@@ -32,6 +32,11 @@ pub(crate) struct Key {
 pub(crate) enum ValueKind {
     /// Numbers within limits, perhaps in degrees.
     Numbers { limits: Limits, degrees: bool },
+    /// Numbers within limits, in a file in this part of the program's unit.
+    Scaled {
+        limits: Limits,
+        prefix: &'static str,
+    },
     /// A word of an enum.
     Word,
     /// A block of its own.
@@ -169,11 +174,20 @@ fn value(expr: &Expr) -> Result<ValueKind> {
                 let degrees = true;
                 return Ok(ValueKind::Numbers { limits, degrees });
             }
+            Some("milli") => return scaled(call, "milli"),
+            Some("nano") => return scaled(call, "nano"),
             Some("list") => return list(call),
             Some(_) | None => {}
         }
     }
     Ok(ValueKind::Other(expr.clone()))
+}
+
+/// `milli(low..=high)`, `nano(low..=high)`.
+fn scaled(call: &ExprCall, prefix: &'static str) -> Result<ValueKind> {
+    let limits = call.args.first().and_then(limits);
+    let limits = limits.ok_or_else(|| Error::new_spanned(call, "expected a range"))?;
+    Ok(ValueKind::Scaled { limits, prefix })
 }
 
 /// `low..=high`, `low..high`, `above(low, high)`, `open(low, high)` or `within(LIMITS)`.

@@ -1,7 +1,7 @@
 //! Keys of fields, one call of `Keys` for each.
 
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{format_ident, quote};
 use syn::{DataStruct, DeriveInput, Error, Field, Member, Result, Type};
 
 use crate::attribute::{Key, ValueKind, inside_option, keys};
@@ -20,6 +20,31 @@ pub(crate) fn of_struct(input: &DeriveInput, data: &DataStruct) -> Result<TokenS
         impl ::leafmodel::document::declared::Declared for #name {
             fn declare(&mut self, keys: &mut ::leafmodel::document::keys::Keys<'_>) {
                 #(#calls)*
+            }
+        }
+    })
+}
+
+/// `Default` of a struct: each field is what its `default = …` says, or its type's default.
+pub(crate) fn defaults(input: &DeriveInput) -> Result<TokenStream> {
+    let syn::Data::Struct(data) = &input.data else {
+        return Err(Error::new_spanned(input, "defaults are those of a struct"));
+    };
+    let (name, mut fields) = (&input.ident, Vec::new());
+    for (field, member) in data.fields.iter().zip(data.fields.members()) {
+        let own = keys(&field.attrs)?;
+        let mut found = own.iter().filter(|_| inside_option(&field.ty).is_none());
+        let default = found.find_map(|key| key.default.as_ref()).map_or_else(
+            || quote! { ::core::default::Default::default() },
+            |default| quote! { #default },
+        );
+        fields.push(quote! { #member: #default });
+    }
+    Ok(quote! {
+        #[automatically_derived]
+        impl ::core::default::Default for #name {
+            fn default() -> Self {
+                Self { #(#fields),* }
             }
         }
     })
@@ -89,6 +114,10 @@ fn of_key(field: &Field, key: &Key, place: &TokenStream) -> Result<TokenStream> 
             )
         },
         Some(ValueKind::Numbers { limits, degrees }) => numbers(of, limits, *degrees)?,
+        Some(ValueKind::Scaled { limits, prefix }) => {
+            let (prefix, numbers) = (format_ident!("{prefix}"), numbers(of, limits, false)?);
+            quote! { ::leafmodel::document::value_kind::Scaled::#prefix(#numbers) }
+        }
         Some(ValueKind::Other(kind)) => quote! { #kind },
     };
     Ok(match (inner, key.is_required) {

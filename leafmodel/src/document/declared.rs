@@ -30,12 +30,13 @@
 //! | --- | --- |
 //! | `low..=high`, `low..high`, `above(low, high)`, `open(low, high)`, `within(LIMITS)` | a range; the field's type says whether of an integer, a number, or each of several |
 //! | `degrees(…)` | the same of an angle, which is in radians in the program |
+//! | `milli(…)`, `nano(…)` | the same of a number that a file has in thousandths or billionths of the program's unit |
 //! | `word` | a word of an enum with `#[derive(Words)]` |
 //! | `block`, `list(most = …, wanted = …)` | a block of keys, a list of blocks |
 //! | `flat` | a struct whose keys lie in the block around it |
 //! | an expression | any other [`Kind`](super::value_kind::Kind) |
 //! | `required` | the key must be there, unless a preset lies beneath |
-//! | `default = …` | what a block has of which nothing is said, where that is not `Default` |
+//! | `default = …` | what a block has of which nothing is said, where that is not `Default`; `#[derive(Defaults)]` makes the struct's own `Default` of these |
 //! | `about = …` | the sentence, where it is not that of the doc comment |
 //! | `at = …` | an element of an array has a key of its own |
 //! | `when = …` | the key is there only then; `self` is the block |
@@ -45,7 +46,7 @@
 //! A `bool` and a seed (`u64`) need a name only. An enum with data is a block of one of several
 //! kinds: each variant is a block with the name of the variant or of its `#[key("name")]`.
 
-pub use leafmodel_derive::{Declared, Words};
+pub use leafmodel_derive::{Declared, Defaults, Words};
 
 use super::keys::{Keys, Variant};
 use super::ranges::RangeError;

@@ -261,6 +261,63 @@ impl Kind for Vector {
     }
 }
 
+/// Numbers that a file has in another unit than the program.
+#[derive(Clone, Copy, Debug)]
+pub struct Scaled<K> {
+    of: K,
+    /// The file's units in one of the program, and the inverse.
+    factors: [f64; 2],
+}
+
+impl<K> Scaled<K> {
+    /// Thousandths: millimetres of metres.
+    pub const fn milli(of: K) -> Self {
+        let factors = [1e3, 1e-3];
+        Self { of, factors }
+    }
+
+    /// Billionths: microlitres of cubic metres.
+    pub const fn nano(of: K) -> Self {
+        let factors = [1e9, 1e-9];
+        Self { of, factors }
+    }
+}
+
+impl<K: Kind<Of: Copy + Times>> Kind for Scaled<K> {
+    type Of = K::Of;
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<K::Of> {
+        Some(self.of.read(cx, node, key)?.times(self.factors[1]))
+    }
+
+    fn write(&self, value: &K::Of) -> Value {
+        self.of.write(&value.times(self.factors[0]))
+    }
+
+    fn describe(&self) -> Type {
+        self.of.describe()
+    }
+}
+
+/// Numbers that can be multiplied by one.
+pub trait Times {
+    /// The product.
+    #[must_use]
+    fn times(self, factor: f64) -> Self;
+}
+
+impl Times for f64 {
+    fn times(self, factor: f64) -> Self {
+        factor * self
+    }
+}
+
+impl<const N: usize> Times for [f64; N] {
+    fn times(self, factor: f64) -> Self {
+        self.map(|number| factor * number)
+    }
+}
+
 /// A list of values of one kind; `wanted` says so in words, such as "a list of 1 to 9 numbers".
 #[derive(Clone, Copy, Debug)]
 pub struct ListOf<K> {

@@ -7,10 +7,10 @@ use crate::cli::arguments::{CheckArguments, SceneArguments};
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
 use crate::cli::{Failure, load_scene, needs, note, say, warn};
-use crate::geometry;
 use crate::scene::assets;
 use crate::scene::description::{Description, Held, Mesh, Named, Reflectance, Shape};
 use crate::scene::load;
+use crate::scene::world::meshes::build_mesh;
 use crate::scene::world::{World, on_mesh};
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
@@ -77,26 +77,11 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
 /// Reads the files of a scene whose existence alone was checked so far.
 fn read_files(description: &Description) -> Result<(), Failure> {
     for (number, mesh) in description.meshes.iter().enumerate() {
-        let name = &mesh.name;
-        if let Shape::Mesh(Mesh::Gltf {
-            file,
-            beside,
-            scale,
-        }) = &mesh.value
-        {
-            let told = |error| Failure::bad(format!("meshes.{name}: {error}"));
-            let wanted = description.wanted_of(number);
-            let model = assets::model(file, beside, *scale, wanted).map_err(told)?;
-            note(on_mesh(name, &model.mesh, &model.left_out));
+        if let Shape::Mesh(Mesh::Gltf(_) | Mesh::File(_)) = &mesh.value {
+            let built = build_mesh(&mesh.name, &mesh.value, description.wanted_of(number));
+            let built = built.map_err(Failure::bad)?;
+            note(on_mesh(&mesh.name, &built.mesh, &built.left_out));
         }
-        let Shape::Mesh(Mesh::File { file, scale }) = &mesh.value else {
-            continue;
-        };
-        let bytes = assets::read(file).map_err(Failure::bad)?;
-        let ending = file.extension().and_then(|ending| ending.to_str());
-        let mesh = geometry::import(&bytes, ending.unwrap_or_default(), *scale as f32)
-            .map_err(|error| Failure::bad(format!("meshes.{name}: {}: {error}", file.display())))?;
-        note(on_mesh(name, &mesh, &[]));
     }
     for material in &description.materials {
         if let Some(Reflectance::Picture { file, layer, .. }) = material.value.reflectance() {

@@ -10,7 +10,6 @@ mod camera;
 mod daylight;
 mod film;
 mod fluorescence;
-mod gltf;
 mod instances;
 mod instrument;
 mod integrator;
@@ -19,7 +18,6 @@ mod light;
 mod material;
 mod measured;
 mod medium;
-mod mesh;
 mod name_list;
 mod object;
 mod picture;
@@ -39,6 +37,7 @@ use std::path::PathBuf;
 use std::rc::Rc;
 
 use leafmodel::document::context::Context;
+use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, NamedList};
 use leafmodel::document::names::{Named, require_title};
@@ -232,9 +231,9 @@ fn sections(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
         keys,
         "meshes",
         &mut scene.meshes,
-        &Mesh::unit_sphere,
+        &Mesh::default,
         about,
-        mesh::mesh,
+        Mesh::declare,
     );
     let about = "Leaves that are grown.";
     let new = || Leaf::from(plan_file::usual_leaf(100.0));

@@ -9,10 +9,10 @@ mod instrument;
 mod light;
 mod material;
 mod medium;
+mod mesh;
 mod object;
 mod reflectance;
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use leafmodel::blade::stalk::StalkMesh;
@@ -32,9 +32,9 @@ pub use self::material::{
     Coat, Fluorescence, Held, LeafFaces, LeafOptics, LeafTissue, Material, SolidOptics,
 };
 pub use self::medium::{Medium, MediumPhase};
+pub use self::mesh::{FileMesh, Mesh};
 pub use self::object::{InstancePlace, Object, ObjectShape, StrewnOn};
 pub use self::reflectance::Reflectance;
-pub use crate::geometry::shapes::{Drop, Lump, Masonry, MasonryPart, Terrain};
 pub use crate::image::display::Display as Picture;
 pub use crate::image::pixels::Depth;
 pub use crate::image::tone::Tone;
@@ -158,62 +158,6 @@ impl Default for Integrator {
             sample_skies: None,
         }
     }
-}
-
-/// A shape.
-#[derive(Clone, Debug)]
-pub enum Mesh {
-    /// A rectangle in the xy plane around the origin, normal +z, uv from 0 to 1.
-    Rectangle {
-        /// Extent along x, m.
-        width: f64,
-        /// Extent along y, m.
-        height: f64,
-    },
-    /// A sphere around the origin, as triangles.
-    Sphere {
-        /// Radius, m.
-        radius: f64,
-        /// Triangles around the equator and half as many from pole to pole.
-        segments: u32,
-    },
-    /// A closed box around the origin.
-    Box {
-        /// Extent along x, y and z, m.
-        size: [f64; 3],
-    },
-    /// A disc in the xy plane around the origin, normal +z, uv from 0 to 1 over the square around
-    /// it.
-    Disc {
-        /// Radius of the disc that has its area, m.
-        radius: f64,
-        /// Corners.
-        segments: u32,
-    },
-    /// A drop of water on z = 0.
-    Drop(Drop),
-    /// A pebble or crumb around the origin.
-    Lump(Lump),
-    /// Uneven ground around the origin.
-    Terrain(Terrain),
-    /// A wall of bricks.
-    Masonry(Masonry),
-    /// A PLY or OBJ file, resolved and inside the scene's folder.
-    File {
-        /// The file.
-        file: PathBuf,
-        /// Metres per unit of the file.
-        scale: f64,
-    },
-    /// A glTF 2.0 file, resolved and inside the scene's folder.
-    Gltf {
-        /// The file.
-        file: PathBuf,
-        /// The files that it names, as written there and resolved.
-        beside: Vec<(String, PathBuf)>,
-        /// Metres per unit of the file.
-        scale: f64,
-    },
 }
 
 /// What a scene's triangles are made from.

@@ -15,6 +15,7 @@
 mod accessors;
 mod container;
 mod cut_out;
+mod file;
 mod left_out;
 mod masks;
 mod parts;
@@ -37,6 +38,7 @@ use crate::material::colour_map::ColourMap;
 use crate::material::model::Finish;
 
 pub use container::{Container, FileKind};
+pub use file::ModelFile;
 
 /// Why a glTF file cannot be used.
 #[derive(Debug, Error)]

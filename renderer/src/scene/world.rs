@@ -6,7 +6,7 @@ mod light_colours;
 mod lights;
 mod materials;
 mod memory;
-pub(in crate::scene) mod meshes;
+pub(crate) mod meshes;
 mod middle;
 pub(crate) mod needs;
 mod notes;

@@ -98,7 +98,7 @@ fn check_shining(scene: &Authored, keys: &Keys<'_>) {
     let mut shining = BTreeSet::new();
     let is_plain = |mesh: usize| {
         let mesh = scene.meshes.get(mesh);
-        mesh.is_some_and(|mesh| !matches!(mesh.value, Mesh::Gltf { .. }))
+        mesh.is_some_and(|mesh| !matches!(mesh.value, Mesh::Gltf(_)))
     };
     for light in &scene.lights {
         let Light::Single(shining_light) = &light.value else {
@@ -212,7 +212,7 @@ fn check_colours(scene: &Authored, keys: &Keys<'_>) {
         let Some(mesh) = taken(material).and_then(|mesh| scene.meshes.get(mesh)) else {
             continue;
         };
-        if !matches!(mesh.value, Mesh::Gltf { .. }) {
+        if !matches!(mesh.value, Mesh::Gltf(_)) {
             let problem = format!(
                 "the mesh `{}` is from no glTF file and has no colours",
                 mesh.name

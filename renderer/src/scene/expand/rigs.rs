@@ -9,6 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use leafmodel::document::names::Named;
 
+use crate::geometry::shapes::Rectangle;
 use crate::light::daylight::Daylight;
 use crate::light::pattern::Pattern;
 use crate::scene::authored::{self, Rig, RigPreset};
@@ -328,10 +329,10 @@ fn hang(
     let size = panel.size * stage.size;
     scene.meshes.push(Named {
         name: name.clone(),
-        value: Shape::Mesh(Mesh::Rectangle {
+        value: Shape::Mesh(Mesh::Rectangle(Rectangle {
             width: size.x,
             height: size.y,
-        }),
+        })),
     });
     let shape = ObjectShape::Mesh {
         mesh: scene.meshes.len() - 1,

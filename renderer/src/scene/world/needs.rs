@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use super::memory::{OF_A_TRIANGLE, OF_AN_INSTANCE};
 use crate::geometry::scatter::{Amount, Volume};
+use crate::geometry::shapes::{Disc, Drop, Lump, Sphere};
 use crate::image::claimed;
 use crate::scene::assets;
 use crate::scene::description::{
-    Description, Drop, Held, Lump, Mesh, Object, ObjectShape, Reflectance, Shape, StrewnOn,
+    Description, Held, Mesh, Object, ObjectShape, Reflectance, Shape, StrewnOn,
 };
 
 /// Memory of a place of an object of two parts, as a leaf with its petiole is, bytes.
@@ -24,7 +25,7 @@ pub(crate) fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)
     let meshes = meshes.map(|(number, named)| match &named.value {
         Shape::Body(body) => body.triangles.len() as f64 * OF_A_TRIANGLE,
         Shape::Mesh(
-            Mesh::Sphere { segments, .. }
+            Mesh::Sphere(Sphere { segments, .. })
             | Mesh::Drop(Drop { segments, .. })
             | Mesh::Lump(Lump { segments, .. }),
         ) => f64::from(*segments) * f64::from(*segments) * OF_A_TRIANGLE,
@@ -33,16 +34,16 @@ pub(crate) fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)
             2.0 * across * along * OF_A_TRIANGLE
         }
         Shape::Mesh(Mesh::Masonry(wall)) => 2.0 * wall.squares() * OF_A_TRIANGLE,
-        Shape::Mesh(Mesh::Disc { segments, .. }) => f64::from(*segments) * OF_A_TRIANGLE,
-        Shape::Mesh(Mesh::Gltf { file, beside, .. }) => {
+        Shape::Mesh(Mesh::Disc(disc)) => f64::from(disc.segments) * OF_A_TRIANGLE,
+        Shape::Mesh(Mesh::Gltf(model)) => {
             // Reading reports what is wrong with it.
-            let claims = assets::claims_of_model(file, beside, scene.wanted_of(number));
+            let claims = assets::claims_of_model(model, scene.wanted_of(number));
             claims.map_or(0.0, |claims| {
                 pictures += claims.pictures;
                 claims.triangles as f64 * OF_A_TRIANGLE
             })
         }
-        Shape::Mesh(Mesh::Rectangle { .. } | Mesh::Box { .. } | Mesh::File { .. }) => 0.0,
+        Shape::Mesh(Mesh::Rectangle(_) | Mesh::Box(_) | Mesh::File(_)) => 0.0,
     });
     let meshes: f64 = meshes.fold(0.0, |sum, bytes| sum + bytes);
     let places = scene.objects.iter().map(|object| {
@@ -113,16 +114,18 @@ fn leaves_afloat(scene: &Description, object: &Object, volume: &Volume) -> f64 {
         return 0.0;
     };
     match mesh {
-        Mesh::Disc { radius, .. } => volume.lai * ground / (std::f64::consts::PI * radius * radius),
-        Mesh::Rectangle { width, height } => volume.lai * ground / (width * height),
-        Mesh::Sphere { .. }
-        | Mesh::Box { .. }
+        Mesh::Disc(Disc { radius, .. }) => {
+            volume.lai * ground / (std::f64::consts::PI * radius * radius)
+        }
+        Mesh::Rectangle(leaf) => volume.lai * ground / (leaf.width * leaf.height),
+        Mesh::Sphere(_)
+        | Mesh::Box(_)
         | Mesh::Drop(_)
         | Mesh::Lump(_)
         | Mesh::Terrain(_)
         | Mesh::Masonry(_)
-        | Mesh::File { .. }
-        | Mesh::Gltf { .. } => 0.0,
+        | Mesh::File(_)
+        | Mesh::Gltf(_) => 0.0,
     }
 }
 
@@ -140,16 +143,16 @@ fn area(scene: &Description, strewn: &StrewnOn) -> f64 {
         return 0.0;
     };
     let size = match mesh {
-        Mesh::Rectangle { width, height } => width * height,
+        Mesh::Rectangle(ground) => ground.width * ground.height,
         Mesh::Terrain(terrain) => terrain.size[0] * terrain.size[1],
-        Mesh::Sphere { .. }
-        | Mesh::Box { .. }
-        | Mesh::Disc { .. }
+        Mesh::Sphere(_)
+        | Mesh::Box(_)
+        | Mesh::Disc(_)
         | Mesh::Drop(_)
         | Mesh::Lump(_)
         | Mesh::Masonry(_)
-        | Mesh::File { .. }
-        | Mesh::Gltf { .. } => return 0.0,
+        | Mesh::File(_)
+        | Mesh::Gltf(_) => return 0.0,
     };
     let [x, y] = [on.to_world.x_axis, on.to_world.y_axis].map(glam::DVec4::truncate);
     size * x.cross(y).length()
