@@ -10,10 +10,8 @@
 //! Rows are read on all threads. The first [`MOST_TOLD`] wrong rows are reported, the others are
 //! only counted, so that reports stay short and fast for a million rows.
 
-mod column_names;
 mod columns;
 mod npy;
-mod row_error;
 mod text;
 
 use std::collections::BTreeMap;
@@ -22,7 +20,7 @@ use std::path::Path;
 
 use glam::DMat4;
 
-use self::row_error::RowError;
+use self::columns::{RowError, WrongRow};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::error::DocumentError;
@@ -50,17 +48,6 @@ struct Table<'a> {
     numbers: BTreeMap<&'a str, Option<u32>>,
     /// Local to world of the frame in which the rows are given.
     frame: DMat4,
-}
-
-/// A row with errors.
-#[derive(Debug)]
-struct WrongRow {
-    /// Its line number, or for an array its row number, from 1.
-    line: usize,
-    /// The row as a report shows it.
-    shown: String,
-    /// Its errors, each with a range of bytes of `shown`.
-    errors: Vec<(std::ops::Range<usize>, RowError)>,
 }
 
 /// The result of reading some rows of a file.
@@ -188,12 +175,16 @@ impl<'a> Table<'a> {
 
     /// Reports an error of the file as a whole at its name in the scene.
     fn refuse(&self, cx: &Context, at: &Place, problem: String, help: &str) {
-        let error = DocumentError::BadFile {
+        cx.error(at, self.bad_file(problem, help));
+    }
+
+    /// An error of the file.
+    fn bad_file(&self, problem: String, help: &str) -> DocumentError {
+        DocumentError::BadFile {
             path: self.name.clone(),
             problem,
             help: help.to_owned(),
-        };
-        cx.error(at, error);
+        }
     }
 
     /// Whether a file may have this many rows; reports an error otherwise.
@@ -221,7 +212,7 @@ impl<'a> Table<'a> {
                     source,
                     span: span.clone(),
                 };
-                cx.error(&place, error.told(self));
+                cx.error(&place, error.clone());
             }
         }
         let untold = rows.wrong_count - rows.wrong.len();

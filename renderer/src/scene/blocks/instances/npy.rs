@@ -13,13 +13,10 @@ mod header;
 use rayon::prelude::*;
 
 use self::header::{Array, Field};
-use super::column_names::SHAPE;
-use super::columns::{Header, Row};
-use super::row_error::RowError;
-use super::{Rows, Table, WrongRow};
+use super::columns::{Header, Row, RowError, SHAPE, WrongRow};
+use super::{Rows, Table};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::Context;
-use leafmodel::document::error::DocumentError;
 use leafmodel::document::source::Place;
 
 /// Number of rows that one thread reads at a time.
@@ -41,12 +38,7 @@ pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) ->
         Ok(header) => header,
         Err(errors) => {
             for error in errors {
-                let error = DocumentError::Header {
-                    path: table.name.clone(),
-                    problem: error.problem,
-                    help: error.help,
-                };
-                cx.error(at, error);
+                cx.error(at, error.of_file(table));
             }
             return None;
         }
@@ -101,7 +93,7 @@ fn read_row(
         if column == SHAPE {
             row.shape(table, value, shown);
         } else {
-            row.number(column, value, shown);
+            row.number(column, Some(value), shown);
         }
     }
     row.place(table)
@@ -132,21 +124,7 @@ fn wrong_row(
         shown += &format!("{} {}", field.name, field.read(bytes));
         spans.push(start..shown.len());
     }
-    let place = |error: &RowError| {
-        let column = error.column()?;
-        let field = header.columns.iter().position(|known| *known == column)?;
-        spans.get(field).cloned()
-    };
-    let whole = 0..shown.len();
-    let errors = errors
-        .into_iter()
-        .map(|error| (place(&error).unwrap_or_else(|| whole.clone()), error))
-        .collect();
-    WrongRow {
-        line: number,
-        shown,
-        errors,
-    }
+    WrongRow::new((number, shown), header, &spans, errors)
 }
 
 #[cfg(test)]

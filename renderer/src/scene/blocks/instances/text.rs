@@ -7,14 +7,11 @@
 use rayon::prelude::*;
 
 use super::super::table_file::tell;
-use super::column_names::SHAPE;
-use super::columns::{Header, HeaderError, Row};
-use super::row_error::RowError;
-use super::{Rows, Table, WrongRow};
+use super::columns::{Header, HeaderError, Row, RowError, SHAPE, WrongRow};
+use super::{Rows, Table};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::encoding::decoded;
-use leafmodel::document::error::DocumentError;
 use leafmodel::document::rows::{Decimal, Form, Guess, Separator, number};
 use leafmodel::document::source::{Place, escaped};
 
@@ -182,7 +179,7 @@ fn read_header(
     let errors = if names[0].parse::<f64>().is_ok() {
         vec![HeaderError {
             field: Some(0),
-            problem: format!("is missing: the table begins with `{}`", shown(names[0])),
+            problem: format!("is missing: the table begins with `{}`", escaped(names[0], QUOTED)),
             help: "begin with a line of the columns' names, such as `x_m, y_m, z_m, rotate_z_deg, scale`"
                 .to_owned(),
         }]
@@ -201,12 +198,7 @@ fn read_header(
         let span = error
             .field
             .map_or_else(|| all.clone(), |field| span(line, names[field]));
-        let error = DocumentError::Header {
-            path: table.name.clone(),
-            problem: error.problem,
-            help: error.help,
-        };
-        cx.error(&Place { source, span }, error);
+        cx.error(&Place { source, span }, error.of_file(table));
     }
     None
 }
@@ -218,12 +210,18 @@ fn read_piece(table: &Table<'_>, header: &Header, piece: &str, marks: Marks) -> 
     for line in piece.lines() {
         lines += 1;
         if line.len() > LONGEST {
-            let bytes = line.len();
-            let error = RowError::TooLong { bytes };
-            rows.push(Err(vec![error]), |errors| too_long(line, lines, errors));
+            let problem = format!("has a line of {} bytes", line.len());
+            let error = bad_row(table, problem, "end each row with a line feed");
+            rows.push(Err(vec![error]), |errors| {
+                // Only the beginning is shown.
+                let shown: String = line.chars().take(QUOTED).collect();
+                let whole = 0..shown.len();
+                WrongRow::new((lines, shown), header, &[whole], errors)
+            });
         } else if marks.fields(line).next().is_some() {
             rows.push(read_row(table, header, line, marks), |errors| {
-                wrong_row(header, line, lines, errors, marks)
+                let fields: Vec<_> = marks.fields(line).map(|field| span(line, field)).collect();
+                WrongRow::new((lines, line.to_owned()), header, &fields, errors)
             });
         }
     }
@@ -244,85 +242,32 @@ fn read_row(
             continue;
         };
         if column == SHAPE {
-            read_shape(table, &mut row, field);
-            continue;
-        }
-        match marks.number(field) {
-            Some(value) => row.number(column, value, || shown(field)),
-            None => row.fail(RowError::NotANumber {
-                column,
-                field: shown(field),
-            }),
+            row.shape_named(table, field);
+        } else {
+            row.number(column, marks.number(field), || escaped(field, QUOTED));
         }
     }
     let wanted = header.columns.len();
     if found != wanted {
         // Fields cannot be assigned to columns.
-        return Err(vec![RowError::Fields { found, wanted }]);
+        let problem = format!("has {found} fields in this row, its header names {wanted}");
+        let help = "give every row a field for each column, with decimal points";
+        return Err(vec![bad_row(table, problem, help)]);
     }
     row.place(table)
 }
 
-/// A shape by its name, or by its place in the object's list.
-fn read_shape(table: &Table<'_>, row: &mut Row, field: &str) {
-    match table.numbers.get(field) {
-        Some(Some(number)) => row.shape(table, f64::from(*number), || shown(field)),
-        Some(None) => row.fail(RowError::AmbiguousShape {
-            field: shown(field),
-        }),
-        None => {
-            let number = field.parse().unwrap_or(f64::NAN);
-            row.shape(table, number, || shown(field));
-        }
-    }
-}
-
-fn shown(field: &str) -> String {
-    escaped(field, QUOTED)
+/// An error of a row as a whole.
+fn bad_row(table: &Table<'_>, problem: String, help: &str) -> RowError {
+    let error = table.bad_file(problem, help);
+    let column = None;
+    RowError { column, error }
 }
 
 /// The range of bytes of a piece within its line.
 fn span(line: &str, piece: &str) -> std::ops::Range<usize> {
     let start = piece.as_ptr() as usize - line.as_ptr() as usize;
     start..start + piece.len()
-}
-
-/// A wrong row of which only the beginning is shown.
-fn too_long(line: &str, number: usize, errors: Vec<RowError>) -> WrongRow {
-    let shown: String = line.chars().take(QUOTED).collect();
-    let whole = 0..shown.len();
-    WrongRow {
-        line: number,
-        errors: errors
-            .into_iter()
-            .map(|error| (whole.clone(), error))
-            .collect(),
-        shown,
-    }
-}
-
-fn wrong_row(
-    header: &Header,
-    line: &str,
-    number: usize,
-    errors: Vec<RowError>,
-    marks: Marks,
-) -> WrongRow {
-    let all: Vec<&str> = marks.fields(line).collect();
-    let whole = span(line, all[0]).start..span(line, all[all.len() - 1]).end;
-    let place = |error: &RowError| {
-        let column = error.column()?;
-        let field = header.columns.iter().position(|known| *known == column)?;
-        all.get(field).map(|field| span(line, field))
-    };
-    WrongRow {
-        line: number,
-        shown: line.to_owned(),
-        errors: errors
-            .into_iter()
-            .map(|error| (place(&error).unwrap_or_else(|| whole.clone()), error))
-            .collect(),
-    }
 }
 
 #[cfg(test)]
