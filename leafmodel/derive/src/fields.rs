@@ -25,21 +25,24 @@ pub(crate) fn of_struct(input: &DeriveInput, data: &DataStruct) -> Result<TokenS
     })
 }
 
-/// `Default` of a struct: each field is what its `default = …` says, or its type's default.
+/// `Default` of a struct: what `default = …` says at each field, else the field's own.
 pub(crate) fn defaults(input: &DeriveInput) -> Result<TokenStream> {
     let syn::Data::Struct(data) = &input.data else {
         return Err(Error::new_spanned(input, "defaults are those of a struct"));
     };
-    let (name, mut fields) = (&input.ident, Vec::new());
-    for (field, member) in data.fields.iter().zip(data.fields.members()) {
-        let own = keys(&field.attrs)?;
-        let mut found = own.iter().filter(|_| inside_option(&field.ty).is_none());
-        let default = found.find_map(|key| key.default.as_ref()).map_or_else(
+    let name = &input.ident;
+    let fields = data.fields.iter().zip(data.fields.members());
+    let fields = fields.map(|(field, member)| {
+        let own = keys(&field.attrs)?.into_iter().find_map(|key| key.default);
+        // At an optional block it is that of the block, which is left out by default.
+        let own = own.filter(|_| inside_option(&field.ty).is_none());
+        let value = own.map_or_else(
             || quote! { ::core::default::Default::default() },
-            |default| quote! { #default },
+            |own| quote! { #own },
         );
-        fields.push(quote! { #member: #default });
-    }
+        Ok(quote! { #member: #value })
+    });
+    let fields = fields.collect::<Result<Vec<TokenStream>>>()?;
     Ok(quote! {
         #[automatically_derived]
         impl ::core::default::Default for #name {
@@ -80,6 +83,9 @@ fn of_key(field: &Field, key: &Key, place: &TokenStream) -> Result<TokenStream> 
         return Ok(quote! { #declare(#place, keys); });
     }
     let Some(name) = &key.name else {
+        if key.default.is_some() {
+            return Ok(TokenStream::new());
+        }
         return Err(Error::new_spanned(
             field,
             "a key has a name: #[key(\"name\")]",

@@ -29,11 +29,10 @@ pub fn declared(input: TokenStream) -> TokenStream {
     made.unwrap_or_else(Error::into_compile_error).into()
 }
 
-/// `Default` of a struct from the `default = …` of its fields.
+/// `Default` of a struct by what `#[key(default = …)]` says at its fields.
 #[proc_macro_derive(Defaults, attributes(key))]
 pub fn defaults(input: TokenStream) -> TokenStream {
-    let input = parse_macro_input!(input as DeriveInput);
-    fields::defaults(&input)
+    fields::defaults(&parse_macro_input!(input as DeriveInput))
         .unwrap_or_else(Error::into_compile_error)
         .into()
 }

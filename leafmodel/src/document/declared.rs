@@ -36,7 +36,7 @@
 //! | `flat` | a struct whose keys lie in the block around it |
 //! | an expression | any other [`Kind`](super::value_kind::Kind) |
 //! | `required` | the key must be there, unless a preset lies beneath |
-//! | `default = …` | what a block has of which nothing is said, where that is not `Default`; `#[derive(Defaults)]` makes the struct's own `Default` of these |
+//! | `default = …` | what a block has of which nothing is said, where that is not `Default`; at a field of a struct with `#[derive(Defaults)]`, its value there |
 //! | `about = …` | the sentence, where it is not that of the doc comment |
 //! | `at = …` | an element of an array has a key of its own |
 //! | `when = …` | the key is there only then; `self` is the block |
@@ -103,15 +103,17 @@ mod tests {
         #[key("pitch_deg", degrees(-90.0..=90.0))]
         pitch: f64,
         /// What turns it.
-        #[key("motor", block, default = Motor { power: 1.0 })]
+        #[key("motor", block)]
         motor: Option<Motor>,
     }
 
-    #[derive(Clone, Declared)]
+    #[derive(Clone, Debug, Declared, Defaults, PartialEq)]
     struct Motor {
         /// What it takes.
-        #[key("power_w", required, above(0.0, 1e3))]
+        #[key("power_w", required, above(0.0, 1e3), default = 1.0)]
         power: f64,
+        #[key(default = 3)]
+        blades: u32,
     }
 
     #[test]
@@ -119,7 +121,7 @@ mod tests {
         let fan = |blades, degrees: f64, power: Option<f64>| Fan {
             blades,
             pitch: degrees.to_radians(),
-            motor: power.map(|power| Motor { power }),
+            motor: power.map(|power| Motor { power, blades: 3 }),
         };
         assert_eq!(fan(3, 90.0, Some(1e3)).in_range(), Ok(()));
         let mut wrong = fan(1, -90.5, Some(f64::NAN));
@@ -133,6 +135,15 @@ mod tests {
                 "motor.power_w is NaN, outside the values above 0 and up to 1000",
             ]
         );
+    }
+
+    #[test]
+    fn defaults_are_what_the_keys_say() {
+        let expected = Motor {
+            power: 1.0,
+            blades: 3,
+        };
+        assert_eq!(Motor::default(), expected);
     }
 
     #[test]

@@ -3,8 +3,14 @@
 //! them.
 
 use glam::DVec3;
+use leafmodel::document::declared::{Declared, Defaults};
+use leafmodel::document::keys::Keys;
+use leafmodel::document::names::NameIn;
+use leafmodel::plan_file;
 use leafmodel::plant::PlantPlan;
 
+use super::description::name_list::{IndicesIn, NamesIn};
+use super::description::object::refuse_ages_of_one;
 use super::description::{
     self, Camera, Film, Instrument, Integrator, Leaf, Material, Medium, Mesh, Named, Picture, Solid,
 };
@@ -86,26 +92,71 @@ pub(super) struct Object {
 }
 
 /// A bough or shoot.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Declared, Defaults)]
+#[key(last = Self::declare_plan)]
 pub(super) struct Plant {
     /// Its numbers.
+    #[key(with = Self::declare_preset, default = plan_file::usual_plant())]
     pub(super) plan: PlantPlan,
     /// The leaves that it bears, from the foot of each axis to its tip: indices into
     /// [`Authored::leaves`].
+    #[key(with = Self::declare_leaves)]
     pub(super) leaves: Vec<usize>,
-    /// The days of ageing of its youngest and its oldest leaves; `None` leaves them as they are.
+    /// Days of ageing of its youngest and its oldest individuals, the others between; young and old stand
+    /// mixed. The leaves need `senescence` by `day`.
+    ///
+    /// `None` leaves them as they are.
+    #[key("days", within(plan_file::DAYS))]
     pub(super) days: Option<[f64; 2]>,
-    /// What its axes are made of: index into [`Authored::materials`]; `None` is young bark, or
-    /// green tissue.
+    /// What its axes and buds are made of; left out, young brown bark.
+    ///
+    /// Index into [`Authored::materials`]; `None` is young bark, or green tissue.
+    #[key("bark", MATERIAL)]
     pub(super) bark: Option<usize>,
-    /// The leaves that are the sepals and the petals of its flower: indices into
-    /// [`Authored::leaves`].
-    pub(super) perianth: [Option<usize>; 2],
-    /// The materials of its pot and of the soil in it: indices into [`Authored::materials`];
-    /// `None` is fired clay, and soil of the pot's moisture.
-    pub(super) potting: [Option<usize>; 2],
-    /// The objects on which it climbs: indices into [`Authored::objects`].
+    /// The objects on which it climbs, each a mesh in one place; left out, an even wall.
+    ///
+    /// Indices into [`Authored::objects`].
+    #[key("wall", IndicesIn(NamesIn("objects", "the name of an object")))]
     pub(super) walls: Vec<usize>,
+    /// The leaf that is a sepal of its flower.
+    #[key("sepal", NameIn("leaves", "the name of a leaf"), at = 0)]
+    /// The leaf that is a petal of its flower.
+    #[key("petal", NameIn("leaves", "the name of a leaf"), at = 1)]
+    pub(super) perianth: [Option<usize>; 2],
+    /// What its pot and dish are made of; left out, fired clay.
+    #[key("pot_material", MATERIAL, at = 0)]
+    /// What the soil in its pot is made of; left out, measured soil of its moisture.
+    #[key("soil_material", MATERIAL, at = 1)]
+    pub(super) potting: [Option<usize>; 2],
+}
+
+const MATERIAL: NameIn = NameIn("materials", "the name of a material");
+
+impl Plant {
+    fn declare_preset(&mut self, keys: &mut Keys<'_>) {
+        plan_file::plant_preset(&mut self.plan, keys);
+    }
+
+    fn declare_leaves(&mut self, keys: &mut Keys<'_>) {
+        let kind = IndicesIn(NamesIn("leaves", "the name of a leaf"));
+        let about =
+            "The leaf that it bears; of a list, those from the foot of each axis to its tip.";
+        keys.needed("leaf", &mut self.leaves, kind, about);
+    }
+
+    fn declare_plan(&mut self, keys: &mut Keys<'_>) {
+        plan_file::plant(&mut self.plan, keys);
+        refuse_ages_of_one(self.plan.individuals, self.days, keys);
+        if self.plan.flower.is_some() && !self.perianth.iter().all(Option::is_some) {
+            let help = "name a leaf as `sepal` and one as `petal`, such as of the presets \
+                `trillium-sepal` and `trillium-petal`";
+            keys.refuse(&[], "its flower lacks sepals or petals".to_owned(), help);
+        }
+        if !self.walls.is_empty() && self.plan.climbing.is_none() {
+            let help = "give it a block `climbing`, or leave `wall` out";
+            keys.refuse(&["wall"], "the plant does not climb".to_owned(), help);
+        }
+    }
 }
 
 /// Lights as photographers set them up.

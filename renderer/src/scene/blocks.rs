@@ -12,21 +12,16 @@ mod film;
 mod fluorescence;
 mod instances;
 mod instrument;
-mod integrator;
 mod leaf;
 mod light;
 mod material;
 mod measured;
 mod medium;
-mod name_list;
 mod object;
-mod picture;
 mod placement;
-mod plant;
 mod references;
 mod reflectance;
 mod rig;
-mod scatter;
 mod sensitivities;
 mod solid;
 mod spectrum;
@@ -128,9 +123,7 @@ pub(crate) fn read_only_picture(cx: &Context, tree: &Table) -> Option<Picture> {
     let mut picture = Picture::default();
     Keys::read(root(cx, tree), None, |keys| {
         let about = "How the picture to look at is made from the film.";
-        keys.block("picture", about, |keys| {
-            picture::picture(&mut picture, keys);
-        });
+        keys.block("picture", about, |keys| picture.declare(keys));
         keys.leave(&SECTIONS);
     });
     (cx.error_count() == 0).then_some(picture)
@@ -173,17 +166,13 @@ fn scene(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
     });
     fluorescence::tell_range(keys);
     let about = "How the picture to look at is made from the film.";
-    keys.block("picture", about, |keys| {
-        picture::picture(&mut scene.picture, keys);
-    });
+    keys.block("picture", about, |keys| scene.picture.declare(keys));
     let about = "Where the scene is seen from.";
     keys.required_block("camera", about, &camera::NAMES, |keys| {
         camera::camera(&mut scene.camera, keys);
     });
     let about = "How light is followed.";
-    keys.block("integrator", about, |keys| {
-        integrator::integrator(&mut scene.integrator, keys);
-    });
+    keys.block("integrator", about, |keys| scene.integrator.declare(keys));
     let about = "Instruments, which `lamina instruments` reads out.";
     let new = || Instrument::usual(InstrumentKind::Sphere(Sample::usual()));
     section(
@@ -248,16 +237,14 @@ fn sections(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
         solid,
     );
     let about = "Boughs and shoots that bear leaves.";
-    let new = || Plant {
-        plan: plan_file::usual_plant(),
-        leaves: Vec::new(),
-        days: None,
-        bark: None,
-        perianth: [None; 2],
-        potting: [None; 2],
-        walls: Vec::new(),
-    };
-    section(keys, "plants", &mut scene.plants, &new, about, plant::plant);
+    section(
+        keys,
+        "plants",
+        &mut scene.plants,
+        &Plant::default,
+        about,
+        Plant::declare,
+    );
     if purpose == Purpose::Instruments
         && let Some(root) = keys.reader()
     {

@@ -35,7 +35,7 @@ const SKIRT: f64 = 0.03;
 
 impl Drop {
     /// Radius of the sphere, m: V = π R³ (2 + cos θ) (1 − cos θ)² / 3.
-    fn radius(&self) -> f64 {
+    pub(super) fn radius(&self) -> f64 {
         let cos = libm::cos(self.contact_angle);
         let of_unit = PI / 3.0 * (2.0 + cos) * (1.0 - cos) * (1.0 - cos);
         libm::cbrt(self.volume / of_unit)

@@ -1,11 +1,12 @@
 //! `[camera.perspective]` and `[camera.orthographic]`.
 
 use glam::DVec3;
+use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
 use leafmodel::document::names::NameIn;
-use leafmodel::document::value_kind::{Degrees, Integer, Number, Numbers, Vector};
+use leafmodel::document::value_kind::{Degrees, DegreesList, Number, Vector};
 
 use super::report;
 use crate::camera::thin_lens::{ANGLES_DEG, Field, Focus, Iris, Lens, LensError, Opening};
@@ -142,30 +143,12 @@ fn lens(keys: &mut Keys<'_>) -> Lens {
             lens.opening = Opening::Diameter(aperture_mm / 1000.0);
         }
     }
-    let about = "Straight blades of the iris: light out of focus has so many corners; 0 is a \
-        circle, otherwise at least 3. The opening keeps its area.";
-    let blades = &mut lens.iris.blades;
-    keys.key("blades", blades, Integer::within(0, 32), about);
-    if let 1 | 2 = *blades {
-        let problem = format!("{blades} blades close no opening");
-        keys.refuse(&["blades"], problem, "write 0 for a circle, or 3 to 32");
-    }
-    let about = "Turn of the blades in the picture's plane, against the clock; at 0 a corner is on \
-        top.";
-    let limits = Degrees(Limits::closed(-360.0, 360.0));
-    keys.key("blade_rotation_deg", &mut lens.iris.rotation, limits, about);
-    let about = "Share of its diameter by which the lens's rim cuts the opening in the picture's \
-        corners, in proportion less towards the middle. Light out of focus looks like a cat's \
-        eye there, and corners get darker: at 1 they are black.";
-    let limits = Number(Limits::closed(0.0, 1.0));
-    keys.key("cats_eye", &mut lens.iris.cats_eye, limits, about);
-    let mut tilt_deg = [0.0; 2];
+    lens.iris.declare(keys);
     let about = "Turns of the lens, but not of the film, about the picture's axes to the right and \
         up, right-handed. They tilt the sharp plane: a positive first number brings it nearer \
         at the top of the picture.";
-    let limits = Numbers::<2>(Limits::closed(-45.0, 45.0));
-    keys.key("tilt_deg", &mut tilt_deg, limits, about);
-    lens.tilt = tilt_deg.map(f64::to_radians);
+    let limits = DegreesList::<2>(Limits::closed(-45.0, 45.0));
+    keys.key("tilt_deg", &mut lens.tilt, limits, about);
     lens
 }
 

@@ -4,12 +4,11 @@ use leafmodel::document::context::Context;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
+use leafmodel::document::number_lists::Rising;
 use leafmodel::document::schema::Type;
 use leafmodel::document::tree::{Node, Value};
 use leafmodel::document::value_kind::{Integer, Kind, Number};
-use leafmodel::document::values::{
-    integers_at, list, number, number_at, numbers_at, wrong_length, wrong_type,
-};
+use leafmodel::document::values::{integers_at, list, number, numbers_at};
 
 use super::sensitivities::{LEAST_SHARE, Sensitivities};
 use crate::film::MOST_SAMPLES;
@@ -18,7 +17,7 @@ use crate::spectrum::cie;
 use crate::spectrum::observer::Observer;
 
 /// Range of wavelengths of the renderer, nm.
-pub(super) const WAVELENGTHS_NM: Limits = Limits::closed(360.0, 2500.0);
+pub(in crate::scene) const WAVELENGTHS_NM: Limits = Limits::closed(360.0, 2500.0);
 /// Most pixels along one side; both sides at most give 2^28 pixels.
 const MOST_PIXELS: u64 = 16384;
 const MOST_BANDS: usize = 32;
@@ -191,7 +190,7 @@ impl Kind for Pixels {
 
 /// Two wavelengths, the first below the second.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Range;
+pub(in crate::scene) struct Range;
 
 impl Kind for Range {
     type Of = [f64; 2];
@@ -238,35 +237,18 @@ impl Kind for Bands {
     type Of = Vec<Band>;
 
     fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<Vec<Band>> {
-        let Value::List(nodes) = &node.value else {
-            wrong_type(cx, node, key, Self::WANTED);
-            return None;
+        let kind = Rising {
+            limits: self.limits(),
+            most: MOST_BANDS,
+            wanted: Self::WANTED,
         };
-        if nodes.is_empty() || nodes.len() > MOST_BANDS {
-            wrong_length(cx, &node.at, key, "a list", nodes.len(), Self::WANTED);
-            return None;
-        }
-        let errors = cx.error_count();
-        let mut bands: Vec<Band> = Vec::with_capacity(nodes.len());
-        for node in nodes {
-            let Some(center_nm) = number_at(cx, node, key, self.limits()) else {
-                continue;
-            };
-            if let Some(last) = bands.last().filter(|last| last.center_nm >= center_nm) {
-                let error = DocumentError::NotRising {
-                    key: key.to_owned(),
-                    before: last.center_nm,
-                    after: center_nm,
-                };
-                cx.error(&node.at, error);
-                break;
-            }
-            bands.push(Band {
-                center_nm,
-                width_nm: self.width_nm,
-            });
-        }
-        (cx.error_count() == errors).then_some(bands)
+        let width_nm = self.width_nm;
+        let bands = kind.read(cx, node, key)?.into_iter();
+        let bands = bands.map(|center_nm| Band {
+            center_nm,
+            width_nm,
+        });
+        Some(bands.collect())
     }
 
     fn write(&self, bands: &Vec<Band>) -> Value {

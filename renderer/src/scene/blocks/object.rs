@@ -2,6 +2,7 @@
 //! many.
 
 use glam::{DMat3, DMat4, DVec3};
+use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::value_kind::{Number, Numbers, Vector};
@@ -9,12 +10,12 @@ use leafmodel::document::values::{listed, wrong_length};
 
 use super::camera::COORDINATES_M;
 use super::instances::instances;
-use super::name_list::NamesIn;
 use super::placement::{ANGLES_DEG, SCALES, turn};
 use super::report;
-use super::scatter::scatter;
 use super::volume::volume;
+use crate::geometry::scatter::Rest;
 use crate::scene::authored::Object;
+use crate::scene::description::name_list::NamesIn;
 use crate::scene::description::{self, ObjectShape};
 
 impl Object {
@@ -160,6 +161,35 @@ fn mesh_shapes(
         material: *material,
     });
     object.placed.shapes = pairs.collect();
+}
+
+/// The key `scatter` of an object, which may be a plant.
+fn scatter(object: &mut description::Object, is_plant: bool, keys: &mut Keys<'_>) {
+    keys.exclude("instances", "scatter");
+    let about = "Where copies of the object are strewn, instead of its own place.";
+    let strewn = &mut object.strewn;
+    keys.optional_block("scatter", strewn, Box::default, about, |own, keys| {
+        own.declare(keys);
+    });
+    if let Some(strewn) = &object.strewn {
+        let is_leaf = |shape: &ObjectShape| matches!(shape, ObjectShape::Leaf { .. });
+        let only_leaves = !is_plant && object.shapes.iter().all(is_leaf);
+        let differ = strewn.individuals > 1 || strewn.days.is_some();
+        if keys.is_sound() && differ && !only_leaves {
+            let key = if strewn.days.is_some() {
+                "days"
+            } else {
+                "individuals"
+            };
+            let problem = "only leaves are grown apart".to_owned();
+            let help = "take it out; a plant has its own `individuals` and `days`";
+            keys.refuse(&["scatter", key], problem, help);
+        }
+        if keys.is_sound() && is_plant && matches!(strewn.plan.rest, Rest::Settled { .. }) {
+            let problem = "a plant stands where it grows".to_owned();
+            keys.refuse(&["scatter", "settle"], problem, "take it out");
+        }
+    }
 }
 
 /// Local to world: `matrix`, or scale, then rotations about x, y, z, then position.

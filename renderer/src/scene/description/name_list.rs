@@ -8,7 +8,10 @@ use leafmodel::document::values::{list, text_at, wrong_length, wrong_type};
 
 /// Reads a name or a list of names of blocks of a section.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct NamesIn(pub(super) &'static str, pub(super) &'static str);
+pub(in crate::scene) struct NamesIn(
+    pub(in crate::scene) &'static str,
+    pub(in crate::scene) &'static str,
+);
 
 impl Kind for NamesIn {
     type Of = Vec<(usize, String)>;
@@ -51,5 +54,26 @@ impl Kind for NamesIn {
             wanted: "a list of names",
         };
         Type::AnyOf(vec![Type::Text(self.1), list], self.1)
+    }
+}
+
+/// The same where nothing asks for the names.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::scene) struct IndicesIn(pub(in crate::scene) NamesIn);
+
+impl Kind for IndicesIn {
+    type Of = Vec<usize>;
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<Vec<usize>> {
+        let named = self.0.read(cx, node, key)?.into_iter();
+        Some(named.map(|(index, _)| index).collect())
+    }
+
+    fn write(&self, value: &Vec<usize>) -> Value {
+        list(value.iter().map(|index| Value::Integer(*index as i128)))
+    }
+
+    fn describe(&self) -> Type {
+        self.0.describe()
     }
 }
