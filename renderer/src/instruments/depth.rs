@@ -4,6 +4,7 @@
 //! [`LayeredLeaf`](leafmodel::optics::layers::LayeredLeaf). Nothing is followed at random here, so
 //! figures have no statistical error.
 
+use glam::DVec2;
 use leafmodel::optics::Contents;
 use leafmodel::optics::layers::{Face, Incidence, LayeredLeaf};
 use rayon::prelude::*;
@@ -56,7 +57,7 @@ pub(super) fn read_out(
         return Err(refuse("is not tissue of known contents".to_owned()));
     };
     let contents = match depth.uv {
-        Some(uv) => Contents::from_texel(held.at(uv.as_vec2())),
+        Some(uv) => Contents::from_texel(held.at(DVec2::from(uv).as_vec2())),
         None => held.mean(),
     };
     let contents = contents

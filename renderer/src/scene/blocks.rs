@@ -8,10 +8,9 @@
 
 mod camera;
 mod daylight;
-mod film;
+pub(in crate::scene) mod film;
 mod fluorescence;
 mod instances;
-mod instrument;
 mod leaf;
 mod light;
 mod material;
@@ -24,7 +23,7 @@ mod reflectance;
 mod rig;
 mod sensitivities;
 mod solid;
-mod spectrum;
+pub(in crate::scene) mod spectrum;
 mod table_file;
 mod volume;
 
@@ -47,8 +46,7 @@ use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 pub(crate) use self::solid::solid;
 use super::authored::{Authored, Light, Object, Plant};
 use super::description::{
-    self, Instrument, InstrumentKind, Leaf, Material, Medium, Mesh, Picture, Reflectance, Sample,
-    Solid, Spectrum,
+    self, Instrument, Leaf, Material, Medium, Mesh, Picture, Reflectance, Solid, Spectrum,
 };
 
 /// All keys at the top of a scene file.
@@ -174,22 +172,34 @@ fn scene(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
     let about = "How light is followed.";
     keys.block("integrator", about, |keys| scene.integrator.declare(keys));
     let about = "Instruments, which `lamina instruments` reads out.";
-    let new = || Instrument::usual(InstrumentKind::Sphere(Sample::usual()));
     section(
         keys,
         "instruments",
         &mut scene.instruments,
-        &new,
+        &Instrument::default,
         about,
-        instrument::instrument,
+        Instrument::declare,
     );
     if purpose == Purpose::Instruments {
-        instrument::tell_range(scene, keys);
+        tell_range(scene, keys);
     }
     sections(scene, keys, purpose);
     if keys.reader().is_some() {
         references::check(scene, keys, purpose);
     }
+}
+
+/// From here on spectra must cover what the instruments need, if they are what the scene is read
+/// for; `None` if there is none.
+fn tell_range(scene: &Authored, keys: &Keys<'_>) {
+    let Some(block) = keys.reader() else {
+        return;
+    };
+    let ranges = scene.instruments.iter();
+    let ranges = ranges.filter_map(|Named { value, .. }| value.range_nm());
+    let all = ranges.reduce(|[low, high], [from, to]| [low.min(from), high.max(to)]);
+    block.cx.range_nm.set(all);
+    block.cx.needed_by.set("an instrument");
 }
 
 /// The named blocks.

@@ -5,7 +5,7 @@
 //! same input. `scene::expand` makes it of what the file says.
 
 mod camera;
-mod instrument;
+pub(in crate::scene) mod instrument;
 mod light;
 mod material;
 mod medium;

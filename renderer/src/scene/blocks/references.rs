@@ -12,6 +12,7 @@ use leafmodel::document::values::listed;
 
 use super::Purpose;
 use crate::scene::authored::{Authored, Light};
+use crate::scene::description::instrument::incident::{covers_par, is_dark};
 use crate::scene::description::{self, InstrumentKind, Material, Mesh, Named, ObjectShape};
 
 /// Sections to whose blocks others refer.
@@ -45,7 +46,7 @@ pub(super) fn check(scene: &Authored, keys: &Keys<'_>, purpose: Purpose) {
     check_strewn(scene, keys);
     check_colours(scene, keys);
     check_samples(scene, keys);
-    super::instrument::incident::check_lights(scene, keys);
+    check_incident(scene, keys);
     if cx.error_count() == 0 {
         warn_of_the_unused(scene, keys);
     }
@@ -201,6 +202,33 @@ fn check_samples(scene: &Authored, keys: &Keys<'_>) {
             ];
             keys.refuse(&path, problem, help);
         }
+    }
+}
+
+/// A light whose spectrum an instrument takes has one, with light in it.
+fn check_incident(scene: &Authored, keys: &Keys<'_>) {
+    for instrument in &scene.instruments {
+        let incident = instrument.value.incident.as_ref();
+        let light = incident.and_then(|incident| scene.lights.get(incident.light?));
+        let Some(light) = light else { continue };
+        let name = &light.name;
+        let spectrum = match &light.value {
+            Light::Single(light) => Some(light.relative_spectrum()),
+            Light::Rig(_) => None,
+        };
+        let problem = match spectrum {
+            None => format!("`{name}` is a rig of several lights"),
+            Some(spectrum) if !covers_par(&spectrum) => {
+                format!("the spectrum of `{name}` does not cover 400 to 700 nm")
+            }
+            Some(spectrum) if is_dark(&spectrum) => {
+                format!("`{name}` has no light from 400 to 700 nm")
+            }
+            Some(_) => continue,
+        };
+        let kind = instrument.value.kind.word();
+        let path = ["instruments", &instrument.name, kind, "incident", "light"];
+        keys.refuse(&path, problem, "write a `spectrum` instead");
     }
 }
 

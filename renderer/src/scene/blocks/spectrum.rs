@@ -19,7 +19,7 @@ use crate::spectrum::library;
 
 /// A spectrum with its role.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SpectrumOf {
+pub(in crate::scene) enum SpectrumOf {
     /// A share of light, 0 to 1.
     Share,
     /// A ratio of two shares, above 0.

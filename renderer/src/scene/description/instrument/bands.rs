@@ -4,8 +4,8 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::{ListOf, MapOf, Numbers, Word};
 
+use super::Instrument;
 use crate::scene::blocks::film::WAVELENGTHS_NM;
-use crate::scene::description::{Index, Instrument, Response};
 
 /// A sensor whose bands are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,6 +88,26 @@ const GAUSS: [(f64, f64); 4] = [
     (0.796_666_477_413_626_7, 0.222_381_034_453_374_5),
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
 ];
+
+/// The response of a sensor's band.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response {
+    /// Its name.
+    pub name: String,
+    /// Its middle, nm.
+    pub centre_nm: f64,
+    /// Wavelengths, nm, and weights of sum 1 by which a mean over the response is taken.
+    pub nodes: Vec<(f64, f64)>,
+}
+
+/// An index of two bands, their difference over their sum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Index {
+    /// Its name.
+    pub name: &'static str,
+    /// Numbers of the band that counts and of the one that is taken off.
+    pub bands: [usize; 2],
+}
 
 impl Response {
     /// A band of eight wavelengths by its middle and its full width at half of the maximum, nm.
