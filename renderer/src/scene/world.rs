@@ -25,6 +25,7 @@ use leafmodel::optics::solid::ReflectanceTable;
 use rayon::prelude::*;
 
 use self::bodies::{around, build_media, set_bodies, set_drops};
+use self::error::BlockError;
 pub use self::error::WorldError;
 use self::light_colours::{brightest, check_brightness, check_white, light_colours};
 use self::lights::build_lights;
@@ -47,7 +48,7 @@ use crate::material::Material;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
 use crate::medium::Media;
-use crate::scene::description::{self, Description};
+use crate::scene::description::{self, Description, Named};
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::plants::{self, Piece};
 use crate::spectrum::{WavelengthGrid, WavelengthSampler};
@@ -354,28 +355,19 @@ fn build_meshes(
     Ok((meshes, surfaces))
 }
 
-/// Grows the scene's leaves; each is returned with its palette of pigments.
+/// Grows the scene's leaves, each with its palette of pigments.
 fn grow_leaves(
     scene: &Description,
     palettes: Vec<Palette>,
     options: &BuildOptions<'_>,
 ) -> Result<Vec<plants::GrownLeaf>, WorldError> {
-    let grown = scene.leaves.par_iter().zip(palettes).with_max_len(1);
-    let grown = grown.map(|(leaf, palette)| {
-        let leaf = plants::grow(&leaf.value, &palette, options.cache).map_err(|source| {
-            WorldError::Plant {
-                name: leaf.name.clone(),
-                source: Box::new(source),
-            }
-        });
+    grow_all("leaves", &scene.leaves, palettes, |leaf, palette| {
+        let leaf = plants::grow(leaf, &palette, options.cache);
         if let Some(grown) = options.grown {
             grown.fetch_add(1, Ordering::Relaxed);
         }
         leaf
-    });
-    // Of several errors the first in the scene's order is returned, whichever occurred first.
-    let grown: Vec<Result<_, _>> = grown.collect();
-    grown.into_iter().collect()
+    })
 }
 
 /// Grows the scene's bodies of solid tissue, each with its palette and the table of its refractive
@@ -384,14 +376,27 @@ fn grow_solids(
     scene: &Description,
     shared: Vec<(Palette, Arc<ReflectanceTable>)>,
 ) -> Result<Vec<(TriangleMesh, SolidMaterial)>, WorldError> {
-    let grown = scene.solids.par_iter().zip(shared);
-    let grown = grown.map(|(solid, (palette, table))| {
-        plants::grow_solid(&solid.value, palette, table).map_err(|source| WorldError::Solid {
-            name: solid.name.clone(),
-            source: Box::new(source),
-        })
+    grow_all(
+        "solids",
+        &scene.solids,
+        shared,
+        |solid, (palette, table)| plants::grow_solid(solid, palette, table),
+    )
+}
+
+/// Grows the blocks of a section on all threads, each with what it shares with others.
+fn grow_all<B: Sync, S: Send, G: Send, E: Into<BlockError>>(
+    section: &str,
+    blocks: &[Named<B>],
+    shared: Vec<S>,
+    grow: impl Fn(&B, S) -> Result<G, E> + Sync,
+) -> Result<Vec<G>, WorldError> {
+    let blocks = blocks.par_iter().zip(shared).with_max_len(1);
+    let grown = blocks.map(|(block, shared)| {
+        let place = || format!("{section}.{}", block.name);
+        grow(&block.value, shared).map_err(|error| WorldError::of(place())(error))
     });
     // Of several errors the first in the scene's order is returned, whichever occurred first.
-    let grown: Vec<Result<_, _>> = grown.collect();
+    let grown: Vec<Result<G, WorldError>> = grown.collect();
     grown.into_iter().collect()
 }

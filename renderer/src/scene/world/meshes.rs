@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::error::WorldError;
+use super::error::{BlockError, WorldError};
 use crate::geometry::{self, TriangleMesh};
 use crate::material::colour_map::ColourMap;
 use crate::material::model::Finish;
@@ -38,12 +38,9 @@ pub(crate) fn build_mesh(name: &str, shape: &Shape, wanted: Wanted) -> Result<Bu
         surface: OwnSurface::default(),
         left_out: Vec::new(),
     };
-    let named = |source| WorldError::Mesh {
-        name: name.to_owned(),
-        source,
-    };
+    let place = format!("meshes.{name}");
     let asset = |source| WorldError::Asset {
-        place: format!("meshes.{name}"),
+        place: place.clone(),
         source,
     };
     let mesh = match shape {
@@ -76,12 +73,10 @@ pub(crate) fn build_mesh(name: &str, shape: &Shape, wanted: Wanted) -> Result<Bu
             let bytes = assets::read(file).map_err(asset)?;
             let ending = file.extension().and_then(|ending| ending.to_str());
             let mesh = geometry::import(&bytes, ending.unwrap_or(""), *scale as f32);
-            return mesh.map(plain).map_err(|source| WorldError::Import {
-                name: name.to_owned(),
-                file: file.clone(),
-                source,
-            });
+            let file = file.clone();
+            let import = |source| WorldError::of(place)(BlockError::Import { file, source });
+            return mesh.map(plain).map_err(import);
         }
     };
-    mesh.map(plain).map_err(named)
+    mesh.map(plain).map_err(WorldError::of(place))
 }
