@@ -13,6 +13,7 @@
 //! programme in three unknowns ([`leafmodel::rest`]), which is solved again after each turn.
 
 mod body;
+mod cells;
 mod drops;
 mod inclination;
 mod pile;
