@@ -147,10 +147,7 @@ fn check_shining(scene: &Authored, keys: &Keys<'_>) {
 
 /// Whether a shape is a mesh whose material is the boundary of a medium or no boundary at all.
 fn is_no_surface(scene: &Authored, shape: ObjectShape) -> bool {
-    let material = match shape {
-        ObjectShape::Mesh { material, .. } => scene.materials.get(material),
-        ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
-    };
+    let material = shape.mesh().and_then(|(_, own)| scene.materials.get(own));
     material.is_some_and(|named| named.value.is_transparent_to_paths())
 }
 
@@ -284,7 +281,7 @@ fn check_colours(scene: &Authored, keys: &Keys<'_>) {
     }
     for object in &scene.objects {
         for shape in &object.value.placed.shapes {
-            let ObjectShape::Mesh { mesh, material } = *shape else {
+            let Some((mesh, material)) = shape.mesh() else {
                 continue;
             };
             let Some(material) = scene.materials.get(material) else {
@@ -311,28 +308,15 @@ fn warn_of_the_unused(scene: &Authored, keys: &Keys<'_>) {
     let Some(root) = keys.reader() else {
         return;
     };
-    let used = |wanted: fn(&ObjectShape) -> Option<usize>| -> BTreeSet<usize> {
-        let objects = scene.objects.iter();
-        objects
-            .flat_map(|object| object.value.placed.shapes.iter().filter_map(wanted))
-            .collect()
+    let objects = scene.objects.iter();
+    let shapes = objects.flat_map(|object| object.value.placed.shapes.iter().copied());
+    let used = |wanted: fn(ObjectShape) -> Option<usize>| -> BTreeSet<usize> {
+        shapes.clone().filter_map(wanted).collect()
     };
-    let meshes = used(|shape| match shape {
-        ObjectShape::Mesh { mesh, .. } => Some(*mesh),
-        ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
-    });
-    let mut materials = used(|shape| match shape {
-        ObjectShape::Mesh { material, .. } => Some(*material),
-        ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
-    });
-    let mut leaves = used(|shape| match shape {
-        ObjectShape::Leaf { leaf } => Some(*leaf),
-        ObjectShape::Mesh { .. } | ObjectShape::Solid { .. } => None,
-    });
-    let solids = used(|shape| match shape {
-        ObjectShape::Solid { solid } => Some(*solid),
-        ObjectShape::Mesh { .. } | ObjectShape::Leaf { .. } => None,
-    });
+    let meshes = used(|shape| Some(shape.mesh()?.0));
+    let mut materials = used(|shape| Some(shape.mesh()?.1));
+    let mut leaves = used(ObjectShape::leaf);
+    let solids = used(ObjectShape::solid);
     let objects = scene.objects.iter();
     let plants: BTreeSet<usize> = objects.filter_map(|object| object.value.plant).collect();
     for plant in plants.iter().filter_map(|&plant| scene.plants.get(plant)) {

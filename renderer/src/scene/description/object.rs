@@ -31,10 +31,7 @@ pub struct Object {
 impl Object {
     /// The mesh of its first shape, index into [`Description::meshes`](super::Description::meshes).
     pub fn first_mesh(&self) -> Option<usize> {
-        match self.shapes.first()? {
-            ObjectShape::Mesh { mesh, .. } => Some(*mesh),
-            ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
-        }
+        Some(self.shapes.first()?.mesh()?.0)
     }
 
     /// Whether its places are found when the world is built.
@@ -175,4 +172,30 @@ pub enum ObjectShape {
         /// Index into [`Description::solids`](super::Description::solids).
         solid: usize,
     },
+}
+
+impl ObjectShape {
+    /// Its mesh and material.
+    pub fn mesh(self) -> Option<(usize, usize)> {
+        match self {
+            Self::Mesh { mesh, material } => Some((mesh, material)),
+            Self::Leaf { .. } | Self::Solid { .. } => None,
+        }
+    }
+
+    /// Its leaf.
+    pub fn leaf(self) -> Option<usize> {
+        match self {
+            Self::Leaf { leaf } => Some(leaf),
+            Self::Mesh { .. } | Self::Solid { .. } => None,
+        }
+    }
+
+    /// Its body.
+    pub fn solid(self) -> Option<usize> {
+        match self {
+            Self::Solid { solid } => Some(solid),
+            Self::Mesh { .. } | Self::Leaf { .. } => None,
+        }
+    }
 }

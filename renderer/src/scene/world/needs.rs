@@ -7,9 +7,7 @@ use crate::geometry::scatter::{Amount, Volume};
 use crate::geometry::shapes::{Disc, Drop, Lump, Sphere};
 use crate::image::claimed;
 use crate::scene::assets;
-use crate::scene::description::{
-    Description, Held, Mesh, Object, ObjectShape, Reflectance, Shape, StrewnOn,
-};
+use crate::scene::description::{Description, Held, Mesh, Object, Reflectance, Shape, StrewnOn};
 
 /// Memory of a place of an object of two parts, as a leaf with its petiole is, bytes.
 const OF_A_PLACE: f64 = 2.0 * OF_AN_INSTANCE;
@@ -107,26 +105,8 @@ fn of_pictures(scene: &Description) -> f64 {
 fn leaves_afloat(scene: &Description, object: &Object, volume: &Volume) -> f64 {
     let [least, most] = volume.within;
     let ground = (most - least).truncate().element_product();
-    let Some(ObjectShape::Mesh { mesh, .. }) = object.shapes.first() else {
-        return 0.0;
-    };
-    let Shape::Mesh(mesh) = &scene.meshes[*mesh].value else {
-        return 0.0;
-    };
-    match mesh {
-        Mesh::Disc(Disc { radius, .. }) => {
-            volume.lai * ground / (std::f64::consts::PI * radius * radius)
-        }
-        Mesh::Rectangle(leaf) => volume.lai * ground / (leaf.width * leaf.height),
-        Mesh::Sphere(_)
-        | Mesh::Box(_)
-        | Mesh::Drop(_)
-        | Mesh::Lump(_)
-        | Mesh::Terrain(_)
-        | Mesh::Masonry(_)
-        | Mesh::File(_)
-        | Mesh::Gltf(_) => 0.0,
-    }
+    let leaf = mesh_of(scene, object).and_then(flat_area);
+    leaf.map_or(0.0, |leaf| volume.lai * ground / leaf)
 }
 
 /// About the area over which something is strewn, m²: that of its rectangle or of an even or uneven
@@ -136,24 +116,38 @@ fn area(scene: &Description, strewn: &StrewnOn) -> f64 {
         return (most - least).element_product();
     }
     let on = &scene.objects[strewn.on].value;
-    let (Some(ObjectShape::Mesh { mesh, .. }), None) = (on.shapes.first(), &on.instances) else {
-        return 0.0;
-    };
-    let Shape::Mesh(mesh) = &scene.meshes[*mesh].value else {
-        return 0.0;
-    };
+    let mesh = mesh_of(scene, on).filter(|_| on.instances.is_none());
     let size = match mesh {
-        Mesh::Rectangle(ground) => ground.width * ground.height,
-        Mesh::Terrain(terrain) => terrain.size[0] * terrain.size[1],
+        Some(Mesh::Terrain(terrain)) => Some(terrain.size[0] * terrain.size[1]),
+        Some(Mesh::Rectangle(ground)) => Some(ground.width * ground.height),
+        Some(_) | None => None,
+    };
+    size.map_or(0.0, |size| {
+        let [x, y] = [on.to_world.x_axis, on.to_world.y_axis].map(glam::DVec4::truncate);
+        size * x.cross(y).length()
+    })
+}
+
+/// The mesh of an object's first shape, if the scene says what it is.
+fn mesh_of<'s>(scene: &'s Description, object: &Object) -> Option<&'s Mesh> {
+    match &scene.meshes[object.first_mesh()?].value {
+        Shape::Mesh(mesh) => Some(mesh),
+        Shape::Body(_) => None,
+    }
+}
+
+/// The area of a leaf that is given by its numbers, m².
+fn flat_area(mesh: &Mesh) -> Option<f64> {
+    match mesh {
+        Mesh::Disc(Disc { radius, .. }) => Some(std::f64::consts::PI * radius * radius),
+        Mesh::Rectangle(leaf) => Some(leaf.width * leaf.height),
         Mesh::Sphere(_)
         | Mesh::Box(_)
-        | Mesh::Disc(_)
         | Mesh::Drop(_)
         | Mesh::Lump(_)
+        | Mesh::Terrain(_)
         | Mesh::Masonry(_)
         | Mesh::File(_)
-        | Mesh::Gltf(_) => return 0.0,
-    };
-    let [x, y] = [on.to_world.x_axis, on.to_world.y_axis].map(glam::DVec4::truncate);
-    size * x.cross(y).length()
+        | Mesh::Gltf(_) => None,
+    }
 }

@@ -8,60 +8,27 @@ use leafmodel::document::source::escaped;
 use serde::Deserialize;
 use serde_json::Value;
 
+use crate::stored_number::StoredNumber;
+
 const MAGIC: &[u8] = b"\x93NUMPY";
 /// Longest header that is read, bytes.
 const MOST_HEADER: usize = 1 << 16;
 
-/// How a field's numbers are stored, little-endian.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Number {
-    F32,
-    F64,
-    Signed(usize),
-    Unsigned(usize),
-}
-
-impl Number {
-    /// The type with a `NumPy` code such as `<f4`.
-    fn of(code: &str) -> Option<Self> {
-        let (order, rest) = code.split_at_checked(1)?;
-        let (kind, size) = rest.split_at_checked(1)?;
-        let size: usize = size.parse().ok()?;
-        // A single byte has no byte order.
-        if order != "<" && !(order == "|" && size == 1) {
-            return None;
-        }
-        match (kind, size) {
-            ("f", 4) => Some(Self::F32),
-            ("f", 8) => Some(Self::F64),
-            ("i", 1 | 2 | 4 | 8) => Some(Self::Signed(size)),
-            ("u", 1 | 2 | 4 | 8) => Some(Self::Unsigned(size)),
-            _ => None,
-        }
+/// The type with a `NumPy` code such as `<f4`.
+fn number_of(code: &str) -> Option<StoredNumber> {
+    let (order, rest) = code.split_at_checked(1)?;
+    let (kind, size) = rest.split_at_checked(1)?;
+    let size: usize = size.parse().ok()?;
+    // A single byte has no byte order.
+    if order != "<" && !(order == "|" && size == 1) {
+        return None;
     }
-
-    pub(super) fn size(self) -> usize {
-        match self {
-            Self::F32 => 4,
-            Self::F64 => 8,
-            Self::Signed(size) | Self::Unsigned(size) => size,
-        }
-    }
-
-    /// The number in [`Number::size`] bytes.
-    pub(super) fn read(self, bytes: &[u8]) -> f64 {
-        let mut word = [0; 8];
-        word[..bytes.len()].copy_from_slice(bytes);
-        let unsigned = u64::from_le_bytes(word);
-        match self {
-            Self::F32 => f64::from(f32::from_bits(unsigned as u32)),
-            Self::F64 => f64::from_bits(unsigned),
-            Self::Signed(size) => {
-                let unused = 64 - 8 * size as u32;
-                ((unsigned << unused).cast_signed() >> unused) as f64
-            }
-            Self::Unsigned(_) => unsigned as f64,
-        }
+    match (kind, size) {
+        ("f", 4) => Some(StoredNumber::F32),
+        ("f", 8) => Some(StoredNumber::F64),
+        ("i", 1 | 2 | 4 | 8) => Some(StoredNumber::Signed(size)),
+        ("u", 1 | 2 | 4 | 8) => Some(StoredNumber::Unsigned(size)),
+        _ => None,
     }
 }
 
@@ -70,7 +37,7 @@ impl Number {
 pub(super) struct Field {
     pub(super) name: String,
     pub(super) start: usize,
-    pub(super) number: Number,
+    pub(super) number: StoredNumber,
 }
 
 /// The contents of a header.
@@ -103,7 +70,7 @@ impl Array {
             }
         };
         let (length, rest) = rest.split_at_checked(width).ok_or_else(cut)?;
-        let length = Number::Unsigned(width).read(length) as usize;
+        let length = StoredNumber::Unsigned(width).read(length) as usize;
         if length > MOST_HEADER {
             return Err(format!(
                 "has a header of {length} bytes, more than the {MOST_HEADER} that are read"
@@ -175,7 +142,7 @@ impl Field {
         if let (Some(gap), true) = (gap, name.is_empty()) {
             return Ok(gap.into());
         }
-        let number = Number::of(code).ok_or_else(|| {
+        let number = number_of(code).ok_or_else(|| {
             format!(
                 "has a field `{}` of type `{}`; read are little-endian floats of 4 or 8 bytes and integers",
                 shown(name),
@@ -246,7 +213,7 @@ mod tests {
 
     #[test]
     fn numbers_are_those_that_were_stored() {
-        let read = |code: &str, bytes: &[u8]| Number::of(code).expect(code).read(bytes);
+        let read = |code: &str, bytes: &[u8]| number_of(code).expect(code).read(bytes);
         assert_eq!(read("<f4", &1.5_f32.to_le_bytes()), 1.5);
         assert_eq!(read("<f8", &(-0.1_f64).to_le_bytes()), -0.1);
         assert_eq!(read("<i2", &(-3_i16).to_le_bytes()), -3.0);
