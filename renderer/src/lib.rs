@@ -93,7 +93,6 @@ pub mod sampling;
 pub mod scene;
 pub mod simd;
 pub mod spectrum;
-mod stored_number;
 pub mod sweep;
 #[cfg(test)]
 mod testing;

@@ -83,7 +83,7 @@ pub(super) enum Light {
 }
 
 /// One of `[objects]`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Object {
     /// The plant that it is, index into [`Authored::plants`]; it has no shapes then.
     pub(super) plant: Option<usize>,

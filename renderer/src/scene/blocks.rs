@@ -43,11 +43,8 @@ use leafmodel::document::tree::Table;
 use leafmodel::document::value_kind::{FilePath, Flag, NamedFile, Text};
 use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 
-pub(crate) use self::solid::solid;
-use super::authored::{Authored, Light, Object, Plant};
-use super::description::{
-    self, Instrument, Leaf, Material, Medium, Mesh, Picture, Reflectance, Solid, Spectrum,
-};
+use super::authored::{Authored, Light};
+use super::description::{self, Leaf, Material, Medium, Picture, Reflectance, Spectrum};
 
 /// All keys at the top of a scene file.
 const SECTIONS: [&str; 16] = [
@@ -113,7 +110,7 @@ pub(crate) fn refuse(cx: &Context, tree: &Table, path: &[String], problem: Strin
 /// Reads only the leaves of a file, which may lack everything else. Errors are left in the context.
 pub(crate) fn read_only_leaves(cx: &Context, tree: &Table) -> Option<Vec<Named<Leaf>>> {
     // The other sections of a scene are not checked here.
-    read_leaves(cx, tree, &plan_file::SECTIONS, leaf::leaf)
+    read_leaves(cx, tree, &plan_file::SECTIONS, Leaf::declare)
 }
 
 /// Reads only `[picture]` of a file. Errors are left in the context.
@@ -171,14 +168,11 @@ fn scene(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
     });
     let about = "How light is followed.";
     keys.block("integrator", about, |keys| scene.integrator.declare(keys));
-    let about = "Instruments, which `lamina instruments` reads out.";
-    section(
+    named(
         keys,
         "instruments",
         &mut scene.instruments,
-        &Instrument::default,
-        about,
-        Instrument::declare,
+        "Instruments, which `lamina instruments` reads out.",
     );
     if purpose == Purpose::Instruments {
         tell_range(scene, keys);
@@ -225,35 +219,14 @@ fn sections(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
         about,
         material::material,
     );
-    let about = "Shapes as triangles.";
-    section(
-        keys,
-        "meshes",
-        &mut scene.meshes,
-        &Mesh::default,
-        about,
-        Mesh::declare,
-    );
-    let about = "Leaves that are grown.";
-    let new = || Leaf::from(plan_file::usual_leaf(100.0));
-    section(keys, "leaves", &mut scene.leaves, &new, about, leaf::leaf);
-    let about = "Bodies of solid tissue.";
-    section(
-        keys,
-        "solids",
-        &mut scene.solids,
-        &Solid::usual,
-        about,
-        solid,
-    );
-    let about = "Boughs and shoots that bear leaves.";
-    section(
+    named(keys, "meshes", &mut scene.meshes, "Shapes as triangles.");
+    named(keys, "leaves", &mut scene.leaves, "Leaves that are grown.");
+    named(keys, "solids", &mut scene.solids, "Bodies of solid tissue.");
+    named(
         keys,
         "plants",
         &mut scene.plants,
-        &Plant::default,
-        about,
-        Plant::declare,
+        "Boughs and shoots that bear leaves.",
     );
     if purpose == Purpose::Instruments
         && let Some(root) = keys.reader()
@@ -267,15 +240,22 @@ fn sections(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
         })
     };
     section(keys, "lights", &mut scene.lights, &new, about, light::light);
-    let about = "What stands in the scene; there is one at least.";
-    section(
+    named(
         keys,
         "objects",
         &mut scene.objects,
-        &Object::nowhere,
-        about,
-        object::object,
+        "What stands in the scene; there is one at least.",
     );
+}
+
+/// A section of blocks with names.
+fn named<T: Declared + Default>(
+    keys: &mut Keys<'_>,
+    name: &'static str,
+    blocks: &mut Vec<Named<T>>,
+    about: &'static str,
+) {
+    section(keys, name, blocks, &T::default, about, T::declare);
 }
 
 fn section<T>(

@@ -199,8 +199,7 @@ pub fn parse_picture(
 /// the mesh and the pictures that it names. Keys with default values are left out; the order of
 /// keys is fixed.
 pub fn solid_to_toml(name: &str, solid: &Solid) -> String {
-    let (mut own, mut usual) = (solid.clone(), Solid::usual());
-    plan_file::solid_to_toml(name, &mut own, &mut usual, blocks::solid)
+    solid.to_toml(name)
 }
 
 /// The schema of a scene file.

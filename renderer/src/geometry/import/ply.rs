@@ -9,7 +9,7 @@ use super::{ImportError, MOST_CORNERS, RawMesh};
 use header::{Element, Header, Kind};
 use values::Values;
 
-use crate::stored_number::StoredNumber;
+use crate::geometry::stored_number::StoredNumber;
 
 /// The meaning of a property of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

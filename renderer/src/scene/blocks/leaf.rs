@@ -1,6 +1,7 @@
 //! `[leaves.NAME]`: a grown leaf, and the keys for faces that leaves share with materials.
 
 use leafmodel::blade::surface::SurfacePlan;
+use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
@@ -29,6 +30,12 @@ const OPTICS: [(&str, LeafOptics); 2] = [
 
 /// Least GGX roughness of a coat.
 const LEAST_ALPHA: f64 = 0.02;
+
+impl Default for Leaf {
+    fn default() -> Self {
+        Self::from(plan_file::usual_leaf(100.0))
+    }
+}
 
 impl From<LeafPlan> for Leaf {
     /// A leaf with the default surface.
@@ -74,43 +81,45 @@ impl Leaf {
     }
 }
 
-/// The keys of one of `[leaves]`.
-pub(super) fn leaf(leaf: &mut Leaf, keys: &mut Keys<'_>) {
-    require_prospect(keys);
-    if let Some(block) = keys.reader() {
-        leaf.extrapolate = block.cx.extrapolate.get();
-    }
-    plan_file::leaf_preset(&mut leaf.plan, keys);
-    let preset = keys.base().and_then(species::find);
-    if let Some(alpha) = preset.and_then(Preset::adaxial_roughness) {
-        let [adaxial, _] = &mut leaf.faces.coats;
-        (adaxial.alpha_across, adaxial.alpha_along) = (alpha, alpha);
-    }
-    plan_file::leaf(&mut leaf.plan, keys);
-    faces(&mut leaf.faces, keys);
-    fluorescence(&mut leaf.fluorescence, keys);
-    if leaf.plan.form.closed && leaf.fluorescence.is_some() {
-        let problem = "a closed blade is cut in two, and its halves cannot fluoresce".to_owned();
-        let help = "leave `fluorescence` out, or let the blade be open: `blade.closed = false`";
-        keys.refuse(&["fluorescence"], problem, help);
-    }
-    if leaf.faces.optics == LeafOptics::Layers && leaf.fluorescence.is_some() {
-        impossible(keys, DARK_LAYERS, "leave `fluorescence` out, or `optics`");
-    }
-    if leaf.faces.optics == LeafOptics::Layers && leaf.plan.form.closed {
-        impossible(
-            keys,
-            "a closed blade is two sheets, and light is followed through one",
-            "leave the key of the closed blade out, or `optics`",
+impl Declared for Leaf {
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        require_prospect(keys);
+        if let Some(block) = keys.reader() {
+            self.extrapolate = block.cx.extrapolate.get();
+        }
+        plan_file::leaf_preset(&mut self.plan, keys);
+        let preset = keys.base().and_then(species::find);
+        if let Some(alpha) = preset.and_then(Preset::adaxial_roughness) {
+            let [adaxial, _] = &mut self.faces.coats;
+            (adaxial.alpha_across, adaxial.alpha_along) = (alpha, alpha);
+        }
+        plan_file::leaf(&mut self.plan, keys);
+        faces(&mut self.faces, keys);
+        fluorescence(&mut self.fluorescence, keys);
+        if self.plan.form.closed && self.fluorescence.is_some() {
+            let problem =
+                "a closed blade is cut in two, and its halves cannot fluoresce".to_owned();
+            let help = "leave `fluorescence` out, or let the blade be open: `blade.closed = false`";
+            keys.refuse(&["fluorescence"], problem, help);
+        }
+        if self.faces.optics == LeafOptics::Layers && self.fluorescence.is_some() {
+            impossible(keys, DARK_LAYERS, "leave `fluorescence` out, or `optics`");
+        }
+        if self.faces.optics == LeafOptics::Layers && self.plan.form.closed {
+            impossible(
+                keys,
+                "a closed blade is two sheets, and light is followed through one",
+                "leave the key of the closed blade out, or `optics`",
+            );
+        }
+        keys.key(
+            "light_spread",
+            &mut self.light_spread,
+            Number(Limits::closed(0.0, 10.0)),
+            "Factor on the distance over which light that the blade lets through spreads sideways; \
+         with 1 that follows from thickness, scattering and absorption, with 0 veins stay sharp.",
         );
     }
-    keys.key(
-        "light_spread",
-        &mut leaf.light_spread,
-        Number(Limits::closed(0.0, 10.0)),
-        "Factor on the distance over which light that the blade lets through spreads sideways; \
-         with 1 that follows from thickness, scattering and absorption, with 0 veins stay sharp.",
-    );
 }
 
 /// Reports what a leaf of layers cannot be.

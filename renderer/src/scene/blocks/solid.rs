@@ -1,6 +1,7 @@
 //! `[solids.NAME]`: a body of solid tissue, and the optics that it shares with
 //! `[materials.NAME.solid]`.
 
+use leafmodel::document::declared::Declared;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::Number;
@@ -32,9 +33,8 @@ impl SolidOptics {
     }
 }
 
-impl Solid {
-    /// A body with all defaults.
-    pub(crate) fn usual() -> Self {
+impl Default for Solid {
+    fn default() -> Self {
         Self {
             plan: usual_solid(),
             optics: SolidOptics::usual(),
@@ -43,14 +43,23 @@ impl Solid {
     }
 }
 
-/// The keys of one of `[solids]`.
-pub(crate) fn solid(solid: &mut Solid, keys: &mut Keys<'_>) {
-    require_prospect(keys);
-    if let Some(block) = keys.reader() {
-        solid.extrapolate = block.cx.extrapolate.get();
+impl Declared for Solid {
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        require_prospect(keys);
+        if let Some(block) = keys.reader() {
+            self.extrapolate = block.cx.extrapolate.get();
+        }
+        optics(&mut self.optics, keys);
+        plan_file::solid(&mut self.plan, keys);
     }
-    optics(&mut solid.optics, keys);
-    plan_file::solid(&mut solid.plan, keys);
+}
+
+impl Solid {
+    /// As a block `[solids.NAME]` of a file, which has what differs from the defaults.
+    pub(in crate::scene) fn to_toml(&self, name: &str) -> String {
+        let (mut own, mut usual) = (self.clone(), Self::default());
+        plan_file::solid_to_toml(name, &mut own, &mut usual, Self::declare)
+    }
 }
 
 /// The keys of the optics of solid tissue.

@@ -11,8 +11,8 @@ use super::name_list::{IndicesIn, NamesIn};
 use crate::geometry::scatter::{Amount, MOST_AT_REST, Rest, Scatter, Volume};
 
 /// Meshes, leaves or bodies placed in the scene: one shape in one place, or any number of
-/// instances.
-#[derive(Clone, Debug)]
+/// instances. The default has no shape, and is at the origin.
+#[derive(Clone, Debug, Default)]
 pub struct Object {
     /// Its shapes, at least one. Without instances there is exactly one.
     pub shapes: Vec<ObjectShape>,

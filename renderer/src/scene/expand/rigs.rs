@@ -343,7 +343,7 @@ fn hang(
         value: Object {
             shapes: vec![shape],
             to_world: stage.frame(panel),
-            ..Object::nowhere()
+            ..Object::default()
         },
     });
     let pattern = (panel.edge < 1.0).then_some(AreaPattern {

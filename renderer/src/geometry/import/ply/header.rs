@@ -2,7 +2,7 @@
 
 use super::super::ImportError;
 use crate::geometry::import::shown;
-use crate::stored_number::StoredNumber;
+use crate::geometry::stored_number::StoredNumber;
 
 /// Longest header that is read, bytes; useful headers are much shorter.
 const LONGEST: usize = 1 << 16;

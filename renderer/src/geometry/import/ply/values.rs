@@ -3,7 +3,7 @@
 use super::super::ImportError;
 use super::header::{Body, Format, Kind};
 use crate::geometry::import::shown;
-use crate::stored_number::StoredNumber;
+use crate::geometry::stored_number::StoredNumber;
 
 /// A place in the values of a file.
 #[derive(Debug)]

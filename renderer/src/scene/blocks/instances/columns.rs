@@ -15,23 +15,24 @@ use leafmodel::document::nearest::nearest;
 use leafmodel::document::source::escaped;
 use leafmodel::document::values::listed;
 
-/// Names of the columns, in the order in which a row stores their numbers.
-const NAMES: [&str; COUNT] = [
-    "x_m",
-    "y_m",
-    "z_m",
-    "rotate_x_deg",
-    "rotate_y_deg",
-    "rotate_z_deg",
-    "quaternion_w",
-    "quaternion_x",
-    "quaternion_y",
-    "quaternion_z",
-    "scale",
-    "scale_x",
-    "scale_y",
-    "scale_z",
-    "shape",
+/// The columns with the ranges of their numbers, in the order in which a row stores these; shapes are
+/// looked up instead.
+const COLUMNS: [(&str, Limits); COUNT] = [
+    ("x_m", COORDINATES_M),
+    ("y_m", COORDINATES_M),
+    ("z_m", COORDINATES_M),
+    ("rotate_x_deg", ANGLES_DEG),
+    ("rotate_y_deg", ANGLES_DEG),
+    ("rotate_z_deg", ANGLES_DEG),
+    ("quaternion_w", COMPONENTS),
+    ("quaternion_x", COMPONENTS),
+    ("quaternion_y", COMPONENTS),
+    ("quaternion_z", COMPONENTS),
+    ("scale", SCALES),
+    ("scale_x", SCALES),
+    ("scale_y", SCALES),
+    ("scale_z", SCALES),
+    ("shape", SCALES),
 ];
 
 /// Number of columns.
@@ -48,14 +49,12 @@ pub(super) const SHAPE: usize = 14;
 /// with other meanings do not.
 const UNIT_TOLERANCE: f64 = 0.01;
 
-/// The range of a column's numbers; shapes are looked up instead.
-fn limits(column: usize) -> Limits {
-    match column {
-        POSITION..ROTATION => COORDINATES_M,
-        ROTATION..QUATERNION => ANGLES_DEG,
-        QUATERNION..SCALE => Limits::closed(-1.0 - UNIT_TOLERANCE, 1.0 + UNIT_TOLERANCE),
-        _ => SCALES,
-    }
+/// The range of the components of a quaternion.
+const COMPONENTS: Limits = Limits::closed(-1.0 - UNIT_TOLERANCE, 1.0 + UNIT_TOLERANCE);
+
+/// The name of a column.
+fn name(column: usize) -> &'static str {
+    COLUMNS[column].0
 }
 
 /// The columns of a file, in its order.
@@ -101,27 +100,27 @@ impl Header {
         // The column of each field, if its name is known.
         let mut found: Vec<Option<usize>> = Vec::new();
         let mut misspelt = Vec::new();
-        for (field, name) in names.iter().take(ENOUGH).enumerate() {
-            let column = NAMES.iter().position(|known| known == name);
+        for (field, written) in names.iter().take(ENOUGH).enumerate() {
+            let column = COLUMNS.iter().position(|(known, _)| known == written);
             let is_second = column.is_some() && found.contains(&column);
             found.push(column);
             if column.is_none() {
-                let meant = nearest(name, NAMES);
+                let meant = nearest(written, COLUMNS.map(|(name, _)| name));
                 misspelt.extend(meant);
-                let problem = format!("names `{}`, which is no column", escaped(name, QUOTED));
+                let problem = format!("names `{}`, which is no column", escaped(written, QUOTED));
                 let help = meant.map_or_else(
-                    || format!("columns: {}", NAMES.join(", ")),
+                    || format!("columns: {}", COLUMNS.map(|(name, _)| name).join(", ")),
                     |meant| format!("did you mean `{meant}`?"),
                 );
                 wrong(Some(field), problem, help);
             }
             if is_second {
-                let problem = format!("names `{name}` twice");
+                let problem = format!("names `{written}` twice");
                 wrong(Some(field), problem, "keep one of the two".to_owned());
             }
         }
         let columns: Vec<usize> = found.iter().copied().flatten().collect();
-        let has = |column: usize| columns.contains(&column) || misspelt.contains(&NAMES[column]);
+        let has = |column: usize| columns.contains(&column) || misspelt.contains(&name(column));
         let mut needed: Vec<usize> = (POSITION..ROTATION).collect();
         for group in [ROTATION..QUATERNION, QUATERNION..SCALE, AXES..SHAPE] {
             // A missing angle is 0; a missing component of a position, a quaternion or of scales
@@ -139,8 +138,8 @@ impl Header {
             } else {
                 String::new()
             };
-            let problem = format!("lacks `{}`{why}", NAMES[column]);
-            wrong(None, problem, format!("add a column `{}`", NAMES[column]));
+            let problem = format!("lacks `{}`{why}", name(column));
+            wrong(None, problem, format!("add a column `{}`", name(column)));
         }
         for (one, other) in [
             (ROTATION..QUATERNION, QUATERNION..SCALE),
@@ -150,7 +149,8 @@ impl Header {
             if let (Some(one), Some(other)) = (first(one), first(other)) {
                 let problem = format!(
                     "names `{}` and `{}`, which exclude each other",
-                    NAMES[one], NAMES[other]
+                    name(one),
+                    name(other)
                 );
                 let field = found.iter().position(|column| *column == Some(other));
                 wrong(field, problem, "keep one of the two".to_owned());
@@ -239,7 +239,7 @@ impl Row {
 
     /// Sets the number of a column, if it is one; `field` is its text in the file.
     pub(super) fn number(&mut self, column: usize, value: Option<f64>, field: impl Fn() -> String) {
-        let (key, limits) = (NAMES[column].to_owned(), limits(column));
+        let (key, limits) = (name(column).to_owned(), COLUMNS[column].1);
         match value {
             None => self.fail(
                 column,
@@ -277,7 +277,7 @@ impl Row {
         let (field, known) = (field(), || table.shapes.iter().map(String::as_str));
         let error = if field.parse::<f64>().is_ok() {
             DocumentError::OutOfRange {
-                key: NAMES[SHAPE].to_owned(),
+                key: name(SHAPE).to_owned(),
                 value: field,
                 range: format!("the whole numbers from 0 to {}", table.shapes.len() - 1),
                 help: format!("the object's shapes are {}", listed(known())),
@@ -294,19 +294,19 @@ impl Row {
     }
 
     /// Sets the shape of a row by its name, or by its number.
-    pub(super) fn shape_named(&mut self, table: &Table<'_>, name: &str) {
-        let field = || escaped(name, QUOTED);
-        match table.numbers.get(name) {
+    pub(super) fn shape_named(&mut self, table: &Table<'_>, written: &str) {
+        let field = || escaped(written, QUOTED);
+        match table.numbers.get(written) {
             Some(Some(number)) => self.shape(table, f64::from(*number), field),
             Some(None) => {
                 let error = DocumentError::Impossible {
-                    key: NAMES[SHAPE].to_owned(),
+                    key: name(SHAPE).to_owned(),
                     problem: format!("the object lists `{}` more than once", field()),
                     help: "write its place in the object's list, counted from 0".to_owned(),
                 };
                 self.fail(SHAPE, error);
             }
-            None => self.shape(table, name.parse().unwrap_or(f64::NAN), field),
+            None => self.shape(table, written.parse().unwrap_or(f64::NAN), field),
         }
     }
 

@@ -8,7 +8,7 @@ use leafmodel::document::source::escaped;
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::stored_number::StoredNumber;
+use crate::geometry::stored_number::StoredNumber;
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 /// Longest header that is read, bytes.

@@ -2,8 +2,10 @@
 
 /// How a number is stored, little-endian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum StoredNumber {
+pub enum StoredNumber {
+    /// A float of 4 bytes.
     F32,
+    /// One of 8 bytes.
     F64,
     /// An integer of so many bytes.
     Signed(usize),
@@ -13,7 +15,7 @@ pub(crate) enum StoredNumber {
 
 impl StoredNumber {
     /// Its bytes.
-    pub(crate) fn size(self) -> usize {
+    pub fn size(self) -> usize {
         match self {
             Self::F32 => 4,
             Self::F64 => 8,
@@ -22,7 +24,7 @@ impl StoredNumber {
     }
 
     /// The number in [`StoredNumber::size`] bytes.
-    pub(crate) fn read(self, bytes: &[u8]) -> f64 {
+    pub fn read(self, bytes: &[u8]) -> f64 {
         let mut word = [0; 8];
         word[..bytes.len()].copy_from_slice(bytes);
         let unsigned = u64::from_le_bytes(word);
