@@ -21,6 +21,7 @@ mod lamina;
 mod memory;
 pub mod outline_plan;
 mod painting;
+mod pictures;
 mod settling;
 mod stages;
 pub mod venation_plan;

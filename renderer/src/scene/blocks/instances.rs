@@ -19,6 +19,7 @@ use std::fs;
 use std::path::Path;
 
 use glam::DMat4;
+use rayon::prelude::*;
 
 use self::columns::{RowError, WrongRow};
 use crate::scene::description::InstancePlace;
@@ -51,7 +52,7 @@ struct Table<'a> {
 }
 
 /// The result of reading some rows of a file.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Rows {
     places: Vec<InstancePlace>,
     /// The first wrong ones.
@@ -60,35 +61,25 @@ struct Rows {
 }
 
 impl Rows {
-    /// Stores the result of a row; `told` gives the text to show if it is wrong.
-    fn push(
-        &mut self,
-        row: Result<InstancePlace, Vec<RowError>>,
-        told: impl FnOnce(Vec<RowError>) -> WrongRow,
-    ) {
-        match row {
-            Ok(place) => self.places.push(place),
-            Err(errors) => {
-                self.wrong_count += 1;
-                if self.wrong.len() < MOST_TOLD {
-                    self.wrong.push(told(errors));
-                }
-            }
+    /// Reads rows on all threads, each with its number; `wrong` is one with errors.
+    fn read<R: Copy + Sync>(
+        rows: &[(usize, R)],
+        read: impl Fn(R) -> Result<InstancePlace, Vec<RowError>> + Sync,
+        wrong: impl Fn(usize, R, Vec<RowError>) -> WrongRow,
+    ) -> Self {
+        let found = rows.par_iter().map(|(_, row)| read(*row).ok());
+        let found: Vec<Option<InstancePlace>> = found.collect();
+        // The errors of the few that are reported are found again.
+        let missing = rows.iter().zip(&found).filter(|(_, place)| place.is_none());
+        let errors = missing.take(MOST_TOLD).filter_map(|((number, row), _)| {
+            let errors = read(*row).err()?;
+            Some(wrong(*number, *row, errors))
+        });
+        Self {
+            wrong: errors.collect(),
+            wrong_count: found.iter().filter(|place| place.is_none()).count(),
+            places: found.into_iter().flatten().collect(),
         }
-    }
-
-    /// Joins the rows of pieces of the file, in their order.
-    fn joined(pieces: Vec<Self>) -> Self {
-        let mut all = Self::default();
-        all.places
-            .reserve_exact(pieces.iter().map(|piece| piece.places.len()).sum());
-        for piece in pieces {
-            all.places.extend_from_slice(&piece.places);
-            all.wrong_count += piece.wrong_count;
-            let room = MOST_TOLD - all.wrong.len();
-            all.wrong.extend(piece.wrong.into_iter().take(room));
-        }
-        all
     }
 }
 

@@ -10,17 +10,12 @@
 
 mod header;
 
-use rayon::prelude::*;
-
 use self::header::{Array, Field};
 use super::columns::{Header, Row, RowError, SHAPE, WrongRow};
 use super::{Rows, Table};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::Context;
 use leafmodel::document::source::Place;
-
-/// Number of rows that one thread reads at a time.
-const PIECE: usize = 1 << 14;
 
 /// Reads the rows; `None`, after a report, if the file has no readable rows.
 pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) -> Option<Rows> {
@@ -56,28 +51,11 @@ pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) ->
         table.refuse(cx, at, problem, "copy or write the file anew");
         return None;
     }
-    let pieces: Vec<Rows> = bytes[array.start..]
-        .par_chunks(PIECE * array.stride)
-        .enumerate()
-        .map(|(piece, bytes)| read_piece(table, &header, &array, piece * PIECE, bytes))
-        .collect();
-    Some(Rows::joined(pieces))
-}
-
-fn read_piece(
-    table: &Table<'_>,
-    header: &Header,
-    array: &Array,
-    above: usize,
-    bytes: &[u8],
-) -> Rows {
-    let mut rows = Rows::default();
-    for (number, row) in bytes.chunks_exact(array.stride).enumerate() {
-        rows.push(read_row(table, header, array, row), |errors| {
-            wrong_row(header, array, row, above + number + 1, errors)
-        });
-    }
-    rows
+    let rows = bytes[array.start..].chunks_exact(array.stride);
+    let rows: Vec<(usize, &[u8])> = (1..).zip(rows).collect();
+    let read = |row| read_row(table, &header, &array, row);
+    let wrong = |number, row, errors| wrong_row(&header, &array, row, number, errors);
+    Some(Rows::read(&rows, read, wrong))
 }
 
 fn read_row(
@@ -143,7 +121,7 @@ mod tests {
 
     #[test]
     fn an_array_gives_the_places_that_the_same_rows_give_as_text() {
-        let count = 3 * PIECE / 2;
+        let count = 25_000;
         let literal = format!(
             "{{'descr': [('shape', '<i8'), ('x_m', '<f8'), ('y_m', '<f4'), ('z_m', '<i4'), ('scale', '<f4')], \
              'fortran_order': False, 'shape': ({count},), }}"

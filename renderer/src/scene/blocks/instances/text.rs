@@ -4,8 +4,6 @@
 //! begins a comment; empty lines are ignored. Where anything but commas separates them, commas are
 //! decimal marks.
 
-use rayon::prelude::*;
-
 use super::super::table_file::tell;
 use super::columns::{Header, HeaderError, Row, RowError, SHAPE, WrongRow};
 use super::{Rows, Table};
@@ -19,9 +17,6 @@ use leafmodel::document::source::{Place, escaped};
 const SEPARATORS: [char; 5] = [';', ' ', '\t', '\r', ','];
 /// The same where commas are decimal marks.
 const ALL_BUT_COMMAS: &[char] = &[';', ' ', '\t', '\r'];
-
-/// Size of the piece that one thread reads at a time, bytes.
-const PIECE: usize = 1 << 20;
 
 /// Longest line that may be a row, bytes.
 const LONGEST: usize = 1 << 14;
@@ -69,35 +64,22 @@ pub(super) fn read(
     if !table.bear(cx, at, lines.max(1)) {
         return None;
     }
-    let pieces: Vec<(Rows, usize)> = pieces(rest)
-        .into_par_iter()
-        .map(|piece| read_piece(table, &header, piece, marks))
-        .collect();
-    let mut above = line_number;
-    let mut rows = Vec::with_capacity(pieces.len());
-    for (mut piece, lines) in pieces {
-        piece.wrong.iter_mut().for_each(|row| row.line += above);
-        above += lines;
-        rows.push(piece);
-    }
-    let rows = Rows::joined(rows);
+    let lines = (line_number + 1..).zip(rest.lines());
+    let is_row = |line: &str| line.len() > LONGEST || marks.fields(line).next().is_some();
+    let rows: Vec<(usize, &str)> = lines.filter(|(_, line)| is_row(line)).collect();
+    let read = |line| read_row(table, &header, line, marks);
+    let wrong = |number, line: &str, errors| {
+        let mut shown = line.to_owned();
+        let mut fields: Vec<_> = marks.fields(line).map(|field| span(line, field)).collect();
+        if line.len() > LONGEST {
+            shown = line.chars().take(QUOTED).collect();
+            fields = vec![0..shown.len()];
+        }
+        WrongRow::new((number, shown), &header, &fields, errors)
+    };
     table
-        .bear(cx, at, rows.places.len() + rows.wrong_count)
-        .then_some(rows)
-}
-
-/// The text in pieces of whole lines.
-fn pieces(text: &str) -> Vec<&str> {
-    let mut pieces = Vec::new();
-    let mut rest = text;
-    while !rest.is_empty() {
-        let bytes = rest.as_bytes();
-        let end = bytes.iter().skip(PIECE).position(|byte| *byte == b'\n');
-        let (piece, below) = rest.split_at(end.map_or(rest.len(), |end| PIECE + end + 1));
-        pieces.push(piece);
-        rest = below;
-    }
-    pieces
+        .bear(cx, at, rows.len())
+        .then(|| Rows::read(&rows, read, wrong))
 }
 
 /// How a table is written.
@@ -203,37 +185,20 @@ fn read_header(
     None
 }
 
-/// The rows of a piece, with lines counted from 1, and the number of its lines.
-fn read_piece(table: &Table<'_>, header: &Header, piece: &str, marks: Marks) -> (Rows, usize) {
-    let mut rows = Rows::default();
-    let mut lines = 0;
-    for line in piece.lines() {
-        lines += 1;
-        if line.len() > LONGEST {
-            let problem = format!("has a line of {} bytes", line.len());
-            let error = bad_row(table, problem, "end each row with a line feed");
-            rows.push(Err(vec![error]), |errors| {
-                // Only the beginning is shown.
-                let shown: String = line.chars().take(QUOTED).collect();
-                let whole = 0..shown.len();
-                WrongRow::new((lines, shown), header, &[whole], errors)
-            });
-        } else if marks.fields(line).next().is_some() {
-            rows.push(read_row(table, header, line, marks), |errors| {
-                let fields: Vec<_> = marks.fields(line).map(|field| span(line, field)).collect();
-                WrongRow::new((lines, line.to_owned()), header, &fields, errors)
-            });
-        }
-    }
-    (rows, lines)
-}
-
 fn read_row(
     table: &Table<'_>,
     header: &Header,
     line: &str,
     marks: Marks,
 ) -> Result<InstancePlace, Vec<RowError>> {
+    if line.len() > LONGEST {
+        let problem = format!("has a line of {} bytes", line.len());
+        return Err(vec![bad_row(
+            table,
+            problem,
+            "end each row with a line feed",
+        )]);
+    }
     let mut row = Row::of(header);
     let mut found = 0;
     for field in marks.fields(line) {
@@ -380,18 +345,18 @@ mod tests {
     }
 
     #[test]
-    fn rows_keep_their_order_and_their_lines_over_pieces() {
+    fn rows_keep_their_order_and_their_lines_on_many_threads() {
         let mut text = "x_m y_m z_m shape\n".to_owned();
-        let count = 3 * PIECE / 40;
+        let count = 80_000;
         for row in 0..count {
             text += &format!("{row:>30} 0 0 a # row {row:>8}\n");
         }
         let places = read_all(&text).expect("good rows");
-        assert!(text.len() > 3 * PIECE && places.len() == count);
+        assert_eq!(places.len(), count);
         for (row, place) in places.iter().enumerate() {
             assert_eq!(place.translation.x, row as f64);
         }
-        // Line numbers include the header and continue across pieces.
+        // Line numbers include the header.
         let broken = text.replace(&format!("{:>30} 0 0 a", count - 2), "x 0 0 a");
         let errors = read_all(&broken).expect_err("one is no number");
         assert_eq!(errors.len(), 1);
