@@ -22,6 +22,7 @@ pub use leafmodel::document::names::Named;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::solid::SolidPlan;
 
+use crate::film::MOST_SAMPLES;
 use crate::sampling::dimensions::MOST_EVENTS;
 use crate::scene::model::Wanted;
 
@@ -105,20 +106,28 @@ impl Description {
 }
 
 /// What is recorded, and how well.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Declared)]
 pub struct Film {
     /// Pixels across.
+    #[key(with = Self::declare_size)]
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Samples per pixel, or their greatest number if there is a target noise.
+    /// Samples a pixel; with `noise` the most.
+    #[key("spp", required, 1..=MOST_SAMPLES.into())]
     pub spp: u32,
     /// Relative error at which a part of the picture has enough samples; `None` if all parts get
     /// the same number.
+    #[key(with = Self::declare_noise)]
     pub noise: Option<f64>,
-    /// Seed of every random number.
+    /// Seed of every random number; same file, same seed, same bytes.
+    #[key("seed")]
     pub seed: u64,
-    /// Radius of the Gaussian reconstruction filter in pixels; 0 is a box of one pixel.
+    /// Radius of the Gaussian reconstruction filter; 0 is a box of one pixel, which keeps pixels
+    /// independent of each other.
+    ///
+    /// In pixels.
+    #[key("filter_radius_px", 0.0..=8.0)]
     pub filter_radius: f64,
     /// Colour or bands.
     pub kind: FilmKind,

@@ -164,7 +164,7 @@ fn each_list(
                 Kind::List { count, item } if is_corners(&property.name) => {
                     read(values, count, item)?;
                 }
-                other => values.pass_over(other)?,
+                Kind::List { .. } | Kind::Scalar(_) => values.pass_over(property.kind)?,
             }
         }
         values.end_of_item()?;

@@ -6,7 +6,7 @@ use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
 use leafmodel::document::names::NameIn;
-use leafmodel::document::value_kind::{Degrees, DegreesList, Number, Vector};
+use leafmodel::document::value_kind::{Degrees, DegreesList, Kind, Number, Vector};
 
 use super::report;
 use crate::camera::thin_lens::{ANGLES_DEG, Field, Focus, Iris, Lens, LensError, Opening};
@@ -82,6 +82,30 @@ fn perspective(camera: &mut Camera, keys: &mut Keys<'_>) {
     }
 }
 
+/// The number of a key that is there. If it is wrong, that is reported, and it is 1.
+fn needed(
+    key: &'static str,
+    kind: impl Kind<Of = f64>,
+    about: &'static str,
+    keys: &mut Keys<'_>,
+) -> f64 {
+    let mut number = 1.0;
+    keys.needed(key, &mut number, kind, about);
+    number
+}
+
+/// Height of the recorded frame, m.
+fn sensor_height(about: &'static str, keys: &mut Keys<'_>) -> f64 {
+    let mut sensor_mm = 1000.0 * SENSOR_HEIGHT;
+    keys.key(
+        "sensor_height_mm",
+        &mut sensor_mm,
+        Number(LENGTHS_MM),
+        about,
+    );
+    sensor_mm / 1000.0
+}
+
 /// What the file wants to be sharp.
 enum Wanted {
     Plane(Focus),
@@ -96,50 +120,30 @@ fn lens(keys: &mut Keys<'_>) -> Lens {
     for chosen in keys.one_of(&fields, Some(fields[0])) {
         if chosen == "vertical_fov_deg" {
             let [least, most] = ANGLES_DEG;
-            let limits = Degrees(Limits::closed(least, most));
+            let limits = Limits::closed(least, most);
             let about = "Angle from the lower to the upper edge of the picture.";
-            let mut angle = 1.0;
-            keys.needed(chosen, &mut angle, limits, about);
-            lens.field = Field::Angle(angle);
+            lens.field = Field::Angle(needed(chosen, Degrees(limits), about, keys));
         } else {
             let about = "Focal length, instead of the angle. The angle then follows from the \
                 sensor's height, and gets smaller as the focus comes nearer.";
-            let mut length_mm = 50.0;
-            keys.needed(chosen, &mut length_mm, Number(LENGTHS_MM), about);
+            let length_mm = needed(chosen, Number(LENGTHS_MM), about, keys);
             lens.field = Field::FocalLength(length_mm / 1000.0);
         }
     }
-    let mut sensor_mm = 1000.0 * SENSOR_HEIGHT;
     let about = "Height of the recorded frame; 24 is that of small-format film.";
-    keys.key(
-        "sensor_height_mm",
-        &mut sensor_mm,
-        Number(LENGTHS_MM),
-        about,
-    );
-    lens.sensor_height = sensor_mm / 1000.0;
+    lens.sensor_height = sensor_height(about, keys);
     let openings = ["aperture_diameter_mm", "f_number"];
     for chosen in keys.one_of_or_none(&openings, Some(openings[0])) {
         if chosen == "f_number" {
             let about = "Focal length over the diameter of the lens opening, instead of the \
                 diameter. Smaller is less sharp before and behind the sharp plane.";
-            let mut number = 8.0;
-            keys.needed(
-                chosen,
-                &mut number,
-                Number(Limits::closed(0.5, 1000.0)),
-                about,
-            );
-            lens.opening = Opening::FNumber(number);
+            let limits = Number(Limits::closed(0.5, 1000.0));
+            lens.opening = Opening::FNumber(needed(chosen, limits, about, keys));
         } else {
             let mut aperture_mm = 0.0;
             let about = "Diameter of the lens opening; 0 is a pinhole.";
-            keys.key(
-                chosen,
-                &mut aperture_mm,
-                Number(Limits::closed(0.0, 1e6)),
-                about,
-            );
+            let limits = Number(Limits::closed(0.0, 1e6));
+            keys.key(chosen, &mut aperture_mm, limits, about);
             lens.opening = Opening::Diameter(aperture_mm / 1000.0);
         }
     }
@@ -161,9 +165,7 @@ fn focus(lens: &Lens, camera: &mut Camera, keys: &mut Keys<'_>) -> Option<Wanted
                 let limits = Number(Limits::above(0.0, 1e7));
                 let about = "Distance of the sharp plane along the axis; without it and the next \
                     three keys that of `look_at_m`.";
-                let mut distance = 1.0;
-                keys.needed(chosen, &mut distance, limits, about);
-                Wanted::Plane(Focus::Distance(distance))
+                Wanted::Plane(Focus::Distance(needed(chosen, limits, about, keys)))
             }
             "focus_point_m" => {
                 let about = "Point through which the sharp plane goes, instead of its distance.";
@@ -184,8 +186,7 @@ fn focus(lens: &Lens, camera: &mut Camera, keys: &mut Keys<'_>) -> Option<Wanted
             _ => {
                 let about = "Size on the sensor over size in the scene, on the sharp plane, \
                     instead of its distance: 1 is life size. It needs `focal_length_mm`.";
-                let mut times = 1.0;
-                keys.needed(chosen, &mut times, Number(MAGNIFICATIONS), about);
+                let times = needed(chosen, Number(MAGNIFICATIONS), about, keys);
                 keys.exclude("vertical_fov_deg", chosen);
                 Wanted::Plane(Focus::Magnification(times))
             }
@@ -239,24 +240,16 @@ fn orthographic(camera: &mut Camera, keys: &mut Keys<'_>) {
         if chosen == "height_m" {
             let about = "Height of what the picture shows.";
             let limits = Number(Limits::closed(1e-6, 1e6));
-            keys.needed(chosen, &mut height, limits, about);
+            height = needed(chosen, limits, about, keys);
             keys.exclude(chosen, "sensor_height_mm");
         }
         if chosen == "magnification" {
             let about = "Size on the sensor over size in the scene, instead of the height: 1 is \
                 life size.";
-            let mut times = 1.0;
-            keys.needed(chosen, &mut times, Number(MAGNIFICATIONS), about);
-            let mut sensor_mm = 1000.0 * SENSOR_HEIGHT;
+            let times = needed(chosen, Number(MAGNIFICATIONS), about, keys);
             let about = "Height of the recorded frame, for `magnification`; 24 is that of \
                 small-format film.";
-            keys.key(
-                "sensor_height_mm",
-                &mut sensor_mm,
-                Number(LENGTHS_MM),
-                about,
-            );
-            height = sensor_mm / 1000.0 / times;
+            height = sensor_height(about, keys) / times;
         }
     }
     camera.view.projection = Projection::Orthographic { height };

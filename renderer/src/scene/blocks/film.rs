@@ -1,17 +1,17 @@
 //! `[film.rgb]` and `[film.spectral]`.
 
 use leafmodel::document::context::Context;
+use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
 use leafmodel::document::number_lists::Rising;
 use leafmodel::document::schema::Type;
 use leafmodel::document::tree::{Node, Value};
-use leafmodel::document::value_kind::{Integer, Kind, Number};
+use leafmodel::document::value_kind::{Kind, Number};
 use leafmodel::document::values::{integers_at, list, number, numbers_at};
 
 use super::sensitivities::{LEAST_SHARE, Sensitivities};
-use crate::film::MOST_SAMPLES;
 use crate::scene::description::{Band, Film, FilmKind};
 use crate::spectrum::cie;
 use crate::spectrum::observer::Observer;
@@ -32,7 +32,7 @@ const KINDS: [Variant<Film>; 2] = [
         },
         is: |film| matches!(film.kind, FilmKind::Rgb { .. }),
         declare: |film, keys| {
-            sampling(film, keys);
+            film.declare(keys);
             if let FilmKind::Rgb { range_nm, observer } = &mut film.kind {
                 let about = "Wavelengths that paths carry, first and last. The default is where \
                     PROSPECT-D has data and the observer sees nearly everything.";
@@ -58,7 +58,7 @@ const KINDS: [Variant<Film>; 2] = [
         },
         is: |film| matches!(film.kind, FilmKind::Spectral { .. }),
         declare: |film, keys| {
-            sampling(film, keys);
+            film.declare(keys);
             if let FilmKind::Spectral { bands } = &mut film.kind {
                 let mut width_nm = bands.first().map_or(10.0, |band| band.width_nm);
                 let limits = Number(Limits::closed(0.0, 200.0));
@@ -91,36 +91,26 @@ impl Film {
     }
 }
 
+impl Film {
+    pub(in crate::scene) fn declare_size(&mut self, keys: &mut Keys<'_>) {
+        let mut size = [self.width, self.height];
+        keys.required("size", &mut size, Pixels, "Pixels across and down.");
+        [self.width, self.height] = size;
+    }
+
+    pub(in crate::scene) fn declare_noise(&mut self, keys: &mut Keys<'_>) {
+        let mut noise = self.noise.unwrap_or(0.0);
+        let limits = Number(Limits::closed(0.0, 1.0));
+        let about = "Relative error at which a part of the picture has enough samples: 0.01 is one \
+            percent (adaptive sampling); 0 gives every pixel `spp` samples.";
+        keys.key("noise", &mut noise, limits, about);
+        self.noise = (noise > 0.0).then_some(noise);
+    }
+}
+
 /// The keys of `[film]`.
 pub(super) fn film(film: &mut Film, keys: &mut Keys<'_>) {
     keys.kind(film, &KINDS);
-}
-
-fn sampling(film: &mut Film, keys: &mut Keys<'_>) {
-    let mut size = [film.width, film.height];
-    keys.required("size", &mut size, Pixels, "Pixels across and down.");
-    [film.width, film.height] = size;
-    let count = Integer::within(1, MOST_SAMPLES.into());
-    let about = "Samples a pixel; with `noise` the most.";
-    keys.required("spp", &mut film.spp, count, about);
-    let mut noise = film.noise.unwrap_or(0.0);
-    let limits = Number(Limits::closed(0.0, 1.0));
-    let about = "Relative error at which a part of the picture has enough samples: 0.01 is one \
-        percent (adaptive sampling); 0 gives every pixel `spp` samples.";
-    keys.key("noise", &mut noise, limits, about);
-    film.noise = (noise > 0.0).then_some(noise);
-    let seed = Integer::within(0, u64::MAX);
-    keys.key(
-        "seed",
-        &mut film.seed,
-        seed,
-        "Seed of every random number; same file, same seed, \
-        same bytes.",
-    );
-    let limits = Number(Limits::closed(0.0, 8.0));
-    let about = "Radius of the Gaussian reconstruction filter; 0 is a box of one pixel, which \
-        keeps pixels independent of each other.";
-    keys.key("filter_radius_px", &mut film.filter_radius, limits, about);
 }
 
 /// Sets the wavelengths that the film needs, for all blocks read after it.

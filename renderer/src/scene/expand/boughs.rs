@@ -13,7 +13,7 @@ use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plant::{Crumb, Foot, Organ, Plant as Grown, PlantError, Wall};
 
 use super::individuals::{age, ageless, individuals, scattered_ranks, users};
-use super::{Fault, Planted, walls};
+use super::{Fault, Planted, add, walls};
 use crate::geometry::shapes::Lump;
 use crate::scene::authored::Plant;
 use crate::scene::description::{
@@ -240,17 +240,15 @@ fn add_crumbs(
     }
     let first = parts.shapes.len() as u32;
     for shape in 0..CRUMB_SHAPES {
-        scene.meshes.push(Named {
-            name: format!("{name}.crumb.{shape}"),
-            value: Shape::Mesh(Mesh::Lump(Lump {
-                radius: 1e-3,
-                angularity: 0.35,
-                irregularity: 0.5,
-                segments: 18,
-                seed: u64::from(shape),
-            })),
-        });
-        let mesh = scene.meshes.len() - 1;
+        let lump = Lump {
+            radius: 1e-3,
+            angularity: 0.35,
+            irregularity: 0.5,
+            segments: 18,
+            seed: u64::from(shape),
+        };
+        let name = format!("{name}.crumb.{shape}");
+        let mesh = add(&mut scene.meshes, name, Shape::Mesh(Mesh::Lump(lump)));
         parts.shapes.push(ObjectShape::Mesh { mesh, material });
     }
     parts.places.extend(crumbs.iter().map(|crumb| {
@@ -287,8 +285,7 @@ fn add_leaves(
                 } else {
                     let of = &scene.leaves[kind].name;
                     let name = format!("{of}.{name}.{}", leaf.individual + 1);
-                    scene.leaves.push(Named { name, value });
-                    scene.leaves.len() - 1
+                    add(&mut scene.leaves, name, value)
                 };
                 parts.shapes.push(ObjectShape::Leaf { leaf: number });
                 parts.shapes.len() as u32 - 1
@@ -308,13 +305,7 @@ fn material_of(
     (named, what): (Option<usize>, &str),
     usual: impl FnOnce() -> Material,
 ) -> usize {
-    named.unwrap_or_else(|| {
-        scene.materials.push(Named {
-            name: format!("{name}.{what}"),
-            value: usual(),
-        });
-        scene.materials.len() - 1
-    })
+    named.unwrap_or_else(|| add(&mut scene.materials, format!("{name}.{what}"), usual()))
 }
 
 /// Adds a body of the plant in its own frame.
@@ -325,11 +316,7 @@ fn add_body(
     body: StalkMesh,
     material: usize,
 ) {
-    scene.meshes.push(Named {
-        name,
-        value: Shape::Body(Arc::new(body)),
-    });
-    let mesh = scene.meshes.len() - 1;
+    let mesh = add(&mut scene.meshes, name, Shape::Body(Arc::new(body)));
     let shape = parts.shapes.len() as u32;
     parts.shapes.push(ObjectShape::Mesh { mesh, material });
     parts.places.push((shape, DAffine3::IDENTITY));

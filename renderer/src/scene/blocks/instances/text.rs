@@ -73,7 +73,8 @@ pub(super) fn read(
         let mut fields: Vec<_> = marks.fields(line).map(|field| span(line, field)).collect();
         if line.len() > LONGEST {
             shown = line.chars().take(QUOTED).collect();
-            fields = vec![0..shown.len()];
+            fields.clear();
+            fields.push(0..shown.len());
         }
         WrongRow::new((number, shown), &header, &fields, errors)
     };
