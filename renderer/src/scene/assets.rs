@@ -214,17 +214,10 @@ pub fn mask(file: &Path, channel: Option<&str>) -> Result<(usize, Vec<f32>), Str
         let picture =
             portable_network::read_weights(file, alpha).map_err(|error| said(file, &error))?;
         let width = picture.width as usize;
-        let mut values: Vec<f32> = picture
-            .layers
-            .into_iter()
-            .flat_map(|layer| layer.data)
-            .collect();
-        let rows = values.len() / width.max(1);
-        for row in 0..rows / 2 {
-            let (low, high) = values.split_at_mut((rows - 1 - row) * width);
-            low[row * width..(row + 1) * width].swap_with_slice(&mut high[..width]);
-        }
-        return Ok((width, values));
+        let layers = picture.layers.into_iter();
+        let values: Vec<f32> = layers.flat_map(|layer| layer.data).collect();
+        let upwards = values.chunks(width.max(1)).rev();
+        return Ok((width, upwards.flatten().copied().collect()));
     }
     let picture = openexr::read_texture(file).map_err(|error| said(file, &error))?;
     let found = match channel {

@@ -9,7 +9,7 @@ use crate::material::model::Finish;
 use crate::scene::assets;
 use crate::scene::description::{FileMesh, Mesh, Shape};
 use crate::scene::model::Wanted;
-use crate::scene::plants::tube;
+use crate::scene::plants::stalk;
 
 /// What a mesh from a glTF file says of its own surface, as far as it is wanted.
 #[derive(Default)]
@@ -44,10 +44,7 @@ pub(crate) fn build_mesh(name: &str, shape: &Shape, wanted: Wanted) -> Result<Bu
         source,
     };
     let mesh = match shape {
-        Shape::Body(body) => {
-            let (positions, normals) = tube(body);
-            TriangleMesh::new(positions, Some(normals), None, body.triangles.clone())
-        }
+        Shape::Body(body) => stalk(body).into_mesh(),
         Shape::Mesh(Mesh::Rectangle(rectangle)) => rectangle.mesh(),
         Shape::Mesh(Mesh::Sphere(sphere)) => sphere.mesh(),
         Shape::Mesh(Mesh::Box(cuboid)) => cuboid.mesh(),
