@@ -193,8 +193,9 @@ impl Scatter {
         };
     }
 
-    /// Places for things on `ground`; what comes to rest lies on `others` too. `bodies` are the
-    /// shapes, of which each is drawn equally often.
+    /// Places for at most so many things on `ground`; what comes to rest lies on `others` too. `bodies`
+    /// are the shapes, of which each is drawn equally often. `at_rest` is called for each thing that has
+    /// come to rest, with the number of those that are wanted.
     ///
     /// # Errors
     ///
@@ -203,32 +204,13 @@ impl Scatter {
     /// # Panics
     ///
     /// If there is no body.
-    pub fn places(
-        &self,
-        ground: &Ground,
-        others: impl IntoIterator<Item = [DVec3; 3]>,
-        bodies: &[Body],
-    ) -> Result<Vec<Strewn>, ScatterError> {
-        self.places_told(ground, others, bodies, Most::UNBOUND, &|_| {})
-    }
-
-    /// As [`Scatter::places`], for at most so many things; `told` is called for each thing that has
-    /// come to rest, with the number of those that are wanted.
-    ///
-    /// # Errors
-    ///
-    /// As [`Scatter::places`].
-    ///
-    /// # Panics
-    ///
-    /// As [`Scatter::places`].
-    pub fn places_told(
+    pub fn places_up_to(
         &self,
         ground: &Ground,
         others: impl IntoIterator<Item = [DVec3; 3]>,
         bodies: &[Body],
         most: Most,
-        told: &dyn Fn(usize),
+        at_rest: &dyn Fn(usize),
     ) -> Result<Vec<Strewn>, ScatterError> {
         assert!(!bodies.is_empty(), "something is strewn");
         let rests = matches!(self.rest, Rest::Settled { .. });
@@ -283,7 +265,7 @@ impl Scatter {
                     let body = &bodies[shape];
                     match pile.settle(body, turn * scale, point.truncate(), gap) {
                         Ok((turn, at)) => {
-                            told(wanted);
+                            at_rest(wanted);
                             DAffine3::from_mat3_translation(turn, at - turn * body.middle())
                         }
                         Err(why) => {

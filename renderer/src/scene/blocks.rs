@@ -175,7 +175,7 @@ fn scene(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
         "Instruments, which `lamina instruments` reads out.",
     );
     if purpose == Purpose::Instruments {
-        tell_range(scene, keys);
+        set_range(scene, keys);
     }
     sections(scene, keys, purpose);
     if keys.reader().is_some() {
@@ -185,7 +185,7 @@ fn scene(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
 
 /// From here on spectra must cover what the instruments need, if they are what the scene is read
 /// for; `None` if there is none.
-fn tell_range(scene: &Authored, keys: &Keys<'_>) {
+fn set_range(scene: &Authored, keys: &Keys<'_>) {
     let Some(block) = keys.reader() else {
         return;
     };

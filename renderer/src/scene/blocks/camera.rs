@@ -56,7 +56,7 @@ fn perspective(camera: &mut Camera, keys: &mut Keys<'_>) {
     place(&mut camera.view, about, keys);
     let lens = lens(keys);
     let focus = focus(&lens, camera, keys);
-    // What does not fit together is told after what cannot stand alone.
+    // What does not fit together is reported after what cannot stand alone.
     let view = &mut camera.view;
     if !check_view(view, keys) {
         return;

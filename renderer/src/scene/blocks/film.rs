@@ -43,9 +43,9 @@ const KINDS: [Variant<Film>; 2] = [
                     range_nm: *range_nm,
                 };
                 keys.key("sensitivities", observer, kind, about);
-                tell_unseen(*range_nm, observer, keys);
+                warn_of_unseen(*range_nm, observer, keys);
             }
-            tell_range(film, keys);
+            set_range(film, keys);
         },
     },
     Variant {
@@ -68,7 +68,7 @@ const KINDS: [Variant<Film>; 2] = [
                     nm.";
                 keys.required("bands_nm", bands, Bands { width_nm }, about);
             }
-            tell_range(film, keys);
+            set_range(film, keys);
         },
     },
 ];
@@ -114,7 +114,7 @@ pub(super) fn film(film: &mut Film, keys: &mut Keys<'_>) {
 }
 
 /// Sets the wavelengths that the film needs, for all blocks read after it.
-fn tell_range(film: &Film, keys: &Keys<'_>) {
+fn set_range(film: &Film, keys: &Keys<'_>) {
     let Some(block) = keys.reader() else {
         return;
     };
@@ -133,7 +133,7 @@ fn tell_range(film: &Film, keys: &Keys<'_>) {
 }
 
 /// Warns of a film that leaves out much of what the eye sees.
-fn tell_unseen(range_nm: [f64; 2], observer: &Observer, keys: &Keys<'_>) {
+fn warn_of_unseen(range_nm: [f64; 2], observer: &Observer, keys: &Keys<'_>) {
     let given = keys
         .reader()
         .and_then(|block| Some((block.cx, block.node("range_nm")?)));

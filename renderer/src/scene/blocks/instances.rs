@@ -7,7 +7,7 @@
 //! - **Always true**: numbers are finite and in range, shapes are among the object's.
 //! - **Left out**: relations between rows. Instances may overlap.
 //!
-//! Rows are read on all threads. The first [`MOST_TOLD`] wrong rows are reported, the others are
+//! Rows are read on all threads. The first [`MOST_REPORTED`] wrong rows are reported, the others are
 //! only counted, so that reports stay short and fast for a million rows.
 
 mod columns;
@@ -31,7 +31,7 @@ use leafmodel::document::source::{Place, escaped};
 use leafmodel::document::value_kind::{FilePath, NamedFile, Word};
 
 /// Greatest number of wrong rows of a file that are reported one by one.
-const MOST_TOLD: usize = 20;
+const MOST_REPORTED: usize = 20;
 
 /// Greatest number of rows of a file, so that the picture's 32-bit layers can number them.
 const MOST_ROWS: usize = 1 << 24;
@@ -71,10 +71,12 @@ impl Rows {
         let found: Vec<Option<InstancePlace>> = found.collect();
         // The errors of the few that are reported are found again.
         let missing = rows.iter().zip(&found).filter(|(_, place)| place.is_none());
-        let errors = missing.take(MOST_TOLD).filter_map(|((number, row), _)| {
-            let errors = read(*row).err()?;
-            Some(wrong(*number, *row, errors))
-        });
+        let errors = missing
+            .take(MOST_REPORTED)
+            .filter_map(|((number, row), _)| {
+                let errors = read(*row).err()?;
+                Some(wrong(*number, *row, errors))
+            });
         Self {
             wrong: errors.collect(),
             wrong_count: found.iter().filter(|place| place.is_none()).count(),
@@ -206,9 +208,9 @@ impl<'a> Table<'a> {
                 cx.error(&place, error.clone());
             }
         }
-        let untold = rows.wrong_count - rows.wrong.len();
-        if untold > 0 {
-            let problem = format!("has {untold} more wrong rows after those that are shown");
+        let unshown = rows.wrong_count - rows.wrong.len();
+        if unshown > 0 {
+            let problem = format!("has {unshown} more wrong rows after those that are shown");
             self.refuse(cx, at, problem, "mend the program that wrote the file");
         }
         (rows.wrong_count == 0).then_some(())

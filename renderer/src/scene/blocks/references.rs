@@ -80,7 +80,7 @@ fn check_white_light(scene: &Authored, keys: &Keys<'_>) {
             known.extend(["sun", "sky"].map(|part| format!("{}.{part}", light.name)));
         }
     }
-    // That there is no light at all, is told already.
+    // That there is no light at all is reported already.
     if known.is_empty() || known.contains(name) {
         return;
     }

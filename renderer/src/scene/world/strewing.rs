@@ -158,7 +158,7 @@ impl<'a> Strewing<'a> {
         let before = self
             .at_rest
             .map_or(0, |[at_rest, _]| at_rest.load(Ordering::Relaxed));
-        let tell = |wanted: usize| {
+        let count = |wanted: usize| {
             if let Some([at_rest, all]) = self.at_rest {
                 all.store(before + wanted, Ordering::Relaxed);
                 at_rest.fetch_add(1, Ordering::Relaxed);
@@ -168,7 +168,7 @@ impl<'a> Strewing<'a> {
         let most = self.memory.most(parts * self.most_parts(object));
         let places = strewn
             .plan
-            .places_told(&ground, others, &bodies, most, &tell)?;
+            .places_up_to(&ground, others, &bodies, most, &count)?;
         let most = Most::UNBOUND;
         if places.len() * parts > most.things() {
             let wanted = (places.len() * parts) as f64;

@@ -365,7 +365,7 @@ mod tests {
     }
 
     #[test]
-    fn of_many_wrong_rows_the_first_are_told_and_the_others_counted() {
+    fn of_many_wrong_rows_the_first_are_reported_and_the_others_counted() {
         let text = "x_m y_m z_m shape\n".to_owned() + &"nan 0 inf d\n".repeat(100_000);
         let errors = read_all(&text).expect_err("all are wrong");
         assert_eq!(errors.len(), 20 * 3 + 1);

@@ -1,4 +1,4 @@
-//! `incident`: how much light there is, so that absorbed photons can be told.
+//! `incident`: how much light there is, so that absorbed photons can be counted.
 
 use leafmodel::document::declared::{Declared, Defaults};
 use leafmodel::document::keys::Keys;
@@ -82,7 +82,7 @@ impl Incident {
     }
 }
 
-/// Whether a spectrum is told from 400 to 700 nm.
+/// Whether a spectrum is known from 400 to 700 nm.
 pub(in crate::scene) fn covers_par(spectrum: &Spectrum) -> bool {
     let [first, last] = Incident::PAR_NM;
     match spectrum {

@@ -38,7 +38,7 @@ pub struct Sample {
     /// A round spot that is lit, instead of the whole object.
     #[key("spot", block)]
     pub spot: Option<Spot>,
-    /// Whether absorption is told by constituents of tissue.
+    /// Whether absorption is reported by constituents of tissue.
     #[key(default = false)]
     pub constituents: bool,
 }
