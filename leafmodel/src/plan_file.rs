@@ -32,7 +32,6 @@ mod leaf;
 mod mosaic;
 mod one_leaf;
 mod outline;
-mod pigments;
 mod plant;
 mod presets;
 mod solid;
@@ -45,7 +44,6 @@ use std::path::Path;
 
 pub use self::leaf::{leaf, usual_leaf};
 pub use self::one_leaf::{LeafFile, LeafNotChosen, load_one_leaf};
-pub use self::pigments::pigments;
 pub use self::plant::{plant, plant_preset, usual_plant};
 pub use self::presets::{colour_preset, leaf_preset};
 pub use self::solid::{held_contents, solid, usual_solid};

@@ -3,7 +3,6 @@
 use super::compound;
 use super::mosaic::{self, mosaic};
 use super::outline::{self, outline};
-use super::pigments::pigments;
 use super::solid::MAP_SIZE;
 use super::venation;
 use crate::blade::BladeForm;
@@ -111,7 +110,7 @@ fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, wanted: Wanted) {
     }
     tissue(plan, keys, wanted != Wanted::Veins);
     let about = "Which substances its pigments are.";
-    keys.block("pigments", about, |keys| pigments(&mut plan.pigments, keys));
+    keys.block("pigments", about, |keys| plan.pigments.declare(keys));
     let base = plan.tissue.lamina;
     let about = "Cells of several types.";
     keys.optional_block(

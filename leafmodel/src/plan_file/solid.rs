@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::mosaic::{self, mosaic};
-use super::pigments::pigments;
 use crate::document::assets::Triangles;
+use crate::document::declared::Declared;
 use crate::document::keys::{Keys, Variant};
 use crate::document::limits::Limits;
 use crate::document::named_asset::{asset, bad_file};
@@ -84,7 +84,7 @@ pub fn solid(plan: &mut SolidPlan, keys: &mut Keys<'_>) {
     }
     raised(plan, keys);
     let about = "Which substances its pigments are.";
-    keys.block("pigments", about, |keys| pigments(&mut plan.pigments, keys));
+    keys.block("pigments", about, |keys| plan.pigments.declare(keys));
     if keys.is_sound() {
         warn_of_mixed_cells(plan, keys);
     }

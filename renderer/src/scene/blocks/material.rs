@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use leafmodel::document::declared::Declared;
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
 use leafmodel::document::names::NameIn;
@@ -199,7 +200,7 @@ const MAP: &str = "A map of what it holds.";
 fn pigments_block(pigments: &mut Pigments, keys: &mut Keys<'_>) {
     let about = "Which substances its pigments are.";
     keys.block("pigments", about, |keys| {
-        plan_file::pigments(pigments, keys);
+        pigments.declare(keys);
     });
 }
 

@@ -8,6 +8,7 @@ use leafmodel::document::written::Extent;
 use leafmodel::mosaic::control::{ControlImage, CylinderControl, Steered};
 use leafmodel::mosaic::pattern::{LeafFaces, MosaicPattern};
 use leafmodel::mosaic::plan::{CellType, MosaicPlan};
+use leafmodel::optics::betalains::Betalains;
 use leafmodel::optics::solid::{SCATTERING_PER_MM, Solid as Tissue};
 use leafmodel::optics::{Constituent, Contents, PerConstituent, Pigments, Texel};
 use leafmodel::plan_file::leaf_to_toml;
@@ -123,7 +124,7 @@ proptest! {
                     over_mm: 2.0 * packaging,
                 }),
                 pigments: Pigments {
-                    betalain_packaging: packaging,
+                    betalains: Betalains { packaging, ..Betalains::default() },
                     ..Pigments::default()
                 },
                 map_size,
