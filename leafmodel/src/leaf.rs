@@ -52,7 +52,8 @@ use crate::compound::form::CompoundForm;
 use crate::development::DevelopmentError;
 use crate::document::declared::Declared;
 use crate::document::ranges::RangeError;
-use crate::mosaic::pattern::{MosaicPattern, PatternError};
+use crate::mosaic::pattern::MosaicPattern;
+use crate::not_grown::NotGrown;
 use crate::optics::Pigments;
 use crate::transport::TransportError;
 use crate::venation::VenationError;
@@ -160,7 +161,7 @@ pub enum LeafError {
     Blade(#[from] BladeError),
     /// The mosaic of its cells.
     #[error("mosaic: {0}")]
-    Mosaic(#[from] PatternError),
+    Mosaic(#[from] NotGrown),
     /// The tissue.
     #[error("tissue: {0}")]
     Tissue(#[from] RangeError),
@@ -254,8 +255,8 @@ impl Leaf {
     ///
     /// # Errors
     ///
-    /// [`LeafError::Blade`], [`LeafError::Mosaic`] (of
-    /// [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped) too), [`LeafError::Tissue`].
+    /// [`LeafError::Blade`], [`LeafError::Mosaic`] (when `is_stopped` says so,
+    /// too), [`LeafError::Tissue`].
     pub fn from_lamina_unless(
         plan: &LeafPlan,
         lamina: Lamina,

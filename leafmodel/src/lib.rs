@@ -83,6 +83,7 @@ pub mod leaf;
 pub mod measure;
 pub mod memory;
 pub mod mosaic;
+pub mod not_grown;
 mod numeric;
 pub mod optics;
 pub mod plan_file;

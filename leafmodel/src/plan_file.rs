@@ -25,16 +25,13 @@
 //!   scene.
 
 mod compound;
-mod control;
 mod development;
 mod growth_form;
 mod leaf;
-mod mosaic;
 mod one_leaf;
 mod outline;
 mod plant;
 mod presets;
-mod solid;
 mod specimen;
 #[cfg(test)]
 mod tests;
@@ -46,7 +43,6 @@ pub use self::leaf::{leaf, usual_leaf};
 pub use self::one_leaf::{LeafFile, LeafNotChosen, load_one_leaf};
 pub use self::plant::{plant, plant_preset, usual_plant};
 pub use self::presets::{colour_preset, leaf_preset};
-pub use self::solid::{held_contents, solid, usual_solid};
 use crate::blade::senescence::Senescence;
 use crate::document::assets::Assets;
 use crate::document::context::Context;

@@ -52,7 +52,7 @@ fn bodies_of_solid_tissue_are_planned_as_written() {
         semi_axes_mm: DVec3::new(x, y, z),
     };
     assert_eq!(melon.plan.shape, axes(115.0, 110.0, 100.0));
-    assert_eq!(solid(1).plan.shape, axes(20.0, 20.0, 20.0));
+    assert_eq!(solid(1).plan.shape, SolidShape::Sphere { radius_mm: 20.0 });
     assert_eq!(solid(1).optics.tissue.eta, solid(1).optics.coat.eta);
     let dice = SolidShape::RoundedCube {
         side_mm: 20.0,

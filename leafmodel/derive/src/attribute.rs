@@ -12,6 +12,8 @@ pub(crate) struct Key {
     pub(crate) value: Option<ValueKind>,
     /// `required`: it must be there, unless a preset lies beneath.
     pub(crate) is_required: bool,
+    /// `skip`: the variant is no kind of block.
+    pub(crate) is_skipped: bool,
     /// The first paragraph of the doc comment above it.
     pub(crate) sentence: String,
     /// `about = "…"`: its sentence, where it is another one.
@@ -138,6 +140,7 @@ fn key(attribute: &Attribute) -> Result<Key> {
             }
             other => match word(other).as_deref() {
                 Some("required") => key.is_required = true,
+                Some("skip") => key.is_skipped = true,
                 Some("block") => key.value = Some(ValueKind::Block),
                 Some("flat") => key.value = Some(ValueKind::Flat),
                 Some("word") => key.value = Some(ValueKind::Word),

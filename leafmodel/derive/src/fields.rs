@@ -43,9 +43,6 @@ pub(crate) fn of_field(field: &Field, place: &TokenStream) -> Result<TokenStream
 }
 
 fn of_key(field: &Field, key: &Key, place: &TokenStream) -> Result<TokenStream> {
-    if let (Some(with), None) = (&key.with, &key.name) {
-        return Ok(quote! { #with(self, keys); });
-    }
     let value = key.value.as_ref();
     if matches!(value, Some(ValueKind::Flat)) {
         let declare = key.with.as_ref().map_or_else(
@@ -53,6 +50,9 @@ fn of_key(field: &Field, key: &Key, place: &TokenStream) -> Result<TokenStream> 
             |with| quote! { #with },
         );
         return Ok(quote! { #declare(#place, keys); });
+    }
+    if let (Some(with), None) = (&key.with, &key.name) {
+        return Ok(quote! { #with(self, keys); });
     }
     let Some(name) = &key.name else {
         return Err(Error::new_spanned(

@@ -32,6 +32,7 @@
 //! | `degrees(…)` | the same of an angle, which is in radians in the program |
 //! | `word` | a word of an enum with `#[derive(Words)]` |
 //! | `block`, `list(most = …, wanted = …)` | a block of keys, a list of blocks |
+//! | `skip` | at a variant: it is no kind of block, but what there is without one |
 //! | `flat` | a struct whose keys lie in the block around it |
 //! | an expression | any other [`Kind`](super::value_kind::Kind) |
 //! | `required` | the key must be there, unless a preset lies beneath |

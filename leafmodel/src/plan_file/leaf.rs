@@ -1,9 +1,7 @@
 //! A leaf: the keys of a plan, and what belongs together in them.
 
 use super::compound;
-use super::mosaic::{self, mosaic};
 use super::outline::{self, outline};
-use super::solid::MAP_SIZE;
 use super::venation;
 use crate::blade::BladeForm;
 use crate::blade::hairs::HairPlan;
@@ -47,7 +45,7 @@ pub fn usual_leaf(length_mm: f64) -> LeafPlan {
         compound: None,
         damage: None,
         pigments: Pigments::default(),
-        map_size: MAP_SIZE,
+        map_size: 1024,
     }
 }
 
@@ -116,11 +114,9 @@ fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, wanted: Wanted) {
     keys.optional_block(
         "mosaic",
         &mut plan.mosaic,
-        mosaic::usual,
+        Default::default,
         about,
-        |pattern, keys| {
-            mosaic(pattern, keys, base);
-        },
+        |pattern, keys| pattern.keys(keys, base),
     );
     Layer::all(&mut plan.layers, keys);
     let about = "How its greens differ from place to place; left out, only by the mottle.";

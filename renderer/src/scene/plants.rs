@@ -11,8 +11,9 @@ use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::blade::surface::stomata::StomataPlan;
 use leafmodel::compound::WholeLeaf;
 use leafmodel::leaf::LeafPlan;
+use leafmodel::not_grown::NotGrown;
 use leafmodel::optics::solid::ReflectanceTable;
-use leafmodel::solid::{Solid, SolidError as GrowthError};
+use leafmodel::solid::Solid;
 use thiserror::Error;
 
 use self::parts::{LeafParts, MapParts, MeshParts, SurfaceParts};
@@ -46,7 +47,7 @@ pub struct GrownLeaf {
 pub enum SolidError {
     /// The plan cannot be carried out.
     #[error(transparent)]
-    Growth(#[from] GrowthError),
+    Growth(#[from] NotGrown),
     /// Its mesh is refused.
     #[error(transparent)]
     Mesh(#[from] MeshError),

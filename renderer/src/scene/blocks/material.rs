@@ -8,7 +8,8 @@ use leafmodel::document::limits::Limits;
 use leafmodel::document::names::NameIn;
 use leafmodel::document::value_kind::{FilePath, Number};
 use leafmodel::optics::{Contents, Pigments};
-use leafmodel::plan_file::{self, held_contents, require_prospect};
+use leafmodel::plan_file::{self, require_prospect};
+use leafmodel::solid::held_contents;
 
 use super::fluorescence::fluorescence;
 use super::leaf::{DARK_LAYERS, faces, impossible};

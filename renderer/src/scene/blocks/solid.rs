@@ -1,11 +1,13 @@
 //! `[solids.NAME]`: a body of solid tissue, and the optics that it shares with
 //! `[materials.NAME.solid]`.
 
+use leafmodel::document::declared::Declared;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::Number;
 use leafmodel::optics::solid::{ETA, SCATTERING_PER_MM, Solid as Tissue};
-use leafmodel::plan_file::{self, require_prospect, usual_solid};
+use leafmodel::plan_file::require_prospect;
+use leafmodel::solid::SolidPlan;
 
 use crate::scene::description::{Coat, Solid, SolidOptics};
 
@@ -36,7 +38,7 @@ impl Solid {
     /// A body with all defaults.
     pub(crate) fn usual() -> Self {
         Self {
-            plan: usual_solid(),
+            plan: SolidPlan::default(),
             optics: SolidOptics::usual(),
             extrapolate: false,
         }
@@ -50,7 +52,7 @@ pub(crate) fn solid(solid: &mut Solid, keys: &mut Keys<'_>) {
         solid.extrapolate = block.cx.extrapolate.get();
     }
     optics(&mut solid.optics, keys);
-    plan_file::solid(&mut solid.plan, keys);
+    solid.plan.declare(keys);
 }
 
 /// The keys of the optics of solid tissue.

@@ -79,9 +79,7 @@ fn pattern(held: Contents) -> MosaicPattern {
 
 fn shapes() -> impl Strategy<Value = SolidShape> {
     prop_oneof![
-        (1.0..100.0).prop_map(|radius| SolidShape::Ellipsoid {
-            semi_axes_mm: DVec3::splat(radius)
-        }),
+        (1.0..100.0).prop_map(|radius_mm| SolidShape::Sphere { radius_mm }),
         (1.0..100.0, 1.0..100.0, 1.0..100.0).prop_map(|(x, y, z)| SolidShape::Ellipsoid {
             semi_axes_mm: DVec3::new(x, y, z)
         }),
