@@ -31,7 +31,7 @@ use self::damage::Damage;
 pub use self::fields::Fields;
 pub use self::lamina::Lamina;
 pub use self::memory::LeafMemory;
-use self::outline_plan::{Contour, OutlinePlan, OutlinePlanError};
+use self::outline_plan::{Contour, OutlinePlan};
 pub use self::stages::LeafStage;
 use self::venation_plan::VenationPlan;
 use crate::blade::BladeForm;
@@ -49,13 +49,11 @@ use crate::blade::tissue::Tissue;
 use crate::blade::unevenness::Unevenness;
 use crate::blade::vein_field::VeinField;
 use crate::compound::form::CompoundForm;
-use crate::development::DevelopmentError;
 use crate::document::declared::Declared;
 use crate::document::ranges::RangeError;
 use crate::mosaic::pattern::MosaicPattern;
 use crate::not_grown::NotGrown;
 use crate::optics::Pigments;
-use crate::transport::TransportError;
 use crate::venation::VenationError;
 use crate::venation::arcuate::ArcuateError;
 
@@ -126,22 +124,19 @@ pub struct Leaf {
 pub enum LeafError {
     /// The outline.
     #[error("outline: {0}")]
-    Outline(#[from] OutlinePlanError),
+    Outline(#[source] NotGrown),
     /// Veins that grow towards auxin.
     #[error("venation: {0}")]
     Venation(#[from] VenationError),
     /// Veins that are splines.
     #[error("venation: {0}")]
     Arcuate(#[from] ArcuateError),
-    /// Veins of a transport leaf.
+    /// Veins of a transport leaf, or main veins that develop.
     #[error("venation: {0}")]
-    Cells(#[from] TransportError),
+    Cells(#[from] NotGrown),
     /// Veins of a transport leaf on another contour.
     #[error("venation: veins of the cells need the outline of a transport leaf")]
     NoCells,
-    /// Veins of a developed leaf.
-    #[error("venation: {0}")]
-    MainVeins(#[from] DevelopmentError),
     /// Veins of a developed leaf on another contour.
     #[error("venation: main veins that develop need the outline of a leaf that develops")]
     NotDeveloped,
@@ -161,7 +156,7 @@ pub enum LeafError {
     Blade(#[from] BladeError),
     /// The mosaic of its cells.
     #[error("mosaic: {0}")]
-    Mosaic(#[from] NotGrown),
+    Mosaic(#[source] NotGrown),
     /// The tissue.
     #[error("tissue: {0}")]
     Tissue(#[from] RangeError),
@@ -196,7 +191,7 @@ impl LeafPlan {
         }
         self.layers.iter().try_for_each(Layer::validate)?;
         if let Some(mosaic) = &self.mosaic {
-            mosaic.validate()?;
+            mosaic.validate().map_err(LeafError::Mosaic)?;
         }
         if let Some(surface) = &self.surface {
             surface.validate()?;

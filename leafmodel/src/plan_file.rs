@@ -25,14 +25,11 @@
 //!   scene.
 
 mod compound;
-mod development;
-mod growth_form;
 mod leaf;
 mod one_leaf;
 mod outline;
 mod plant;
 mod presets;
-mod specimen;
 #[cfg(test)]
 mod tests;
 mod venation;

@@ -2,9 +2,6 @@
 
 use std::fs;
 
-use super::development;
-use super::growth_form;
-use super::specimen;
 use crate::document::context::{Context, QUOTED};
 use crate::document::declared::Declared;
 use crate::document::encoding::decoded;
@@ -16,14 +13,13 @@ use crate::document::source::{Place, escaped};
 use crate::document::value_kind::{Numbers, Text};
 use crate::document::values::text_at;
 use crate::leaf::LeafPlan;
-use crate::leaf::outline_plan::{Contour, OutlinePlanError};
+use crate::leaf::outline_plan::Contour;
 use crate::shape::contour_curve::ContourCurve;
 use crate::shape::growth_form::GrowthForm;
-use crate::shape::outline::{Outline, OutlineError};
+use crate::shape::outline::Outline;
 use crate::shape::specimen::Specimen;
-use crate::shape::svg_path::{SvgContour, SvgError, SvgReading};
+use crate::shape::svg_path::{SvgContour, SvgReading};
 use crate::shape::teeth::ToothWave;
-use crate::transport::TransportError;
 use crate::variant;
 
 /// The kinds of contour.
@@ -173,7 +169,7 @@ fn read_svg(named: &SvgContour, keys: &Keys<'_>) -> Option<SvgContour> {
         });
     let parsed = text.and_then(|text| {
         let reading = SvgContour::read(path, &text, named.id.as_deref());
-        reading.map_err(|error| (error.to_string(), help(&error)))
+        reading.map_err(|error| (error.to_string(), error.help()))
     });
     match parsed {
         Ok(reading) => {
@@ -219,91 +215,13 @@ fn warn_of_guesses(cx: &Context, at: &Place, reading: &SvgReading) {
     }
 }
 
-fn help(error: &SvgError) -> &'static str {
-    match error {
-        SvgError::NotXml { .. } => "save it as plain SVG",
-        SvgError::NoPath => "draw the margin as one `<path>`, outside of `<defs>`",
-        SvgError::NoSuchPath { .. } => {
-            "look the path's `id` up in the file, or leave `id` out for the first path"
-        }
-        SvgError::BadAttribute { .. } => {
-            "mend the attribute, or save the file anew from a drawing program"
-        }
-        SvgError::SeveralParts { .. } => "keep one closed curve, or name another path by its `id`",
-        SvgError::TooLarge { .. } => "simplify the path",
-    }
-}
-
 /// The outline at a length of 1 mm, or a report of why there is none; `keys` are the leaf's.
 pub(super) fn tried(plan: &LeafPlan, keys: &Keys<'_>) -> Option<Outline> {
     match plan.outline.grow(1.0, plan.seed) {
         Ok(grown) => Some(grown),
         Err(error) => {
-            report(keys, &error);
+            error.report(keys);
             None
         }
     }
-}
-
-/// Reports an outline that each of its numbers allows and that is none all the same, at the key to
-/// change.
-fn report(keys: &Keys<'_>, error: &OutlinePlanError) {
-    let (path, help): (&[&str], _) = match error {
-        OutlinePlanError::Teeth(error) => (&["outline", "teeth"], specimen::teeth_help(error)),
-        OutlinePlanError::Specimen(error) => specimen::help(error),
-        OutlinePlanError::GrownInside { key, .. } => {
-            keys.refuse(
-                &["outline", key],
-                error.to_string(),
-                "leave it out, or take another contour, such as [leaves.NAME.outline.curve]",
-            );
-            return;
-        }
-        OutlinePlanError::Curve(_) => (
-            &["outline", "curve", "points"],
-            "give the points in order, so that the curve goes around the blade once",
-        ),
-        OutlinePlanError::SvgEnd { end, .. } => (
-            &["outline", "svg", end],
-            "name a point of the contour by its coordinates in the file, y down",
-        ),
-        OutlinePlanError::Svg {
-            problem: OutlineError::NoMidrib,
-            ..
-        } => (
-            &["outline", "svg", "apex"],
-            "name two different points, the foot of the midrib and its tip",
-        ),
-        OutlinePlanError::Svg { .. } => (
-            &["outline", "svg", "path"],
-            "draw one closed curve that does not cross itself",
-        ),
-        OutlinePlanError::Cubic(_) => (
-            &["outline", "cubic", "angle1_deg"],
-            "use shorter handles, or angles that lead away from the midrib",
-        ),
-        OutlinePlanError::Transport(error) => {
-            let help = match error {
-                TransportError::Range(_) => "use a lower revenue, or a larger cell",
-                TransportError::TooManyCells { .. } => {
-                    "use a lower revenue, a larger alpha, or allow more cells"
-                }
-                TransportError::Outline(_) | TransportError::TooFine { .. } => {
-                    "let the leaf grow larger"
-                }
-            };
-            (&["outline", "transport", "epsilon"], help)
-        }
-        OutlinePlanError::GrowthAlgorithm(error) => {
-            growth_form::report(keys, error);
-            return;
-        }
-        OutlinePlanError::Development(error) => {
-            development::report(keys, error);
-            return;
-        }
-        // Reported where the length is read.
-        OutlinePlanError::Length { .. } => (&["length_mm"], "use the length of a leaf"),
-    };
-    keys.refuse(path, error.to_string(), help);
 }

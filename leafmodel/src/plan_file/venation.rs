@@ -10,7 +10,7 @@ use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::Contour;
 use crate::leaf::venation_plan::VenationPlan;
 use crate::shape::outline::Outline;
-use crate::transport::{FilledPlan, TransportError};
+use crate::transport::FilledPlan;
 use crate::variant;
 use crate::venation::plan::{AuxinPlan, Pattern};
 use crate::venation::{self, VenationError};
@@ -93,12 +93,8 @@ pub(super) fn check(plan: &LeafPlan, outline: Option<&Outline>, keys: &Keys<'_>)
             }
         }
         VenationPlan::Transport(filled) => {
-            if let Some(Err(error @ TransportError::TooFine { .. })) =
-                outline.map(|outline| filled.check(outline))
-            {
-                let help = "use fewer cells along the midrib";
-                let path = ["venation", "transport", "cells_along"];
-                keys.refuse(&path, error.to_string(), help);
+            if let Some(Err(error)) = outline.map(|outline| filled.check(outline)) {
+                error.within("venation.transport").report(keys);
             }
         }
         VenationPlan::Cells(_) => {
