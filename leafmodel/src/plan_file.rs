@@ -27,7 +27,6 @@
 mod compound;
 mod leaf;
 mod one_leaf;
-mod outline;
 mod plant;
 mod presets;
 #[cfg(test)]
@@ -36,7 +35,7 @@ mod venation;
 
 use std::path::Path;
 
-pub use self::leaf::{leaf, usual_leaf};
+pub use self::leaf::leaf;
 pub use self::one_leaf::{LeafFile, LeafNotChosen, load_one_leaf};
 pub use self::plant::{plant, plant_preset, usual_plant};
 pub use self::presets::{colour_preset, leaf_preset};
@@ -206,7 +205,7 @@ fn file_of_leaves<T: From<LeafPlan>>(
         required: false,
         new: &|name: &str| Named {
             name: name.to_owned(),
-            value: T::from(usual_leaf(100.0)),
+            value: T::from(LeafPlan::of_length(100.0)),
         },
         name_of: |leaf: &Named<T>| &leaf.name,
     };
@@ -270,7 +269,7 @@ pub fn leaf_beside_preset(name: &str, plan: &LeafPlan, preset: &str) -> String {
         // As it will be read, of another length.
         let mut beneath = preset.plan();
         let before = beneath.length_mm;
-        leaf::follow_length(&mut beneath, before, plan.length_mm);
+        beneath.follow_length(before, plan.length_mm);
         written(&beneath, Extent::All)
     });
     let beside = found.and_then(|preset| written(plan, Extent::All).beside_preset(&preset));
@@ -320,7 +319,7 @@ fn written(plan: &LeafPlan, extent: Extent) -> Written {
     match extent {
         Extent::All => block,
         Extent::Changed => {
-            let mut usual = usual_leaf(plan.length_mm);
+            let mut usual = LeafPlan::of_length(plan.length_mm);
             let usual = Keys::write(extent, |keys| leaf(&mut usual, keys));
             block.without_defaults(&usual)
         }

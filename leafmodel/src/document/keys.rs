@@ -60,6 +60,8 @@ struct Reading<'p> {
     base: Option<Rc<str>>,
     /// Number of errors before this block.
     errors: usize,
+    /// Blocks inside this one that have errors.
+    broken: Vec<&'static str>,
     /// Whether unknown keys were already reported.
     is_judged: bool,
 }
@@ -86,6 +88,7 @@ impl<'p> Keys<'p> {
                 block,
                 base,
                 errors,
+                broken: Vec::new(),
                 is_judged: false,
             }),
         };
@@ -299,12 +302,16 @@ impl<'p> Keys<'p> {
     ) {
         match &mut self.pass {
             Pass::Read(reading) => {
+                let errors = reading.block.cx.error_count();
                 let inner = match required {
                     Some(kinds) if reading.base.is_none() => reading.block.block(name, kinds),
                     Some(_) | None => reading.block.optional_block(name),
                 };
                 if let Some(inner) = inner {
                     Self::read_within(inner, reading.base.clone(), declare);
+                }
+                if reading.block.cx.error_count() > errors {
+                    reading.broken.push(name);
                 }
             }
             Pass::Write { extent, block } => {

@@ -1,6 +1,8 @@
 //! What an outline is made from: one of several kinds of contour, and teeth on it.
 
 use crate::development::{DevelopedLeaf, DevelopmentPlan};
+use crate::document::declared::{Declared, Kinds};
+use crate::document::keys::{Keys, Variant};
 use crate::not_grown::{NotGrown, not_grown};
 use crate::shape::contour_curve::ContourCurve;
 use crate::shape::cubic_margin::CubicMargin;
@@ -11,16 +13,17 @@ use crate::shape::svg_path::SvgContour;
 use crate::shape::teeth::{TeethError, ToothWave, toothed};
 use crate::transport::{TransportLeaf, TransportPlan};
 
-/// Where the smooth contour comes from.
-#[derive(Clone, Debug, PartialEq)]
+/// What the margin is made from.
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub enum Contour {
     /// Local growth rates bring it forth.
     GrowthAlgorithm(GrowthForm),
-    /// A smooth curve through control points.
+    /// A smooth curve through points.
+    #[key(default = ContourCurve { points: Vec::new(), mirrored: true })]
     Curve(ContourCurve),
     /// A path of an SVG file.
     Svg(SvgContour),
-    /// Two cubic splines by their angles and lengths.
+    /// Two cubic splines.
     Cubic(CubicMargin),
     /// A leaf that grows as the cheapest transport network.
     Transport(TransportPlan),
@@ -28,15 +31,33 @@ pub enum Contour {
     Development(DevelopmentPlan),
 }
 
-/// Everything that decides an outline.
-#[derive(Clone, Debug, PartialEq)]
+/// A contour, teeth on it, and how it is bent.
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct OutlinePlan {
-    /// The contour without teeth.
-    pub contour: Contour,
-    /// Waves of teeth along it, at most 20; none is an entire margin.
+    /// Waves of teeth along the margin.
+    #[key(
+        "teeth",
+        list(
+            most = 20,
+            wanted = "a list of at most 20 waves, such as { per_side = 20, height = 0.02 }"
+        )
+    )]
     pub teeth: Vec<ToothWave>,
-    /// How the contour of a specimen departs from it: base, apex, unlike sides.
+    /// What makes the contour that of a specimen.
+    #[key(with = unbent)]
+    #[key(flat)]
     pub specimen: Specimen,
+    /// The smooth contour.
+    #[key(flat)]
+    pub contour: Contour,
+}
+
+/// Lets a contour of another kind than the preset's not be bent as that was.
+fn unbent(plan: &mut OutlinePlan, keys: &mut Keys<'_>) {
+    let is_other = |kind: &Variant<Contour>| keys.has(kind.name) && !(kind.is)(&plan.contour);
+    if Contour::KINDS.iter().any(is_other) {
+        plan.specimen = Specimen::default();
+    }
 }
 
 /// What an outline is the margin of.

@@ -10,18 +10,30 @@
 //! In SVG y points down: the base is the lowest point of the contour as one sees it, the apex the
 //! highest, unless both are given.
 
+use std::fs;
+
 use glam::DVec2;
 
 use super::cubic::FLATNESS;
 use super::drawing::{self, BadAttribute, Drawing, Shape};
 use super::outline::{Outline, OutlineError};
+use crate::document::context::{Context, QUOTED};
+use crate::document::declared::Declared;
+use crate::document::encoding::decoded;
+use crate::document::keys::Keys;
+use crate::document::limits::Limits;
+use crate::document::named_asset::bad_file;
+use crate::document::path::{Wanted, resolve};
+use crate::document::source::{Place, escaped};
+use crate::document::value_kind::{Numbers, Text};
+use crate::document::values::text_at;
 use crate::not_grown::{NotGrown, not_grown};
 
 /// Greatest number of corners of a polygon.
 const MOST_POINTS: usize = 1_000_000;
 
 /// A contour from an SVG file.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct SvgContour {
     /// Name of the file, as the plan gives it.
     pub file: String,
@@ -48,6 +60,108 @@ pub struct SvgReading {
     pub passed_over: usize,
     /// What else of the drawing is left out, unless a path was asked for by its `id`: a line per reason.
     pub left_out: Vec<String>,
+}
+
+impl Declared for SvgContour {
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        let contour = self;
+        // Coordinates of the file.
+        let place = || Numbers(Limits::closed(-1e9, 1e9));
+        let before = contour.clone();
+        let path = Text("the path of an SVG file");
+        keys.required("path", &mut contour.file, path, "The file.");
+        let about = "`id` of the path.";
+        keys.optional("id", &mut contour.id, Text("the `id` of a path"), about);
+        if keys.is_sound() && (contour.file != before.file || contour.id != before.id) {
+            *contour = read_svg(contour, keys).unwrap_or(before);
+        }
+        let [base, apex] = if contour.points.is_empty() {
+            [[0.0; 2]; 2]
+        } else {
+            SvgContour::ends_of(&contour.points)
+        };
+        for (key, end, usual, about) in [
+            (
+                "base",
+                &mut contour.base,
+                base,
+                "Where the petiole is attached, `[x, y]` in the coordinates of the file (y down).",
+            ),
+            ("apex", &mut contour.apex, apex, "Where the midrib ends."),
+        ] {
+            let mut given = (*end != usual).then_some(*end);
+            keys.optional(key, &mut given, place(), about);
+            *end = given.unwrap_or(usual);
+        }
+    }
+}
+
+fn read_svg(named: &SvgContour, keys: &Keys<'_>) -> Option<SvgContour> {
+    const WANTED: Wanted = Wanted {
+        endings: &["svg"],
+        most_bytes: 16 << 20,
+    };
+    let block = keys.reader()?;
+    let (path, at) = text_at(block.cx, block.node("path")?, "path")?;
+    let file = resolve(block.cx, path, at, WANTED)?;
+    let text = fs::read(file)
+        .map_err(|error| format!("cannot be read: {error}"))
+        .and_then(|bytes| {
+            let decoded = decoded(&bytes).map_err(|error| error.to_string())?;
+            Ok(decoded.text.into_owned())
+        })
+        .map_err(|problem| {
+            (
+                problem,
+                "make it a readable text file, in UTF-8 for example",
+            )
+        });
+    let parsed = text.and_then(|text| {
+        let reading = SvgContour::read(path, &text, named.id.as_deref());
+        reading.map_err(|error| (error.to_string(), error.help()))
+    });
+    match parsed {
+        Ok(reading) => {
+            warn_of_guesses(block.cx, at, &reading);
+            Some(reading.contour)
+        }
+        Err((problem, help)) => {
+            bad_file(block.cx, at, path, &problem, help);
+            None
+        }
+    }
+}
+
+/// Least gap between the ends of a path, as a share of its extent, that is no rounding.
+const GAP: f64 = 1e-3;
+
+/// Tells what was done to a drawing to have a contour.
+fn warn_of_guesses(cx: &Context, at: &Place, reading: &SvgReading) {
+    let path = escaped(&reading.contour.file, 2 * QUOTED);
+    if reading.passed_over > 0 {
+        let message = format!(
+            "\"{path}\" has {} paths that are drawn, of which the first is taken",
+            reading.passed_over + 1
+        );
+        let help = "name the margin's path by its `id`";
+        cx.warn(at, "scene::first_path", message, help);
+    }
+    if !reading.left_out.is_empty() {
+        let message = format!(
+            "of \"{path}\" the following is left out: {}",
+            escaped(&reading.left_out.join("; "), 8 * QUOTED)
+        );
+        let help = "name the margin's path by its `id` if another one is meant";
+        cx.warn(at, "scene::left_out_of_drawing", message, help);
+    }
+    if reading.gap > GAP {
+        let message = format!(
+            "the path in \"{path}\" is open; a straight line over {:.2} of its extent closes it",
+            reading.gap
+        );
+        let help = "close the path in the drawing program if the margin goes on there";
+        cx.warn(at, "scene::open_path", message, help);
+    }
 }
 
 impl SvgContour {

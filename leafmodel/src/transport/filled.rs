@@ -59,10 +59,7 @@ impl Default for FilledPlan {
             alpha: 0.6,
             beta: 0.5,
             cells_along: 80,
-            style: VeinStyle {
-                base_radius_mm: 0.6,
-                least_cells: 3,
-            },
+            style: VeinStyle::default(),
         }
     }
 }

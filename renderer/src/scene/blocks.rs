@@ -48,6 +48,7 @@ use leafmodel::document::sections::Names;
 use leafmodel::document::source::Place;
 use leafmodel::document::tree::Table;
 use leafmodel::document::value_kind::{FilePath, Flag, NamedFile, Text};
+use leafmodel::leaf::LeafPlan;
 use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 
 pub(crate) use self::solid::solid;
@@ -237,7 +238,7 @@ fn sections(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
         mesh::mesh,
     );
     let about = "Leaves that are grown.";
-    let new = || Leaf::from(plan_file::usual_leaf(100.0));
+    let new = || Leaf::from(LeafPlan::of_length(100.0));
     section(keys, "leaves", &mut scene.leaves, &new, about, leaf::leaf);
     let about = "Bodies of solid tissue.";
     section(
