@@ -2,7 +2,7 @@
 
 use super::checks::UNKNOWN;
 use super::{Keys, Pass, fresh};
-use crate::document::schema::{BlockSchema, EntrySchema, Group, Is};
+use crate::document::schema::{BlockSchema, Group, Is};
 
 /// One of several kinds that a value of type `T` can be, with the block that says so.
 #[derive(Debug)]
@@ -66,17 +66,7 @@ impl Keys<'_> {
                 }
                 Self::read_within(inner, below, |keys| (variant.declare)(value, keys));
             }
-            Pass::Write { extent, block } => {
-                if let Some(variant) = current {
-                    let inner = fresh(*extent, value, &mut (variant.new)(), &variant.declare);
-                    block.kind(variant.name, inner);
-                }
-            }
-            Pass::Check(ranges) => {
-                if let Some(variant) = current {
-                    Self::check_inside(ranges, variant.name, |keys| (variant.declare)(value, keys));
-                }
-            }
+            Pass::Write { .. } | Pass::Check(_) => self.current_kind(value, current),
             Pass::Describe(schema) => {
                 describe_variants(schema, variants);
                 schema.groups.push(Group {
@@ -110,18 +100,22 @@ impl Keys<'_> {
                     Self::read_within(inner, base, |keys| (variant.declare)(value, keys));
                 }
             }
-            Pass::Write { extent, block } => {
-                if let Some(variant) = current {
-                    let inner = fresh(*extent, value, &mut (variant.new)(), &variant.declare);
-                    block.kind(variant.name, inner);
-                }
-            }
-            Pass::Check(ranges) => {
-                if let Some(variant) = current {
-                    Self::check_inside(ranges, variant.name, |keys| (variant.declare)(value, keys));
-                }
-            }
+            Pass::Write { .. } | Pass::Check(_) => self.current_kind(value, current),
             Pass::Describe(schema) => describe_variants(schema, variants),
+        }
+    }
+
+    /// Writes or checks a value that is of a kind.
+    fn current_kind<T>(&mut self, value: &mut T, current: Option<&Variant<T>>) {
+        match (&mut self.pass, current) {
+            (Pass::Write { extent, block }, Some(variant)) => {
+                let inner = fresh(*extent, value, &mut (variant.new)(), &variant.declare);
+                block.kind(variant.name, inner);
+            }
+            (Pass::Check(ranges), Some(variant)) => {
+                Self::check_inside(ranges, variant.name, |keys| (variant.declare)(value, keys));
+            }
+            (_, None) | (Pass::Read(_) | Pass::Describe(_), _) => {}
         }
     }
 
@@ -190,13 +184,13 @@ impl Keys<'_> {
 
 fn describe_variants<T>(schema: &mut BlockSchema, variants: &[Variant<T>]) {
     for variant in variants {
-        schema.add(EntrySchema {
-            key: variant.name.to_owned(),
-            about: variant.about,
-            required: false,
-            is: Is::Block(Keys::describe(|keys| {
+        schema.entry(
+            variant.name,
+            variant.about,
+            false,
+            Is::Block(Keys::describe(|keys| {
                 (variant.declare)(&mut (variant.new)(), keys);
             })),
-        });
+        );
     }
 }

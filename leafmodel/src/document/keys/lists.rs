@@ -3,7 +3,7 @@
 use super::{Keys, Pass, fresh};
 use crate::document::names::require_name;
 use crate::document::reader::Block;
-use crate::document::schema::{BlockSchema, EntrySchema, Is};
+use crate::document::schema::{BlockSchema, Is};
 use crate::document::tree::{Node, Value};
 use crate::document::values::{wrong_length, wrong_type};
 use crate::document::written::Written;
@@ -88,16 +88,16 @@ impl Keys<'_> {
                 let of = list.is_inside_itself.then_some(BlockSchema::default());
                 let of =
                     of.unwrap_or_else(|| Self::describe(|keys| declare(&mut (list.new)(), keys)));
-                schema.add(EntrySchema {
-                    key: name.to_owned(),
+                schema.entry(
+                    name,
                     about,
-                    required: false,
-                    is: Is::List {
+                    false,
+                    Is::List {
                         of,
                         most: list.most,
                         again: list.is_inside_itself,
                     },
-                });
+                );
             }
         }
     }
@@ -161,14 +161,14 @@ impl Keys<'_> {
                     Self::check_inside(ranges, &path, |keys| declare(one, keys));
                 }
             }
-            Pass::Describe(schema) => schema.add(EntrySchema {
-                key: name.to_owned(),
+            Pass::Describe(schema) => schema.entry(
+                name,
                 about,
-                required: list.required,
-                is: Is::Named(Self::describe(|keys| {
+                list.required,
+                Is::Named(Self::describe(|keys| {
                     declare(&mut (list.new)("NAME"), keys);
                 })),
-            }),
+            ),
         }
     }
 }
