@@ -139,7 +139,7 @@ fn length(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
 fn margin(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
     let (kinds, outline) = (Contour::kinds(), &mut plan.outline);
     keys.required_block("outline", "The margin.", &kinds, |keys| {
-        outline.declare(keys)
+        outline.declare(keys);
     });
 }
 

@@ -176,14 +176,14 @@ pub struct Solid {
 
 /// An error of the shape.
 fn of_shape(error: ShapeError) -> NotGrown {
-    match error {
-        // A plan has no key for edges, so the error names triangles instead.
-        ShapeError::TooFine { triangles } => not_grown!(
+    // A plan has no key for edges, so the error names triangles instead.
+    if let ShapeError::TooFine { triangles } = error {
+        return not_grown!(
             "shape: it would take about {triangles:.0} triangles, too many: make the body less \
              slender, give its mosaic fewer cells, or raised tissue a wider slope"
-        ),
-        other => NotGrown::of("shape", other),
+        );
     }
+    NotGrown::of("shape", error)
 }
 
 /// An error of a part of the plan.

@@ -3,7 +3,6 @@
 use super::plan::{DevelopmentPlan, Wave};
 use crate::document::declared::Declared;
 use crate::not_grown::{NotGrown, not_grown};
-use crate::shape::outline::OutlineError;
 
 /// An error of a wave, at one of its keys or at all waves.
 pub(super) fn of_wave(error: NotGrown, wave: usize, key: &str, help: &'static str) -> NotGrown {
@@ -12,7 +11,7 @@ pub(super) fn of_wave(error: NotGrown, wave: usize, key: &str, help: &'static st
 }
 
 /// The error of a margin that is none.
-pub(super) fn no_margin(error: OutlineError) -> NotGrown {
+pub(super) fn no_margin(error: impl std::fmt::Display) -> NotGrown {
     bent(not_grown!(
         "the leaf develops a margin that is none: {error}"
     ))

@@ -204,7 +204,7 @@ impl OutlinePlan {
             })?,
             Contour::Svg(contour) => contour
                 .grow(length_mm)
-                .map_err(|problem| refused(contour, problem))?,
+                .map_err(|problem| refused(contour, &problem))?,
             Contour::Cubic(margin) => margin.grow(length_mm).map_err(|error| {
                 let help = "use shorter handles, or angles that lead away from the midrib";
                 NotGrown::because(error).mend("outline.cubic.angle1_deg", help)
@@ -244,10 +244,10 @@ impl OutlinePlan {
 }
 
 /// The error of a path that is no margin.
-fn refused(contour: &SvgContour, problem: OutlineError) -> NotGrown {
+fn refused(contour: &SvgContour, problem: &OutlineError) -> NotGrown {
     let file = &contour.file;
     if let OutlineError::OffBlade { end, .. } = problem {
-        let [x, y] = if end == "base" {
+        let [x, y] = if *end == "base" {
             contour.base
         } else {
             contour.apex
@@ -257,15 +257,16 @@ fn refused(contour: &SvgContour, problem: OutlineError) -> NotGrown {
         let help = "name a point of the contour by its coordinates in the file, y down";
         return error.mend(&format!("outline.svg.{end}"), help);
     }
-    let (path, help) = match problem {
-        OutlineError::NoMidrib => (
+    let (path, help) = if *problem == OutlineError::NoMidrib {
+        (
             "outline.svg.apex",
             "name two different points, the foot of the midrib and its tip",
-        ),
-        _ => (
+        )
+    } else {
+        (
             "outline.svg.path",
             "draw one closed curve that does not cross itself",
-        ),
+        )
     };
     not_grown!("\"{file}\" holds a path that is no margin: {problem}").mend(path, help)
 }

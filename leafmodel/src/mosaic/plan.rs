@@ -167,10 +167,7 @@ impl MosaicPlan {
             kind.validate(count)?;
         }
         let initial = self.types.iter().map(|kind| kind.initial_probability);
-        sums_to_one(
-            "the initial probabilities of the types".into(),
-            initial.sum(),
-        )?;
+        sums_to_one("the initial probabilities of the types", initial.sum())?;
         self.adhesion_is_symmetric()?;
         if let Some(growth) = &self.growth {
             growth.in_range()?;
@@ -318,13 +315,13 @@ impl CellType {
         }
         let sum = self.switching.iter().sum();
         sums_to_one(
-            format!("the switching probabilities of type \"{name}\""),
+            &format!("the switching probabilities of type \"{name}\""),
             sum,
         )
     }
 }
 
-fn sums_to_one(field: String, sum: f64) -> Result<(), NotGrown> {
+fn sums_to_one(field: &str, sum: f64) -> Result<(), NotGrown> {
     if (sum - 1.0).abs() <= TOLERANCE {
         return Ok(());
     }

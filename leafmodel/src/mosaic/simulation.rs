@@ -416,5 +416,5 @@ impl<'a> Run<'a> {
 /// A surface at another size, from the origin.
 fn scaled(surface: &Surface, size: DVec3) -> Result<Surface, NotGrown> {
     let positions = surface.positions().iter().map(|at| *at * size).collect();
-    Ok(surface.moved(positions)?)
+    surface.moved(positions)
 }

@@ -5,7 +5,6 @@ use crate::document::keys::Keys;
 use crate::document::ranges::RangeError;
 use crate::document::value_kind::{Flag, Integer};
 use crate::not_grown::{NotGrown, not_grown};
-use crate::shape::outline::OutlineError;
 
 /// The steps in which the revenue `ε` rises (Definition 3.5 leaves them open).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,7 +113,7 @@ fn ladder(plan: &mut TransportPlan, keys: &mut Keys<'_>) {
 const STEPS: u32 = 80;
 
 /// The error of cells that have no margin.
-pub(super) fn no_outline(error: OutlineError) -> NotGrown {
+pub(super) fn no_outline(error: impl std::fmt::Display) -> NotGrown {
     let error = not_grown!("no outline comes of the cells: {error}");
     error.mend("epsilon", "let the leaf grow larger")
 }

@@ -134,10 +134,12 @@ pub(super) fn image(image: &mut ControlImage, keys: &mut Keys<'_>) {
             }
             keys.required_block(name, kind.about, &[], |keys| (kind.declare)(image, keys));
         } else {
-            let mut value = match *image {
-                ControlImage::Constant(value) if !is_new => value,
-                _ => 0.0,
-            };
+            let mut value = 0.0;
+            if let ControlImage::Constant(current) = image
+                && !is_new
+            {
+                value = *current;
+            }
             let limits = Number(Limits::closed(0.0, 1.0));
             keys.required("constant", &mut value, limits, "The same value everywhere.");
             *image = ControlImage::Constant(value);

@@ -24,9 +24,9 @@ fn only<const N: usize>(index: usize) -> [f64; N] {
 fn aglycones(shares: [f64; 6], shift_nm: f64, blue_fraction: f64) -> Pigments {
     Pigments {
         anthocyanins: Some(AnthocyaninMix {
-            shares,
             shift_nm,
             blue_fraction,
+            shares,
         }),
         ..Pigments::default()
     }

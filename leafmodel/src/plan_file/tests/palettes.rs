@@ -37,9 +37,9 @@ pub(super) fn pigments() -> impl Strategy<Value = Pigments> {
         shares().prop_map(|shares| Some(CarotenoidMix::bands(shares))),
         (shares(), -1500.0..0.0, factor()).prop_map(|(shares, shift_per_cm, packaging)| {
             Some(CarotenoidMix {
-                shares,
                 shift_per_cm,
                 packaging,
+                shares,
             })
         }),
     ];
@@ -52,9 +52,9 @@ pub(super) fn pigments() -> impl Strategy<Value = Pigments> {
         Just(None),
         (aglycones, numbers).prop_map(|(shares, (shift_nm, blue_fraction))| {
             Some(AnthocyaninMix {
-                shares,
                 shift_nm,
                 blue_fraction,
+                shares,
             })
         }),
     ];
