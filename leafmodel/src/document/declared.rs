@@ -85,6 +85,15 @@ pub trait Kinds: Sized + 'static {
 pub trait Words: Sized + 'static {
     /// The words and what they are.
     const WORDS: &'static [(&'static str, Self)];
+
+    /// The word for this one.
+    fn word(&self) -> &'static str
+    where
+        Self: PartialEq,
+    {
+        let found = Self::WORDS.iter().find(|(_, one)| one == self);
+        found.map_or("", |(word, _)| word)
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! `venation`: how the veins of a leaf come to be.
 
-mod architecture;
 mod auxin;
 
 use self::auxin::report;
