@@ -24,33 +24,13 @@ pub enum ImportError {
         /// What was looked for.
         wanted: &'static str,
     },
-    /// A value cannot be read.
-    #[error("{place}: {key} is {value}; {allowed}")]
-    BadValue {
-        /// Where it stands: a line, a node, a feature.
+    /// Something of it cannot be read, or is missing.
+    #[error("{place}: {problem}")]
+    At {
+        /// Where it is or should be: a line, a node, a feature.
         place: String,
-        /// Its name.
-        key: String,
-        /// What stands there.
-        value: String,
-        /// What may stand there.
-        allowed: &'static str,
-    },
-    /// Something that is needed is not there.
-    #[error("{place}: {wanted}")]
-    Missing {
-        /// Where it should stand.
-        place: String,
-        /// What is missing.
-        wanted: String,
-    },
-    /// Two nodes have one name.
-    #[error("{place}: two nodes are called {name}")]
-    NameTwice {
-        /// Where the second stands.
-        place: String,
-        /// The name.
-        name: String,
+        /// What is wrong there.
+        problem: String,
     },
     /// Lengths without a unit, and no scale.
     #[error(
@@ -82,4 +62,31 @@ pub enum ImportError {
         /// What is wrong with it.
         problem: String,
     },
+}
+
+impl ImportError {
+    pub(super) fn at(place: impl Into<String>, problem: impl Into<String>) -> Self {
+        let (place, problem) = (place.into(), problem.into());
+        Self::At { place, problem }
+    }
+
+    /// A value that cannot be read, and what may stand there.
+    pub(super) fn bad_value(
+        place: impl Into<String>,
+        key: &str,
+        value: &str,
+        allowed: &str,
+    ) -> Self {
+        Self::at(place, format!("{key} is {value}; {allowed}"))
+    }
+
+    pub(super) fn malformed(format: &'static str, problem: impl Into<String>) -> Self {
+        let problem = problem.into();
+        Self::Malformed { format, problem }
+    }
+
+    pub(super) fn bad_margin(problem: impl Into<String>) -> Self {
+        let problem = problem.into();
+        Self::BadMargin { problem }
+    }
 }

@@ -3,7 +3,7 @@
 use crate::document::source::quoted;
 use glam::DVec2;
 
-use super::draft::{ABSENT, Draft};
+use super::draft::{ABSENT, Draft, Units};
 use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
 use super::{courses, margins, repair, roots};
@@ -44,11 +44,6 @@ pub struct Imported {
 }
 
 impl Draft {
-    /// Whether lengths stand in it without a unit.
-    pub fn lacks_unit(&self) -> bool {
-        self.places_lack_unit || self.radii_lack_unit
-    }
-
     /// The same with this margin instead of the file's own.
     pub fn within(self, outline: Outline) -> Self {
         Self {
@@ -225,26 +220,29 @@ impl Draft {
 
     /// Lengths in millimetres, y up.
     fn scale(&mut self, wanted: &Wanted) -> Result<(), ImportError> {
-        let factor = |lacks: bool, has: bool, what| match (lacks, has, wanted.mm_per_unit) {
+        let factor = |units: Units, given: Option<f64>, what| match (
+            units.some_lack,
+            units.some_have,
+            given,
+        ) {
             (true, true, _) => Err(ImportError::MixedUnits { what }),
             (false, ..) => Ok(1.0),
             (true, false, Some(factor)) => Ok(factor),
             (true, false, None) => Err(ImportError::NoScale { what }),
         };
-        let places = factor(self.places_lack_unit, self.places_have_unit, "places")?;
-        let radii = factor(self.radii_lack_unit, self.radii_have_unit, "radii")?;
+        let places = factor(self.place_units, wanted.mm_per_unit, "places")?;
+        let radii = factor(self.radius_units, wanted.mm_per_unit, "radii")?;
         let turn = if self.is_y_down || wanted.y_down {
             -1.0
         } else {
             1.0
         };
-        let lengths = match (self.lengths_lack_unit, self.lengths_have_unit) {
-            (true, true) => return Err(ImportError::MixedUnits { what: "lengths" }),
-            // Without a unit of their own they have that of the places.
-            (true, false) if self.places_lack_unit => places,
-            (true, false) => self.place_mm.unwrap_or(1.0),
-            (false, _) => 1.0,
+        let of_places = if self.place_units.some_lack {
+            places
+        } else {
+            self.place_mm.unwrap_or(1.0)
         };
+        let lengths = factor(self.length_units, Some(of_places), "lengths")?;
         for length in self.lengths.values_mut() {
             *length *= lengths;
         }
@@ -366,12 +364,8 @@ fn with_orders(network: &VenationNetwork) -> Result<VenationNetwork, ImportError
     for (edge, order) in edges.iter_mut().zip(found.edges) {
         edge.order = order.max(1);
     }
-    VenationNetwork::from_parts(network.nodes().to_vec(), edges, segment_mm).map_err(|error| {
-        ImportError::Malformed {
-            format: "network",
-            problem: error.to_string(),
-        }
-    })
+    VenationNetwork::from_parts(network.nodes().to_vec(), edges, segment_mm)
+        .map_err(|error| ImportError::malformed("network", error.to_string()))
 }
 
 /// Faults that a valid network can have.

@@ -70,12 +70,8 @@ pub(super) fn turned(
         born: draft.born.get(old as usize).copied().unwrap_or(0),
     });
     let edges = turned.vein_edges(segment_mm);
-    VenationNetwork::from_parts(nodes.collect(), edges, segment_mm).map_err(|error| {
-        ImportError::Malformed {
-            format: "network",
-            problem: error.to_string(),
-        }
-    })
+    VenationNetwork::from_parts(nodes.collect(), edges, segment_mm)
+        .map_err(|error| ImportError::malformed("network", error.to_string()))
 }
 
 /// A node of each part of a network in which there is no origin.

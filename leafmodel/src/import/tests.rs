@@ -182,7 +182,8 @@ fn node_link_lists_and_lines_of_maps_are_read() {
     assert!(
         read(Format::Json, lists, None)
             .expect("well-formed")
-            .lacks_unit()
+            .place_units
+            .some_lack
     );
     let read = imported(Format::Json, &lists.replace("\"pos\": [0, 5], ", ""));
     assert!((read.network.edges()[0].radius_from - 0.04).abs() < 1e-15);
