@@ -11,7 +11,7 @@ use crate::leaf::venation_plan::VenationPlan;
 use crate::shape::outline::Outline;
 use crate::transport::{FilledBlade, TransportLeaf};
 use crate::venation::network::VenationNetwork;
-use crate::venation::{self, grow_around, grow_unless};
+use crate::venation::{self, grow_around};
 
 /// A leaf before it is bent. Lengths are millimetres; the base is the origin, the midrib goes along
 /// +y.
@@ -86,13 +86,12 @@ impl LeafPlan {
         let (outline, origin) = self.outline.grow_with_origin(self.length_mm, self.seed)?;
         let mut filled = None;
         let network = match &self.venation {
-            VenationPlan::Auxin(plan) => match origin.developed() {
-                Some(leaf) => {
-                    let main = leaf.network(self.length_mm, MainVeinStyle::default())?;
-                    grow_around(&outline, plan, &main, self.seed, is_stopped)?
-                }
-                None => grow_unless(&outline, plan, self.seed, is_stopped)?,
-            },
+            VenationPlan::Auxin(plan) => {
+                let of_leaf =
+                    |leaf: &DevelopedLeaf| leaf.network(self.length_mm, MainVeinStyle::default());
+                let main = origin.developed().map(of_leaf).transpose()?;
+                grow_around(&outline, plan, main.as_ref(), self.seed, is_stopped)?
+            }
             VenationPlan::Arcuate(plan) => match self.outline.plain_cubic() {
                 Some(margin) => plan.network_within(margin, self.length_mm)?,
                 None => plan.network(&outline)?,

@@ -10,7 +10,7 @@ use crate::shape::outline::Outline;
 use crate::transport::{FilledBlade, Ladder, TransportLeaf, VeinStyle};
 use crate::venation::network::VenationNetwork;
 use crate::venation::plan::{AuxinPlan, Growth};
-use crate::venation::{Stage, grow_stages, grow_stages_around};
+use crate::venation::{Stage, grow_stages};
 
 /// Margin and veins at one time of growth, true to the size they have then, mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,7 +60,7 @@ impl LeafPlan {
         };
         Ok(match self.growing(lamina)? {
             Growing::Auxin(plan) => {
-                let stages = grow_stages(outline, plan, self.seed, steps)?;
+                let stages = grow_stages(outline, plan, None, self.seed, steps)?;
                 let stages = stages.into_iter();
                 let stage = |stage: Stage| LeafStage {
                     outline: stage.outline,
@@ -100,7 +100,7 @@ impl LeafPlan {
             .iter()
             .filter_map(|&step| step.checked_sub(leaf.step()));
         let later: Vec<u32> = std::iter::once(0).chain(later).collect();
-        let finer = grow_stages_around(outline, plan, &main, self.seed, &later)?;
+        let finer = grow_stages(outline, plan, Some(&main), self.seed, &later)?;
         let mut finer = finer.into_iter();
         // Main veins are as wide at the end of the development as at the start of the net.
         let first = finer

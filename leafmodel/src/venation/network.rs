@@ -12,6 +12,7 @@ use glam::DVec2;
 use thiserror::Error;
 
 use super::conformal_map::ConformalMap;
+use crate::numeric::Sets;
 
 /// Greatest x and y of a node of an external network, mm: one kilometre.
 pub(crate) const FARTHEST_MM: f64 = 1e6;
@@ -244,24 +245,10 @@ impl VenationNetwork {
 
     /// Number of connected components, ≥ 1.
     pub fn components(&self) -> usize {
-        let mut leaders: Vec<u32> = (0..self.nodes.len() as u32).collect();
-        let find = |leaders: &mut Vec<u32>, mut node: u32| {
-            while leaders[node as usize] != node {
-                let next = leaders[leaders[node as usize] as usize];
-                leaders[node as usize] = next;
-                node = next;
-            }
-            node
-        };
-        let mut components = self.nodes.len();
-        for edge in &self.edges {
-            let (from, to) = (find(&mut leaders, edge.from), find(&mut leaders, edge.to));
-            if from != to {
-                leaders[from.max(to) as usize] = from.min(to);
-                components -= 1;
-            }
-        }
-        components
+        let mut sets = Sets::new(self.nodes.len());
+        let joints = self.edges.iter();
+        let joints = joints.filter(|edge| sets.join(edge.from, edge.to).is_some());
+        self.nodes.len() - joints.count()
     }
 
     /// Number of independent loops: edges − nodes + components. If veins do not cross, it is the
