@@ -10,6 +10,7 @@
 pub(crate) mod distances;
 mod first_crossing;
 mod interior_grid;
+mod lattice;
 pub(crate) mod polygon;
 pub(crate) mod polyline;
 pub(crate) mod segment;
@@ -19,6 +20,7 @@ use glam::DVec2;
 
 pub(crate) use self::first_crossing::first_crossing;
 pub(crate) use self::interior_grid::InteriorGrid;
+pub(crate) use self::lattice::Lattice;
 pub(crate) use self::slabs::Slabs;
 
 /// Twice the signed area of a triangle: positive if it is counter-clockwise.
