@@ -79,12 +79,7 @@ pub(super) fn in_millimetres(
     };
     let wanted = settings.base_px.or_else(|| {
         let place_px = blade.centre(joint?);
-        let kind = FindingKind::Petiole;
-        let place = Some(place_px);
-        findings.push(Finding {
-            kind,
-            place_px: place,
-        });
+        findings.push(Finding::at(place_px, FindingKind::Petiole));
         Some(place_px)
     });
     let wanted = wanted.unwrap_or_else(|| {
@@ -96,12 +91,7 @@ pub(super) fn in_millimetres(
             let place = widest_at_margin(&lines.veins, &margin);
             (place, "where the widest vein meets the margin")
         };
-        let kind = FindingKind::BaseGuessed { by };
-        let place = Some(place_px);
-        findings.push(Finding {
-            kind,
-            place_px: place,
-        });
+        findings.push(Finding::at(place_px, FindingKind::BaseGuessed { by }));
         place_px
     });
     let base = polygon::nearest(&margin, wanted).at;
@@ -110,14 +100,12 @@ pub(super) fn in_millimetres(
         let Some(given) = given else { continue };
         let off = polygon::nearest(&margin, given).at.distance(given);
         if off > FAR_OFF * extent {
-            findings.push(Finding {
-                kind: FindingKind::Moved {
-                    end,
-                    by_mm: off * settings.mm_per_pixel,
-                    is_outside: !blade.cells[blade.cell_at(given)],
-                },
-                place_px: Some(given),
-            });
+            let moved = FindingKind::Moved {
+                end,
+                by_mm: off * settings.mm_per_pixel,
+                is_outside: !blade.cells[blade.cell_at(given)],
+            };
+            findings.push(Finding::at(given, moved));
         }
     }
     let apex = match (settings.apex_px, &settings.blade) {
@@ -428,12 +416,9 @@ fn roots(veins: &Veins, frame: &Frame, findings: &mut Vec<Finding>) -> Vec<u32> 
     for (number, (_, root)) in nearest.into_iter().enumerate() {
         if number != longest {
             roots.push(root);
-            findings.push(Finding {
-                kind: FindingKind::Apart {
-                    length_mm: lengths[number] * frame.mm_per_pixel,
-                },
-                place_px: Some(veins.nodes[root as usize]),
-            });
+            let length_mm = lengths[number] * frame.mm_per_pixel;
+            let place = veins.nodes[root as usize];
+            findings.push(Finding::at(place, FindingKind::Apart { length_mm }));
         }
     }
     roots

@@ -72,6 +72,15 @@ impl Raster {
         }
     }
 
+    /// The same pixels, each with the value made from its number and its old value.
+    pub(super) fn each(&self, value: impl Fn(usize, f32) -> f32 + Sync) -> Self {
+        self.mapped(|y, from, to| {
+            for ((at, to), &from) in (y * self.width..).zip(to).zip(from) {
+                *to = value(at, from);
+            }
+        })
+    }
+
     /// The value at a place in pixels, between four pixel centres; the nearest outside of them.
     pub(super) fn at(&self, place: DVec2) -> f64 {
         let last = DVec2::new(self.width as f64 - 1.0, self.height as f64 - 1.0);

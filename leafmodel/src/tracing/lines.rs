@@ -161,11 +161,7 @@ fn tell_thin(
         }
     }
     if length > 0.0 {
-        findings.push(Finding {
-            kind: FindingKind::Thin {
-                length_mm: length * settings.mm_per_pixel,
-            },
-            place_px: Some(thinnest.1),
-        });
+        let length_mm = length * settings.mm_per_pixel;
+        findings.push(Finding::at(thinnest.1, FindingKind::Thin { length_mm }));
     }
 }
