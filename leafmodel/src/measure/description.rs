@@ -58,7 +58,7 @@ const MANY: usize = 6;
 const UNEVEN: f64 = 1.3;
 
 /// What is found on a grown leaf.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Description {
     /// How the primaries run; none without veins.
     pub primaries: Option<PrimaryPattern>,
@@ -199,25 +199,10 @@ impl Description {
         let found = areoles(network);
         let accompanied_margin = marginal::accompanied(margin, outline, network);
         Self {
-            primaries: None,
-            lateral_primaries: 0,
-            part_at: None,
-            midrib_over_chord: None,
-            secondaries: [0, 0],
-            angles_deg: [None; 3],
-            ending: None,
-            in_teeth: None,
-            are_straight: None,
-            spacing: None,
-            spacing_cv: None,
-            intersecondaries: None,
-            attachment: None,
-            agrophic: Agrophic::Absent,
-            tertiaries: Percurrence::default(),
-            quaternaries: Percurrence::default(),
             net: Net::new(outline, &found),
             accompanied_margin,
             marginal: marginal::venation(accompanied_margin, outline, &found),
+            ..Self::default()
         }
     }
 

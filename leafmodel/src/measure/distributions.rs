@@ -31,15 +31,19 @@ impl Subject<'_> {
     /// junction. Branches are of a finer order than that vein; where orders are not known, all but
     /// the straightest.
     pub fn distributions(&self) -> Vec<Sample> {
+        let of_length = |kind, value, place| Sample {
+            kind,
+            order: None,
+            value,
+            unit: "mm",
+            place,
+        };
         let mut samples = Vec::new();
         for areole in self.found.iter() {
             let mut add = |kind, value, unit| {
                 samples.push(Sample {
-                    kind,
-                    order: None,
-                    value,
                     unit,
-                    place: areole.centroid,
+                    ..of_length(kind, value, areole.centroid)
                 });
             };
             add("areole_area", areole.area_mm2, "mm²");
@@ -53,22 +57,14 @@ impl Subject<'_> {
             .free_endings()
             .filter(|ending| ending.areole.is_some())
         {
-            samples.push(Sample {
-                kind: "free_ending_length",
-                order: None,
-                value: ending.length_mm,
-                unit: "mm",
-                place: ending.tip,
-            });
+            samples.push(of_length(
+                "free_ending_length",
+                ending.length_mm,
+                ending.tip,
+            ));
         }
         for (place, value) in self.distances() {
-            samples.push(Sample {
-                kind: "vein_distance",
-                order: None,
-                value,
-                unit: "mm",
-                place,
-            });
+            samples.push(of_length("vein_distance", value, place));
         }
         samples
     }

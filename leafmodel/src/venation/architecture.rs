@@ -169,9 +169,10 @@ impl SecondaryEnding {
 
 /// Which secondaries bear agrophic veins: a comb of two or more veins that leave a basal secondary
 /// on its outer side and run beside each other towards the margin.
-#[derive(Clone, Copy, Debug, Eq, PartialEq, Words)]
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq, Words)]
 pub enum Agrophic {
     /// None of them.
+    #[default]
     Absent,
     /// The lowest of each side.
     Simple,
