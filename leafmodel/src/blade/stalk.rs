@@ -8,6 +8,8 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
+use crate::plane::polyline;
+
 /// How far the sides of a tube may lie inside the round stalk that they approximate, mm.
 const SAGITTA_MM: f64 = 0.01;
 /// Least and greatest number of sides.
@@ -92,7 +94,7 @@ impl StalkMesh {
         let around = (2.0 * PI * widest / edge_mm).ceil() as usize;
         let sides = around.clamp(sides(widest), MOST_SIDES);
         let mut tube = Self::of_sides(&points, &radii, sides)?;
-        let lengths = lengths(&points);
+        let lengths = polyline::lengths(&points);
         // Behind a pole and the rings of the first hemisphere.
         let first = 1 + (rings_of_cap(sides) - 1) * sides;
         for (ring, ((&middle, &radius), &way)) in
@@ -125,7 +127,7 @@ impl StalkMesh {
 
     fn of_sides(points: &[DVec3], radii_mm: &[f64], sides: usize) -> Result<Self, StalkError> {
         let tangents = tangents(points, radii_mm)?;
-        let lengths = lengths(points);
+        let lengths = polyline::lengths(points);
         let last = points.len() - 1;
         let whole = lengths[last];
         let mut tube = Self::default();
@@ -244,15 +246,6 @@ fn widest(radii_mm: &[f64]) -> f64 {
 /// Rings of a hemisphere from its pole to the tube, which has the last one.
 fn rings_of_cap(sides: usize) -> usize {
     (sides / 4).max(2)
-}
-
-/// How far each point is from the first, along the polyline.
-fn lengths(points: &[DVec3]) -> Vec<f64> {
-    let mut lengths = vec![0.0];
-    for pair in points.windows(2) {
-        lengths.push(lengths[lengths.len() - 1] + pair[0].distance(pair[1]));
-    }
-    lengths
 }
 
 /// A smooth line through the points with pieces of at most `edge_mm`, and the radii there.
