@@ -1,22 +1,32 @@
-//! What each measure is, in one phrase, for tables.
+//! The unit of each measure and what it is, in one phrase, for tables.
 
-/// Keys and definitions of measures, then those of kinds of single values, in the order of tables.
+/// Keys, units if they have any, and definitions of measures, then those of kinds of single values,
+/// in the order of tables.
 const DEFINITIONS: &str = include_str!("definitions.txt");
 
-fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
-    let lines = DEFINITIONS.lines();
-    lines.filter_map(|line| line.split_once(": "))
+fn all() -> impl Iterator<Item = [&'static str; 3]> {
+    DEFINITIONS.lines().filter_map(|line| {
+        let (name, definition) = line.split_once(": ")?;
+        let (key, unit) = name.split_once(' ').unwrap_or((name, ""));
+        Some([key, unit, definition])
+    })
 }
 
 /// Keys of measures, and of kinds of single values.
 pub fn keys() -> impl Iterator<Item = &'static str> {
-    all().map(|(key, _)| key)
+    all().map(|[key, ..]| key)
 }
 
 /// What a measure or a kind of single values is, in one phrase; empty for a key that there is not.
 pub fn definition(key: &str) -> &'static str {
-    let found = all().find(|(known, _)| *known == key);
-    found.map_or("", |(_, definition)| definition)
+    let found = all().find(|[known, ..]| *known == key);
+    found.map_or("", |[_, _, definition]| definition)
+}
+
+/// The unit of a measure or a kind of single values; empty for a number without one.
+pub(super) fn unit(key: &str) -> &'static str {
+    let found = all().find(|[known, ..]| *known == key);
+    found.map_or("", |[_, unit, _]| unit)
 }
 
 #[cfg(test)]
@@ -28,7 +38,7 @@ mod tests {
         let page = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/measures.md");
         let page = std::fs::read_to_string(page).expect("the book is part of the repository");
         assert_eq!(all().count(), DEFINITIONS.lines().count());
-        for (key, definition) in all() {
+        for [key, _, definition] in all() {
             // A row may name several by their ends: `areole_area_mm2_mean`, `_median`.
             let stem = key.rsplit_once('_').map_or(key, |(stem, _)| stem);
             let end = &key[stem.len()..];
