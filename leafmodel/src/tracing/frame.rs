@@ -8,7 +8,7 @@ use super::grid::Mask;
 use super::lines::{BOUND, Lines};
 use super::margin::{boundary, simplified};
 use super::{Blade, Settings, TraceError, Traced};
-use crate::plane::{polygon, segment};
+use crate::plane::{polygon, polyline, segment};
 use crate::shape::outline::{Outline, OutlineError};
 
 /// A vein reaches the margin if it comes nearer than this many of its radii.
@@ -129,7 +129,7 @@ pub(super) fn in_millimetres(
     let outside = outside.filter(|node| !outline.contains(frame.to_mm(**node)));
     let share = outside.count() as f64 / lines.veins.nodes.len().max(1) as f64;
     if share > MOST_OUTSIDE {
-        return Err(TraceError::VeinsOutside { share });
+        return Err(TraceError::VeinsOutside(share));
     }
     let mut veins = lines.veins.clone();
     part_at_base(&mut veins, base);
@@ -171,10 +171,9 @@ fn outline(
             let mut line = line.to_vec();
             // Base and apex become points of it.
             for end in [frame.base_px, apex] {
-                let near = |i: &usize| line[*i].distance_squared(end);
-                let at = (0..line.len()).min_by(|a, b| near(a).total_cmp(&near(b)));
-                if let Some(at) = at {
-                    line[at] = end;
+                let nearest = polyline::nearest(&line, end);
+                if let Some(place) = line.get_mut(nearest) {
+                    *place = end;
                 }
             }
             Ok(of(&line)?)

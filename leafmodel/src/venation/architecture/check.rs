@@ -176,10 +176,8 @@ impl Architecture {
         let help = "use smaller angles, or a greater part_at: higher up the blade is wider";
         ArchitectureError::unless(axes.len() > asked, ANGLES, problem, help)?;
         let site = secondaries::Site {
-            blade,
-            margin: &margin,
+            ground,
             axes: &axes,
-            lots,
         };
         let laid = secondaries::lay_out(self, site);
         let of = |side: f64| {
