@@ -144,7 +144,7 @@ impl<'a> Refinement<'a> {
                 return Ok(());
             }
         }
-        Err(BladeError::TooFine { limit })
+        Err(BladeError::TooFine(limit))
     }
 
     fn point(&self, v: u32) -> DVec2 {

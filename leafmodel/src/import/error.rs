@@ -18,12 +18,9 @@ pub enum ImportError {
         /// What the parser says, with the line.
         problem: String,
     },
-    /// It holds no veins.
-    #[error("holds no veins: {wanted}")]
-    NoVeins {
-        /// What was looked for.
-        wanted: &'static str,
-    },
+    /// It holds no veins (what was looked for).
+    #[error("holds no veins: {0}")]
+    NoVeins(&'static str),
     /// Something of it cannot be read, or is missing.
     #[error("{place}: {problem}")]
     At {
@@ -32,36 +29,24 @@ pub enum ImportError {
         /// What is wrong there.
         problem: String,
     },
-    /// Lengths without a unit, and no scale.
+    /// Lengths without a unit, and no scale (places, radii or the margin).
     #[error(
-        "gives {what} without a unit: say how many millimetres a unit or a pixel is (--mm-per-unit), \
+        "gives {0} without a unit: say how many millimetres a unit or a pixel is (--mm-per-unit), \
          or name the unit in the key, as in x_mm or radius_um"
     )]
-    NoScale {
-        /// Places, radii or the margin.
-        what: &'static str,
-    },
-    /// Lengths of one kind with a unit beside others without one.
+    NoScale(&'static str),
+    /// Lengths of one kind with a unit beside others without one (places or radii).
     #[error(
-        "gives some {what} with a unit and some without one: name the unit in all their keys, as in \
+        "gives some {0} with a unit and some without one: name the unit in all their keys, as in \
          x_mm or radius_um, or in none"
     )]
-    MixedUnits {
-        /// Places or radii.
-        what: &'static str,
-    },
-    /// What is wrong makes measuring senseless.
-    #[error("cannot be measured:\n{}", listed(.faults))]
-    Faulty {
-        /// All faults, errors first.
-        faults: Vec<Fault>,
-    },
-    /// The margin is none.
-    #[error("has a margin that cannot be used: {problem}")]
-    BadMargin {
-        /// What is wrong with it.
-        problem: String,
-    },
+    MixedUnits(&'static str),
+    /// What is wrong makes measuring senseless (all faults, errors first).
+    #[error("cannot be measured:\n{}", listed(.0))]
+    Faulty(Vec<Fault>),
+    /// The margin is none (what is wrong with it).
+    #[error("has a margin that cannot be used: {0}")]
+    BadMargin(String),
 }
 
 impl ImportError {
@@ -87,6 +72,6 @@ impl ImportError {
 
     pub(super) fn bad_margin(problem: impl Into<String>) -> Self {
         let problem = problem.into();
-        Self::BadMargin { problem }
+        Self::BadMargin(problem)
     }
 }

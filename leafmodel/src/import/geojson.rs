@@ -20,7 +20,7 @@ use super::json::text_of;
 pub(super) fn read_value(file: &Value) -> Result<Draft, ImportError> {
     let wanted = "a GeoJSON FeatureCollection with LineStrings";
     let features = file["features"].as_array();
-    let features = features.ok_or(ImportError::NoVeins { wanted })?;
+    let features = features.ok_or(ImportError::NoVeins(wanted))?;
     let unit = match file["coordinate_unit"].as_str() {
         None => Unit::OfTheFile,
         Some("mm") => Unit::Millimetres(1.0),

@@ -19,7 +19,7 @@ use super::graph::{Builder, Place, Text, shortened};
 pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
     let value = as_map(parsed(text)?);
     let Value::Object(file) = &value else {
-        return Err(ImportError::NoVeins { wanted: WANTED });
+        return Err(ImportError::NoVeins(WANTED));
     };
     if file
         .get("type")
@@ -30,7 +30,7 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
     let mut draft = match (file.get("nodes"), file.get("edges").or(file.get("links"))) {
         (Some(Value::Object(nodes)), Some(Value::Object(edges))) => columns(file, nodes, edges)?,
         (Some(Value::Array(nodes)), Some(Value::Array(edges))) => lists(file, nodes, edges)?,
-        _ => return Err(ImportError::NoVeins { wanted: WANTED }),
+        _ => return Err(ImportError::NoVeins(WANTED)),
     };
     if file.contains_key("edges") && file.contains_key("links") {
         let mut links = Fault::new(FaultKind::Ignored);

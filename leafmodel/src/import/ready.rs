@@ -82,19 +82,17 @@ impl Draft {
     /// makes no sense.
     pub fn network(mut self, wanted: &Wanted) -> Result<Imported, ImportError> {
         if self.edges.is_empty() {
-            return Err(ImportError::NoVeins {
-                wanted: "edges between nodes",
-            });
+            return Err(ImportError::NoVeins("edges between nodes"));
         }
         let faults = self.senseless();
         if !faults.is_empty() {
-            return Err(ImportError::Faulty { faults });
+            return Err(ImportError::Faulty(faults));
         }
         self.scale(wanted)?;
         courses::drawn(&mut self);
         let far = self.far_nodes();
         if far.count > 0 {
-            return Err(ImportError::Faulty { faults: vec![far] });
+            return Err(ImportError::Faulty(vec![far]));
         }
         let outlines = match self.given.take() {
             Some(outline) => vec![outline],
@@ -115,9 +113,9 @@ impl Draft {
         } else {
             repair::mend(&mut self, &mut faults);
             if self.edges.is_empty() {
-                return Err(ImportError::NoVeins {
-                    wanted: "edges with a length; all join a node to itself or nodes at one place",
-                });
+                return Err(ImportError::NoVeins(
+                    "edges with a length; all join a node to itself or nodes at one place",
+                ));
             }
             let base = wanted.root.or_else(|| outlines.first().map(Outline::base));
             roots::turned(&self, base, segment_mm, &mut faults)?
@@ -225,10 +223,10 @@ impl Draft {
             units.some_have,
             given,
         ) {
-            (true, true, _) => Err(ImportError::MixedUnits { what }),
+            (true, true, _) => Err(ImportError::MixedUnits(what)),
             (false, ..) => Ok(1.0),
             (true, false, Some(factor)) => Ok(factor),
-            (true, false, None) => Err(ImportError::NoScale { what }),
+            (true, false, None) => Err(ImportError::NoScale(what)),
         };
         let places = factor(self.place_units, wanted.mm_per_unit, "places")?;
         let radii = factor(self.radius_units, wanted.mm_per_unit, "radii")?;
@@ -347,9 +345,7 @@ impl Draft {
 fn with_orders(network: &VenationNetwork) -> Result<VenationNetwork, ImportError> {
     let ends: Vec<[u32; 2]> = network.edges().iter().map(|e| [e.from, e.to]).collect();
     let topology = Topology::new(network.nodes().len(), &ends);
-    let broken = |_| ImportError::NoVeins {
-        wanted: "edges without circles",
-    };
+    let broken = |_| ImportError::NoVeins("edges without circles");
     let sorted = topology.base_to_tip().map_err(broken)?;
     let places: Vec<DVec2> = network.nodes().iter().map(|node| node.position).collect();
     let radii: Vec<f64> = network

@@ -92,13 +92,11 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
     }
     if strokes.is_empty() {
         let left: usize = drawing.left_out.values().map(|left| left.count).sum();
-        return Err(ImportError::NoVeins {
-            wanted: if bare.count + left > 0 {
-                "paths or basic shapes with a stroke; those that it has are hidden or have no stroke"
-            } else {
-                "paths or basic shapes with a stroke"
-            },
-        });
+        return Err(ImportError::NoVeins(if bare.count + left > 0 {
+            "paths or basic shapes with a stroke; those that it has are hidden or have no stroke"
+        } else {
+            "paths or basic shapes with a stroke"
+        }));
     }
     let found = [bare, uneven].into_iter().filter(|fault| fault.count > 0);
     draft.remarks.extend(found);

@@ -186,11 +186,11 @@ fn read_nodes(
         }
         other @ (ImportError::Empty
         | ImportError::Malformed { .. }
-        | ImportError::NoVeins { .. }
-        | ImportError::NoScale { .. }
-        | ImportError::MixedUnits { .. }
-        | ImportError::Faulty { .. }
-        | ImportError::BadMargin { .. }) => other,
+        | ImportError::NoVeins(_)
+        | ImportError::NoScale(_)
+        | ImportError::MixedUnits(_)
+        | ImportError::Faulty(_)
+        | ImportError::BadMargin(_)) => other,
     };
     let mut read = || -> Result<(), ImportError> {
         if is_blank(text) {

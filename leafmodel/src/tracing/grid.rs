@@ -20,7 +20,7 @@ impl Raster {
     ///
     /// [`TraceError::BadRaster`] unless there are 3 × 3 to 2²⁹ pixels, as many values, all finite.
     pub fn new(width: usize, height: usize, values: Vec<f32>) -> Result<Self, TraceError> {
-        let bad = |what: String| Err(TraceError::BadRaster { what });
+        let bad = |what: String| Err(TraceError::BadRaster(what));
         let pixels = width.saturating_mul(height);
         if width < 3 || height < 3 || pixels > MOST_PIXELS {
             return bad(format!(

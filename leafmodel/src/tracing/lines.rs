@@ -40,9 +40,9 @@ pub(super) fn lines(
     let crossings = pruning.join_near_nodes(settings.crossing_radii);
     let mut graph = pruning.finished();
     if graph.chains.is_empty() {
-        return Err(TraceError::NoVeins {
-            what: format!("{spurs} spurs were cut off and nothing was left"),
-        });
+        return Err(TraceError::NoVeins(format!(
+            "{spurs} spurs were cut off and nothing was left"
+        )));
     }
     for (count, kind) in [
         (spurs, FindingKind::Spurs { count: spurs }),
