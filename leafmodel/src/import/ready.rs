@@ -8,8 +8,9 @@ use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
 use super::{courses, margins, repair, roots};
 use crate::measure::Known;
+use crate::plane::bounds;
 use crate::shape::outline::Outline;
-use crate::venation::network::{FARTHEST_MM, VeinEdge, VeinNode, VenationNetwork};
+use crate::venation::network::{self, FARTHEST_MM, VeinEdge, VeinNode, VenationNetwork};
 use crate::venation::order::{Look, orders};
 use crate::venation::planar::PlaneGraph;
 use crate::venation::topology::Topology;
@@ -90,7 +91,7 @@ impl Draft {
         }
         self.scale(wanted)?;
         courses::drawn(&mut self);
-        let far = self.far_nodes();
+        let far = self.bad_places(" mm", |place| place.abs().max_element() > FARTHEST_MM);
         if far.count > 0 {
             return Err(ImportError::Faulty(vec![far]));
         }
@@ -153,19 +154,7 @@ impl Draft {
                 }
             }
         }
-        let mut places = Fault::new(FaultKind::BadPlace);
-        for (number, place) in (0..).zip(&self.places) {
-            if !place.is_finite() {
-                places.named(|| {
-                    format!(
-                        "node {} is at ({}, {})",
-                        self.name(number),
-                        place.x,
-                        place.y
-                    )
-                });
-            }
-        }
+        let places = self.bad_places("", |place| !place.is_finite());
         let mut radii = Fault::new(FaultKind::BadRadius);
         for (number, edge) in self.edges.iter().enumerate() {
             if let Some(bad) = edge.bad_radius() {
@@ -199,21 +188,14 @@ impl Draft {
         (fault.count > 0 && fault.count < self.edges.len()).then_some(fault)
     }
 
-    fn far_nodes(&self) -> Fault {
-        let mut far = Fault::new(FaultKind::BadPlace);
-        for (number, place) in (0..).zip(&self.places) {
-            if place.abs().max_element() > FARTHEST_MM {
-                far.named(|| {
-                    format!(
-                        "node {} is at ({}, {}) mm",
-                        self.name(number),
-                        place.x,
-                        place.y
-                    )
-                });
-            }
+    /// Nodes at places that are bad; `unit` is that of the places.
+    fn bad_places(&self, unit: &str, is_bad: impl Fn(DVec2) -> bool) -> Fault {
+        let mut fault = Fault::new(FaultKind::BadPlace);
+        for (number, &place) in (0..).zip(&self.places).filter(|(_, place)| is_bad(**place)) {
+            let DVec2 { x, y } = place;
+            fault.named(|| format!("node {} is at ({x}, {y}){unit}", self.name(number)));
         }
-        far
+        fault
     }
 
     /// Lengths in millimetres, y up.
@@ -271,9 +253,7 @@ impl Draft {
     /// Length of a segment where the file gives none, above 0: a fraction of the extent of the veins,
     /// so that it depends neither on how finely they are digitised nor on the margin.
     fn usual_segment(&self) -> f64 {
-        let places = self.places.iter().copied();
-        let low = places.clone().reduce(DVec2::min).unwrap_or_default();
-        let high = places.reduce(DVec2::max).unwrap_or_default();
+        let (low, high) = bounds(self.places.iter().copied());
         let extent = (high - low).max_element();
         if extent > 0.0 { extent / SEGMENTS } else { 1.0 }
     }
@@ -343,7 +323,7 @@ impl Draft {
 
 /// The same network with orders by width and branching.
 fn with_orders(network: &VenationNetwork) -> Result<VenationNetwork, ImportError> {
-    let ends: Vec<[u32; 2]> = network.edges().iter().map(|e| [e.from, e.to]).collect();
+    let ends = network::ends(network.edges());
     let topology = Topology::new(network.nodes().len(), &ends);
     let broken = |_| ImportError::NoVeins("edges without circles");
     let sorted = topology.base_to_tip().map_err(broken)?;
@@ -370,6 +350,7 @@ fn warn_of(network: &VenationNetwork, faults: &mut Vec<Fault>) {
     for (kind, places) in [
         (FaultKind::Crossing, plane.crossing_places()),
         (FaultKind::Touch, plane.touch_places()),
+        (FaultKind::Apart, &roots::parts_without_petiole(network)),
     ] {
         if !places.is_empty() {
             let mut fault = Fault::new(kind);
@@ -379,9 +360,4 @@ fn warn_of(network: &VenationNetwork, faults: &mut Vec<Fault>) {
             faults.push(fault);
         }
     }
-    let mut apart = Fault::new(FaultKind::Apart);
-    for place in roots::parts_without_petiole(network) {
-        apart.at(place);
-    }
-    faults.extend((apart.count > 0).then_some(apart));
 }

@@ -31,7 +31,7 @@ use crate::venation::architecture::{
     Agrophic, Attachment, PrimaryPattern, SecondaryEnding, SecondarySpacing,
 };
 use crate::venation::areole::areoles;
-use crate::venation::network::VenationNetwork;
+use crate::venation::network::{self, VenationNetwork};
 
 /// A vein that ends so near to the margin ends there, share of the leaf's length.
 const AT_MARGIN: f64 = 0.025;
@@ -102,7 +102,7 @@ pub struct Description {
 
 /// Describes a leaf.
 pub fn describe(outline: &Outline, network: &VenationNetwork) -> Description {
-    let edges = tracing::ends(network);
+    let edges = network::ends(network.edges());
     let tracer = Tracer::new(outline, network, &edges);
     let length = outline.length();
     let primaries = tracer.primaries();

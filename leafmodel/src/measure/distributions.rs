@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::definitions::unit;
 use super::skeleton::{Skeleton, angle_deg};
 use super::{Known, Subject};
+use crate::venation::network;
 
 /// One value of one kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +92,7 @@ impl Subject<'_> {
 
     fn add_branches(&self, samples: &mut Vec<Sample>) {
         let graph = self.found.graph();
-        let edges: Vec<[u32; 2]> = graph.edges().iter().map(|e| [e.from, e.to]).collect();
+        let edges = network::ends(graph.edges());
         let skeleton = Skeleton::new(graph, &edges, self.network.segment_mm());
         let angle = of_kind("branch_angle");
         for node in skeleton.nodes() {

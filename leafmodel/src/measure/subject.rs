@@ -14,7 +14,7 @@ use super::{List, Measures, spanning};
 use crate::random::{Use, uniform};
 use crate::shape::outline::Outline;
 use crate::venation::areole::{Areoles, areoles};
-use crate::venation::network::VenationNetwork;
+use crate::venation::network::{self, VenationNetwork};
 
 /// Number of points of the blade at which the distance to the nearest vein is measured.
 pub(super) const PROBES: usize = 1 << 14;
@@ -102,12 +102,7 @@ impl<'a> Subject<'a> {
     /// All measures; those that need what is not known are missing.
     pub fn measures(&self, murray_exponent: f64) -> Measures {
         let (found, known, outline) = (&self.found, self.known, self.blade.outline());
-        let edges: Vec<[u32; 2]> = found
-            .graph()
-            .edges()
-            .iter()
-            .map(|e| [e.from, e.to])
-            .collect();
+        let edges = network::ends(found.graph().edges());
         let skeleton = Skeleton::new(found.graph(), &edges, self.network.segment_mm());
         let mut list = List::new(self.blade.area());
         list.shape(outline);

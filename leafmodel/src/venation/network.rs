@@ -111,6 +111,11 @@ pub enum NetworkError {
     NoOrder(usize),
 }
 
+/// The nodes at both ends of each edge.
+pub(crate) fn ends(edges: &[VeinEdge]) -> Vec<[u32; 2]> {
+    edges.iter().map(|edge| [edge.from, edge.to]).collect()
+}
+
 impl VenationNetwork {
     /// A network from another program or a drawing. Edges lead away from the petiole.
     ///
@@ -283,7 +288,7 @@ impl VenationNetwork {
         {
             return Err(NetworkError::Twice(pair[1].2));
         }
-        let edges: Vec<[u32; 2]> = self.edges.iter().map(|e| [e.from, e.to]).collect();
+        let edges = ends(&self.edges);
         match super::topology::Topology::new(count, &edges).base_to_tip() {
             Ok(_) => Ok(()),
             Err(node) => Err(NetworkError::Circle(node)),
