@@ -74,133 +74,122 @@ enum Gravity {
 }
 
 impl FaultKind {
-    /// How much it matters, a word for files, and what it is and what was done about it.
-    fn facts(self) -> (Gravity, &'static str, &'static str) {
+    /// How much it matters.
+    fn gravity(self) -> Gravity {
         match self {
-            Self::LooseEnd => (
-                Gravity::Error,
-                "loose_end",
-                "edges lead to nodes that do not exist",
-            ),
+            Self::LooseEnd | Self::BadPlace | Self::BadRadius => Gravity::Error,
+            Self::NoLength
+            | Self::TwiceJoined
+            | Self::SamePlace
+            | Self::Crossing
+            | Self::Touch
+            | Self::Apart
+            | Self::Bare
+            | Self::NoRoot
+            | Self::Turned
+            | Self::Widening
+            | Self::NoRadius
+            | Self::Clip
+            | Self::StyleRule
+            | Self::Uneven
+            | Self::ShortLength => Gravity::Warning,
+            Self::OutsideMargin
+            | Self::Hidden
+            | Self::NoStroke
+            | Self::NoShape
+            | Self::Ignored
+            | Self::Guess
+            | Self::Bent => Gravity::Note,
+        }
+    }
+
+    /// A word for files, and what it is and what was done about it.
+    fn facts(self) -> (&'static str, &'static str) {
+        match self {
+            Self::LooseEnd => ("loose_end", "edges lead to nodes that do not exist"),
             Self::BadPlace => (
-                Gravity::Error,
                 "bad_place",
                 "nodes have a coordinate that is not a finite number within 10⁶ mm of the origin",
             ),
-            Self::BadRadius => (
-                Gravity::Error,
-                "bad_radius",
-                "radii are not finite numbers above 0",
-            ),
-            Self::NoLength => (
-                Gravity::Warning,
-                "no_length",
-                "edges have no length; they are left out",
-            ),
+            Self::BadRadius => ("bad_radius", "radii are not finite numbers above 0"),
+            Self::NoLength => ("no_length", "edges have no length; they are left out"),
             Self::TwiceJoined => (
-                Gravity::Warning,
                 "twice_joined",
                 "pairs of nodes are joined twice; the wider edge is kept",
             ),
             Self::SamePlace => (
-                Gravity::Warning,
                 "same_place",
                 "nodes lie where another one does; they are made one",
             ),
             Self::Crossing => (
-                Gravity::Warning,
                 "crossing",
                 "crossings of veins have no node; the veins are cut there",
             ),
             Self::Touch => (
-                Gravity::Warning,
                 "touch",
                 "nodes lie on veins that do not end there; the veins are cut there",
             ),
             Self::Apart => (
-                Gravity::Warning,
                 "apart",
                 "parts do not hang together with the part at the petiole",
             ),
-            Self::Bare => (
-                Gravity::Warning,
-                "bare_node",
-                "nodes have no vein; they are left out",
-            ),
+            Self::Bare => ("bare_node", "nodes have no vein; they are left out"),
             Self::NoRoot => (
-                Gravity::Warning,
                 "no_root",
                 "nothing says where the petiole is (--root X,Y does), so an end of a vein is taken for it",
             ),
             Self::Turned => (
-                Gravity::Warning,
                 "turned",
                 "edges did not lead away from the petiole; all are turned by their distance from it along veins",
             ),
             Self::Widening => (
-                Gravity::Warning,
                 "widening",
                 "edges get wider away from the petiole; their mean radius is taken at both ends",
             ),
             Self::NoRadius => (
-                Gravity::Warning,
                 "no_radius",
                 "edges have no radius or width, so those of all others are left out; measures of widths, and \
                  of vein orders that are not in the file, are missing",
             ),
             Self::OutsideMargin => (
-                Gravity::Note,
                 "outside_margin",
                 "nodes lie outside the margin, as those of a petiole do; their edges are left out",
             ),
             Self::Hidden => (
-                Gravity::Note,
                 "hidden",
                 "elements of the drawing are hidden; they are left out",
             ),
             Self::NoStroke => (
-                Gravity::Note,
                 "no_stroke",
                 "shapes of the drawing have no stroke; they are left out",
             ),
             Self::NoShape => (
-                Gravity::Note,
                 "no_shape",
                 "elements of the drawing are neither paths nor basic shapes; they are left out",
             ),
             Self::Clip => (
-                Gravity::Warning,
                 "clip",
                 "clip paths and masks of the drawing are not applied; what they hide is read",
             ),
             Self::StyleRule => (
-                Gravity::Warning,
                 "style_rule",
                 "parts of style sheets are not understood; they are left out",
             ),
             Self::Uneven => (
-                Gravity::Warning,
                 "uneven_stroke",
                 "strokes are scaled unevenly, so that their widths differ by direction; the mean width is taken",
             ),
             Self::Ignored => (
-                Gravity::Note,
                 "ignored",
                 "parts of the file are not known; they are left out",
             ),
-            Self::Guess => (
-                Gravity::Note,
-                "guess",
-                "guesses about how tables are written",
-            ),
+            Self::Guess => ("guess", "guesses about how tables are written"),
             Self::Bent => (
-                Gravity::Note,
                 "bent",
                 "edges are longer than the straight line between their ends; they are drawn as arcs of their \
                  length, so areas of areoles, angles and distances to veins are approximate",
             ),
             Self::ShortLength => (
-                Gravity::Warning,
                 "short_length",
                 "edges are shorter than the straight line between their ends; that line is taken",
             ),
@@ -209,17 +198,17 @@ impl FaultKind {
 
     /// Whether nothing can be measured with it.
     pub fn is_error(self) -> bool {
-        self.facts().0 == Gravity::Error
+        self.gravity() == Gravity::Error
     }
 
     /// Whether it is as it should be, and only reported.
     pub fn is_note(self) -> bool {
-        self.facts().0 == Gravity::Note
+        self.gravity() == Gravity::Note
     }
 
     /// A word for files.
     pub fn word(self) -> &'static str {
-        self.facts().1
+        self.facts().0
     }
 }
 
@@ -260,7 +249,7 @@ impl Fault {
 
     /// One line: what, how many, and where the first ones are.
     pub fn line(&self) -> String {
-        let mut line = format!("{} ({})", self.kind.facts().2, self.count);
+        let mut line = format!("{} ({})", self.kind.facts().1, self.count);
         let mut shown: Vec<String> = self.names.iter().take(SHOWN).cloned().collect();
         if shown.is_empty() {
             let places = self.places.iter().take(SHOWN);

@@ -132,13 +132,17 @@ impl fmt::Display for Finding {
 pub(super) fn clean(veins: &mut Mask, most: usize, findings: &mut Vec<Finding>) {
     let specks = flip_small(veins, true, most);
     let holes = flip_small(veins, false, most);
-    let found: [(_, fn(usize) -> FindingKind); 2] = [
-        (specks, |count| FindingKind::Specks { count }),
-        (holes, |count| FindingKind::Holes { count }),
-    ];
-    for (parts, kind) in found {
+    for (parts, kind) in [
+        (
+            &specks,
+            FindingKind::Specks {
+                count: specks.len(),
+            },
+        ),
+        (&holes, FindingKind::Holes { count: holes.len() }),
+    ] {
         if let Some(&(first, _)) = parts.first() {
-            findings.push(Finding::at(veins.centre(first as usize), kind(parts.len())));
+            findings.push(Finding::at(veins.centre(first as usize), kind));
         }
     }
 }

@@ -80,7 +80,7 @@ impl Description {
 
     fn agrophic_text(&self) -> Option<String> {
         self.primaries?;
-        let words = words(self.agrophic);
+        let words = words(&self.agrophic);
         (self.agrophic != Agrophic::Absent).then(|| format!("agrophic veins: {words}"))
     }
 
@@ -102,7 +102,7 @@ impl Description {
     }
 
     fn quaternaries_text(&self) -> Option<String> {
-        let words = words(self.quaternaries.quaternary_course()?);
+        let words = words(&self.quaternaries.quaternary_course()?);
         Some(format!("quaternary veins: {words}"))
     }
 
@@ -147,11 +147,11 @@ impl Description {
 }
 
 /// The word for one of several, as it is read.
-fn words(of: impl Words + PartialEq) -> String {
+fn words(of: &(impl Words + PartialEq)) -> String {
     of.word().replace('_', " ")
 }
 
 /// The same behind a comma and a noun.
 fn after_comma(noun: &str, of: Option<impl Words + PartialEq>) -> String {
-    of.map_or_else(String::new, |of| format!(", {noun}{}", words(of)))
+    of.map_or_else(String::new, |of| format!(", {noun}{}", words(&of)))
 }
