@@ -7,7 +7,6 @@ use super::draft::{ABSENT, Draft, DraftEdge, DraftMargin};
 use super::error::ImportError;
 use super::fields::{EdgeField, Unit};
 use super::graph::{Builder, Text, shortened};
-use super::json::text_of;
 
 /// Reads the features of a `FeatureCollection`: every `LineString` is a vein, a `Polygon` whose
 /// `kind` is `margin` (or the only one of all features) the margin.
@@ -288,4 +287,14 @@ impl Numbers {
                 .filter(|o| *o > 0),
         })
     }
+}
+
+/// A value as text; nothing for `null`.
+pub(super) fn text_of(value: &Value) -> String {
+    if value.is_null() {
+        return String::new();
+    }
+    value
+        .as_str()
+        .map_or_else(|| value.to_string(), str::to_owned)
 }

@@ -7,7 +7,7 @@ use super::draft::{ABSENT, Draft, DraftEdge, DraftMargin};
 use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
 use super::fields::{ALLOWED_ORDERS, EdgeField};
-use super::geojson;
+use super::geojson::{self, text_of};
 use super::graph::{Builder, Place, Text, shortened};
 
 /// Reads a network in JSON: `nodes` and `edges` as columns, as [`crate::export::json`] writes them;
@@ -256,14 +256,4 @@ fn lists(
 fn object<'v>(value: &'v Value, place: Place<'_>) -> Result<&'v Map<String, Value>, ImportError> {
     let object = value.as_object();
     object.ok_or_else(|| ImportError::at(place(), "it is no object"))
-}
-
-/// A value as text; nothing for `null`.
-pub(super) fn text_of(value: &Value) -> String {
-    if value.is_null() {
-        return String::new();
-    }
-    value
-        .as_str()
-        .map_or_else(|| value.to_string(), str::to_owned)
 }
