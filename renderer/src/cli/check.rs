@@ -4,14 +4,16 @@
 use leafmodel::document::error::{DocumentError, LocatedError};
 
 use crate::cli::arguments::{CheckArguments, SceneArguments};
+use crate::cli::building::{Building, load_scene};
+use crate::cli::needs;
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, load_scene, needs, note, say, warn};
+use crate::cli::terminal::{Failure, note, say, warn};
 use crate::geometry;
 use crate::scene::assets;
 use crate::scene::description::{Description, Held, Mesh, Named, Reflectance, Shape};
 use crate::scene::load;
-use crate::scene::world::{World, on_mesh};
+use crate::scene::world::on_mesh;
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let CheckArguments {
@@ -47,7 +49,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     needs::check(&description, *memory)?;
     if *build {
         let _signals = Signals::listen()?;
-        return tell_world(scene, &description, *memory);
+        return report_world(scene, &description, *memory);
     }
     let patience = Patience::reading();
     read_files(&description)?;
@@ -84,7 +86,7 @@ fn read_files(description: &Description) -> Result<(), Failure> {
             scale,
         }) = &mesh.value
         {
-            let told = |error| Failure::bad(format!("meshes.{name}: {error}"));
+            let told = |error| bad!("meshes.{name}: {error}");
             let wanted = description.wanted_of(number);
             let model = assets::model(file, beside, *scale, wanted).map_err(told)?;
             note(on_mesh(name, &model.mesh, &model.left_out));
@@ -95,23 +97,23 @@ fn read_files(description: &Description) -> Result<(), Failure> {
         let bytes = assets::read(file).map_err(Failure::bad)?;
         let ending = file.extension().and_then(|ending| ending.to_str());
         let mesh = geometry::import(&bytes, ending.unwrap_or_default(), *scale as f32)
-            .map_err(|error| Failure::bad(format!("meshes.{name}: {}: {error}", file.display())))?;
+            .map_err(|error| bad!("meshes.{name}: {}: {error}", file.display()))?;
         note(on_mesh(name, &mesh, &[]));
     }
     for material in &description.materials {
         if let Some(Reflectance::Picture { file, layer, .. }) = material.value.reflectance() {
-            let told = |error| Failure::bad(format!("materials.{}: {error}", material.name));
+            let told = |error| bad!("materials.{}: {error}", material.name);
             assets::reflectances(file, layer.as_deref()).map_err(told)?;
         }
         let Some(Held::Map { file, .. }) = material.value.held() else {
             continue;
         };
-        let told = |error| Failure::bad(format!("materials.{}: {error}", material.name));
+        let told = |error| bad!("materials.{}: {error}", material.name);
         assets::contents_map(file).map_err(told)?;
     }
     for light in &description.lights {
         if let Some((file, layer)) = light.value.picture() {
-            let told = |error| Failure::bad(format!("lights.{}: {error}", light.name));
+            let told = |error| bad!("lights.{}: {error}", light.name);
             assets::shining(file, layer).map_err(told)?;
         }
     }
@@ -119,14 +121,16 @@ fn read_files(description: &Description) -> Result<(), Failure> {
 }
 
 /// Builds the scene and prints its size.
-fn tell_world(
+fn report_world(
     scene: &SceneArguments,
     description: &Description,
     memory: Option<f64>,
 ) -> Result<(), Failure> {
-    let patience = Patience::building(description.leaves.len(), memory);
-    let world = World::build_with(description, &patience.options()).map_err(Failure::bad)?;
-    drop(patience);
+    let building = Building {
+        memory,
+        ..Building::default()
+    };
+    let world = building.world(description)?;
     note(world.notes);
     for Named { name, value } in &description.crossing {
         let [crossing, leaves] = value;

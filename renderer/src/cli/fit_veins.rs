@@ -11,9 +11,12 @@ use self::observed::Observed;
 use self::simulations::Simulations;
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::FitVeinsArguments;
+use crate::cli::needs::on_threads;
+use crate::cli::places::check_writable;
 use crate::cli::places::{Lock, write_whole};
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, check_writable, note, on_threads, say, stats};
+use crate::cli::stats;
+use crate::cli::terminal::{Failure, note, say};
 use crate::report::vein_fit;
 use crate::scene::fingerprint::fnv1a;
 
@@ -29,7 +32,7 @@ pub(super) fn run(arguments: &FitVeinsArguments) -> Result<(), Failure> {
     let problem = problem.map_err(Failure::bad)?;
     note(observed.notes.iter().chain(&grower.notes(&observed)));
     let folder = arguments.out.as_path();
-    let refused = |error| Failure::system(format!("{}: {error}", folder.display()));
+    let refused = Failure::system_at(folder);
     std::fs::create_dir_all(folder).map_err(refused)?;
     let [json, sample, picture, table] =
         ["fit.json", "posterior.csv", "fit.svg", "simulations.csv"].map(|name| folder.join(name));

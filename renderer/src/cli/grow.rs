@@ -34,10 +34,12 @@ use self::grown::Grown;
 use self::outputs::{Kind, Outputs};
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::GrowArguments;
+use crate::cli::needs::on_threads;
 use crate::cli::places::write_whole;
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, needs, on_threads, say, stats};
+use crate::cli::terminal::{Failure, say};
+use crate::cli::{needs, stats};
 use crate::export::blade::{self, Parts};
 
 pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {

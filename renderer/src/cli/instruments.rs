@@ -4,21 +4,21 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::cli::arguments::InstrumentsArguments;
+use crate::cli::building::Building;
+use crate::cli::needs;
+use crate::cli::needs::on_threads;
 use crate::cli::places::{
     check_outputs, has_ending, is_json_not_csv, require_ending, write_and_say,
 };
-use crate::cli::progress::{Clock, Patience};
+use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, needs, note, on_threads, warn};
+use crate::cli::terminal::{Failure, note, warn};
 use crate::instruments::{
     Budget, CutPaths, Effort, MOST_TURNS, Row, Watch, notes, read_out_watched, sets_of,
 };
 use crate::report::instruments as report;
 use crate::scene::description::Description;
 use crate::scene::load;
-use crate::scene::plant_cache::PlantCache;
-use crate::scene::world::{BuildOptions, World};
-use crate::spectrum::WavelengthSampler;
 
 /// Rays if the command line says nothing.
 const USUAL_RAYS: u64 = 1 << 16;
@@ -68,11 +68,11 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
     }
     if let Some(path) = &arguments.plot {
         let drawing = report::svg(&rows).ok_or_else(|| {
-            Failure::bad(format!(
-                "{}: there is nothing to draw: a line needs figures at two wavelengths, view angles \
-                 or depths",
-                path.display()
-            ))
+            bad_at!(
+                path,
+                "there is nothing to draw: a line needs figures at two wavelengths, view angles \
+                 or depths"
+            )
         })?;
         write_and_say(path, drawing)?;
     }
@@ -104,18 +104,18 @@ fn choose(arguments: &InstrumentsArguments, scene: &Description) -> Result<Vec<u
     let shown = arguments.scene.scene.display();
     let all = &scene.instruments;
     if all.is_empty() {
-        return Err(Failure::bad(format!(
+        bail!(
             "{shown} has no instruments: add one, for example `[instruments.ball.sphere]` with \
              `object = \"leaf\"`"
-        )));
+        );
     }
     for name in &arguments.only {
         if !all.iter().any(|instrument| instrument.name == *name) {
             let known: Vec<&str> = all.iter().map(|known| known.name.as_str()).collect();
-            return Err(Failure::bad(format!(
+            bail!(
                 "--only: {shown} has no instrument `{name}`, but {}",
                 known.join(", ")
-            )));
+            );
         }
     }
     let is_chosen = |name: &String| arguments.only.is_empty() || arguments.only.contains(name);
@@ -142,7 +142,12 @@ fn measure(
             ended: Ok(()),
         });
     };
-    let world = build(arguments, scene, &sampler)?;
+    let building = Building {
+        memory: arguments.memory,
+        cache: arguments.cache.as_deref(),
+        wavelengths: Some(&sampler),
+    };
+    let world = building.world(scene)?;
     note(&world.notes);
     signals.begin_work();
     let time = arguments.time.map(Duration::from_secs_f64);
@@ -276,20 +281,4 @@ impl<'a> Rays<'a> {
             eprintln!("{name}: {rays} of {all} rays {after}");
         }
     }
-}
-
-fn build(
-    arguments: &InstrumentsArguments,
-    scene: &Description,
-    sampler: &WavelengthSampler,
-) -> Result<World, Failure> {
-    let cache = arguments.cache.as_deref().map(PlantCache::open);
-    let cache = cache.transpose().map_err(Failure::bad)?;
-    let patience = Patience::building(scene.leaves.len(), arguments.memory);
-    let options = BuildOptions {
-        cache: cache.as_ref(),
-        wavelengths: Some(sampler),
-        ..patience.options()
-    };
-    World::build_with(scene, &options).map_err(Failure::bad)
 }

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[cfg(unix)]
 use std::time::{Duration, Instant};
 
-use crate::cli::Failure;
+use crate::cli::terminal::Failure;
 
 /// What signals ask for.
 #[derive(Debug, Default)]

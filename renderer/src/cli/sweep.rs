@@ -26,9 +26,11 @@ use self::record::Record;
 use self::table::{Row, State};
 use self::tasks::{hexadecimal, words_of};
 use crate::cli::arguments::{SweepArguments, file_and_leaf};
+use crate::cli::places::check_writable;
 use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, check_writable, grow, say, stats};
+use crate::cli::terminal::{Failure, say};
+use crate::cli::{grow, stats};
 use crate::sweep::{Sweep, Target, Words, is_sweep_file};
 
 pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
@@ -40,9 +42,7 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let range = arguments.tasks.map_or(0..count, |tasks| tasks.of(count));
     if range.end > count {
         let (first, end, last) = (range.start, range.end, count - 1);
-        return Err(Failure::bad(format!(
-            "--tasks {first}..{end}: the sweep has {count} tasks, from 0 to {last}"
-        )));
+        bail!("--tasks {first}..{end}: the sweep has {count} tasks, from 0 to {last}");
     }
     if range.is_empty() {
         eprintln!("this part of the {count} tasks is empty");
@@ -62,7 +62,7 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         true
     })?;
     let made = folder.join("tasks");
-    let refused = |error| Failure::system(format!("{}: {error}", made.display()));
+    let refused = Failure::system_at(&made);
     std::fs::create_dir_all(&made).map_err(refused)?;
     record::check_version(&made)?;
     let table = folder.join(match arguments.tasks {

@@ -1,7 +1,9 @@
 //! `lamina tonemap`: a picture to look at from an EXR, without rendering again.
 
 use crate::cli::arguments::TonemapArguments;
-use crate::cli::{Failure, check_writable, pictures, say};
+use crate::cli::pictures;
+use crate::cli::places::check_writable;
+use crate::cli::terminal::{Failure, say};
 use crate::image::Attribute;
 use crate::image::ImageError;
 use crate::image::display::FileKind;
@@ -9,12 +11,8 @@ use crate::scene::load::parse_picture;
 
 pub(super) fn run(arguments: &TonemapArguments) -> Result<(), Failure> {
     let out = &arguments.out;
-    let kind = FileKind::of(out).ok_or_else(|| {
-        Failure::bad(format!(
-            "{}: the ending tells what is written: png or jpg",
-            out.display()
-        ))
-    })?;
+    let kind = FileKind::of(out)
+        .ok_or_else(|| bad_at!(out, "the ending tells what is written: png or jpg"))?;
     let picture = pictures::read(&arguments.picture)?;
     // What the scene said when it was rendered; other programs' pictures say nothing.
     let scene = match picture.attribute("lamina:scene") {
@@ -31,7 +29,7 @@ pub(super) fn run(arguments: &TonemapArguments) -> Result<(), Failure> {
             return Failure::system(error);
         }
         let place = arguments.picture.display();
-        Failure::bad(format!("{place}: {error}"))
+        bad!("{place}: {error}")
     })?;
     say(out.display());
     Ok(())

@@ -12,9 +12,11 @@ use leafmodel::tracing::{
 use serde_json::json;
 
 use crate::cli::arguments::{ThresholdKind, TraceArguments};
+use crate::cli::needs::on_threads;
 use crate::cli::places::{check_outputs, write_and_say};
 use crate::cli::progress::Patience;
-use crate::cli::{Failure, needs, on_threads, say, stats};
+use crate::cli::terminal::{Failure, say};
+use crate::cli::{needs, stats};
 use crate::export::drawing::{Drawing, Style, Subject, draw_within};
 use crate::export::overlay::draw_over;
 use crate::image::{portable_network, scan};
@@ -45,10 +47,10 @@ impl Kind {
             Some("json") => Ok(Self::Json),
             Some("graphml") => Ok(Self::GraphMl),
             Some("geojson") => Ok(Self::GeoJson),
-            _ => Err(Failure::bad(format!(
-                "{}: the ending tells what is written: svg, png, json, graphml or geojson",
-                path.display()
-            ))),
+            _ => Err(bad_at!(
+                path,
+                "the ending tells what is written: svg, png, json, graphml or geojson"
+            )),
         }
     }
 
@@ -80,10 +82,10 @@ pub(super) fn run(arguments: &TraceArguments) -> Result<(), Failure> {
     let kinds = arguments.out.iter().map(|path| Kind::of(path));
     let kinds: Vec<Kind> = kinds.collect::<Result<_, _>>()?;
     if arguments.mask && arguments.margin.is_none() && !arguments.cut_out {
-        return Err(Failure::bad(
+        bail!(
             "a mask shows no blade: give its picture with --margin, or --cut-out if the whole \
-             picture is blade",
-        ));
+             picture is blade"
+        );
     }
     if arguments.threshold != ThresholdKind::Sauvola {
         let idle = [
@@ -91,17 +93,13 @@ pub(super) fn run(arguments: &TraceArguments) -> Result<(), Failure> {
             ("--sauvola-k", arguments.sauvola_k.is_some()),
         ];
         if let Some((flag, _)) = idle.into_iter().find(|(_, given)| *given) {
-            return Err(Failure::bad(format!(
-                "{flag} goes with --threshold sauvola: give both or neither"
-            )));
+            bail!("{flag} goes with --threshold sauvola: give both or neither");
         }
     }
     let reports = [&arguments.measure, &arguments.overlay, &arguments.findings];
     let outputs = arguments.out.iter().chain(reports.into_iter().flatten());
     if outputs.clone().next().is_none() {
-        return Err(Failure::bad(
-            "nothing is to be written: give --out, --measure, --overlay or --findings",
-        ));
+        bail!("nothing is to be written: give --out, --measure, --overlay or --findings");
     }
     let inputs = std::iter::once(arguments.picture.clone()).chain(arguments.margin.clone());
     check_outputs(outputs, &inputs.collect::<Vec<_>>(), "the command")?;
@@ -158,7 +156,7 @@ pub(super) fn with_usual_settings(picture: &Path, mm_per_pixel: f64) -> Result<T
 /// Traces a picture and tells what was found on the way.
 fn traced(path: &Path, picture: &Raster, settings: &Settings) -> Result<Traced, Failure> {
     let traced = trace(picture, settings);
-    let traced = traced.map_err(|error| Failure::bad(format!("{}: {error}", path.display())))?;
+    let traced = traced.map_err(Failure::at(path))?;
     for finding in &traced.findings {
         if matches!(finding.kind, FindingKind::Moved { .. }) {
             eprintln!("warning: {finding}");
@@ -306,8 +304,7 @@ fn read(path: &Path, allowed: Option<f64>) -> Result<Raster, Failure> {
     }
     let values = picture.layers.into_iter().next();
     let values = values.map_or_else(Vec::new, |layer| layer.data);
-    Raster::new(picture.width as usize, picture.height as usize, values)
-        .map_err(|error| Failure::bad(format!("{}: {error}", path.display())))
+    Raster::new(picture.width as usize, picture.height as usize, values).map_err(Failure::at(path))
 }
 
 fn png(drawing: &Drawing) -> Result<Vec<u8>, Failure> {

@@ -16,10 +16,10 @@ use serde_json::Value;
 
 use super::free::Grower;
 use crate::checkpoint::PROGRAM;
-use crate::cli::Failure;
 use crate::cli::places::write_whole;
 use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
+use crate::cli::terminal::Failure;
 use crate::report::table::{Table, cell};
 
 /// Simulations by generation and number.

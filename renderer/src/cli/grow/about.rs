@@ -6,7 +6,7 @@ use leafmodel::species::traits::{Provenance, Quantity, Traits};
 
 use super::choice::{is_word, unknown_preset};
 use crate::cli::arguments::file_and_leaf;
-use crate::cli::{Failure, say};
+use crate::cli::terminal::{Failure, say};
 use crate::report::table::in_columns;
 
 /// Prints a preset's description and, if it stands for a species, the table of its traits.
@@ -16,10 +16,10 @@ pub(super) fn tell(name: &str) -> Result<(), Failure> {
         if is_word(name) && !path.exists() {
             unknown_preset(name)
         } else {
-            Failure::bad(format!(
+            bad!(
                 "--about tells of presets, and `{}` is a file's name (`lamina grow --list` names the presets)",
                 name.escape_debug()
-            ))
+            )
         }
     })?;
     say(preset.name);

@@ -12,8 +12,8 @@ use super::drawings::{has_caption, png};
 use super::films::Films;
 use super::maps;
 use super::outputs::{Kind, Outputs, numbered};
-use crate::cli::Failure;
 use crate::cli::arguments::CaptionedKinds;
+use crate::cli::terminal::Failure;
 use crate::export::caption::{Note, captioned};
 use crate::export::daylight::in_daylight;
 use crate::export::drawing::Drawing;
@@ -21,17 +21,17 @@ use crate::export::drawing::Drawing;
 /// Refuses plans of leaves that do not age by days.
 pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
     if plan.compound.is_some() {
-        return Err(Failure::bad(
-            "--ages shows how one blade ages, and this is a compound leaf: take its block `compound` out of the plan",
-        ));
+        bail!(
+            "--ages shows how one blade ages, and this is a compound leaf: take its block `compound` out of the plan"
+        );
     }
     let last = last_day(plan)?;
     if last > Senescence::LATEST_DAY {
-        return Err(Failure::bad(format!(
+        bail!(
             "--ages shows a leaf until all of it is dead, which is on day {last}; days go to {}: let `senescence.death_day` be \
              less, or `senescence.blend_days`, or the days by which its tissue comes later",
             Senescence::LATEST_DAY
-        )));
+        );
     }
     Ok(())
 }
@@ -41,9 +41,7 @@ fn last_day(plan: &LeafPlan) -> Result<f64, Failure> {
     let senescence = plan.senescence.as_ref();
     let last = senescence.and_then(Senescence::last_day);
     last.ok_or_else(|| {
-        Failure::bad(
-            "--ages needs a leaf that ages by days: presets such as `birch-autumn` do, others with a block `senescence` that has `day`",
-        )
+        bad!("--ages needs a leaf that ages by days: presets such as `birch-autumn` do, others with a block `senescence` that has `day`")
     })
 }
 

@@ -6,8 +6,8 @@ use leafmodel::shape::outline::Outline;
 use leafmodel::venation::network::VenationNetwork;
 
 use super::outputs::Kind;
-use crate::cli::Failure;
 use crate::cli::arguments::{CaptionedKinds, GrowArguments, VeinColour};
+use crate::cli::terminal::Failure;
 use crate::export::caption::{Note, captioned};
 use crate::export::drawing::{
     Drawing, SOURCE_COLOUR, Style, Subject, age_colour, draw_within, pixels_per_mm,

@@ -10,7 +10,7 @@ use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::leaf::{Lamina, LeafPlan};
 use rayon::prelude::*;
 
-use crate::cli::{Failure, say};
+use crate::cli::terminal::{Failure, say};
 use crate::image::{Layer, Picture, openexr};
 
 /// Refuses plans of leaves that have no fields.
@@ -31,9 +31,9 @@ pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
 }
 
 fn none() -> Failure {
-    Failure::bad(
+    bad!(
         "--fields needs veins that are splines (venation.arcuate) or a transport leaf (outline.transport or \
-         venation.transport): others have no fields but their contents",
+         venation.transport): others have no fields but their contents"
     )
 }
 

@@ -8,9 +8,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use tempfile::NamedTempFile;
 
 use super::outputs::{Kind, Outputs};
-use crate::cli::Failure;
 use crate::cli::arguments::GrowArguments;
 use crate::cli::progress::Steps;
+use crate::cli::terminal::Failure;
 use crate::export::drawing::Drawing;
 use crate::image::animation::{Animation, Format, Timing};
 
@@ -31,11 +31,11 @@ pub(super) fn check(outputs: &Outputs) -> Result<(), Failure> {
         .status();
     match found {
         Ok(status) if status.success() => Ok(()),
-        Ok(_) | Err(_) => Err(Failure::bad(format!(
-            "{}: mp4 is made by the program `{ENCODER}`, which cannot be run here: install it, or let the name end in gif or \
-             apng, which need no other program",
-            path.display()
-        ))),
+        Ok(_) | Err(_) => Err(bad_at!(
+            path,
+            "mp4 is made by the program `{ENCODER}`, which cannot be run here: install it, or let the name end in gif or \
+             apng, which need no other program"
+        )),
     }
 }
 
@@ -215,7 +215,7 @@ impl Encoding {
 
     fn push(&mut self, rgb: &[u8]) -> Result<(), Failure> {
         if !self.last.is_empty() && self.last.len() != rgb.len() {
-            return Err(Failure::bad("a frame of another size than its film"));
+            bail!("a frame of another size than its film");
         }
         self.send(rgb)?;
         rgb.clone_into(&mut self.last);

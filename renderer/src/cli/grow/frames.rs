@@ -12,7 +12,7 @@ use super::drawings::Look;
 use super::films::Films;
 use super::outputs::{Kind, Outputs, numbered};
 use crate::cli::places::write_whole;
-use crate::cli::{Failure, say};
+use crate::cli::terminal::{Failure, say};
 use crate::export::drawing::{Drawing, Subject};
 
 /// Greatest total number of nodes of stages in memory at once, about a gigabyte.
@@ -26,9 +26,9 @@ const MOST_DRAWN_BYTES: u64 = 512 << 20;
 /// Refuses plans of leaves that have no stages.
 pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
     if plan.compound.is_some() {
-        return Err(Failure::bad(
-            "--frames shows how one blade grows, and this is a compound leaf: take its block `compound` out of the plan",
-        ));
+        bail!(
+            "--frames shows how one blade grows, and this is a compound leaf: take its block `compound` out of the plan"
+        );
     }
     if plan.damage.is_some() {
         return Err(no_stages(&LeafError::NoStages(
@@ -59,14 +59,14 @@ pub(super) fn check_sources(plan: &LeafPlan) -> Result<(), Failure> {
         VenationPlan::Arcuate(_)
         | VenationPlan::Cells(_)
         | VenationPlan::Transport(_)
-        | VenationPlan::Development(_) => Err(Failure::bad(
-            "--sources shows the sources towards which veins grow, and those of this leaf do not: its venation has no `auxin`",
+        | VenationPlan::Development(_) => Err(bad!(
+            "--sources shows the sources towards which veins grow, and those of this leaf do not: its venation has no `auxin`"
         )),
     }
 }
 
 fn no_stages(error: &LeafError) -> Failure {
-    Failure::bad(format!("--frames: {error}"))
+    bad!("--frames: {error}")
 }
 
 /// A stage with its petiole, if the leaf has one. Its length and radius are reduced in proportion

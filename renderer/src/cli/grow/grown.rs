@@ -6,7 +6,7 @@ use leafmodel::compound::{CompoundLeaf, FlatLeaf, WholeLeaf, leaflet_plans};
 use leafmodel::leaf::{Lamina, Leaf, LeafError, LeafPlan};
 use leafmodel::venation::VenationError;
 
-use crate::cli::Failure;
+use crate::cli::terminal::Failure;
 use crate::export::blade::Parts;
 use crate::report::warnings;
 
@@ -91,7 +91,7 @@ impl Grown {
             return Ok(FlatLeaf::with_petiole(plan, laminas[0]));
         };
         let flat = FlatLeaf::compound(compound, &laminas);
-        let vanished = || Failure::bad("the smallest leaflets are too small to be drawn");
+        let vanished = || bad!("the smallest leaflets are too small to be drawn");
         flat.ok_or_else(vanished).map(Some)
     }
 

@@ -7,17 +7,17 @@ use leafmodel::plan_file::individuals_to_toml;
 use super::choice::Chosen;
 use super::outputs::{Kind, Outputs};
 use super::{Grown, finish};
-use crate::cli::Failure;
+use crate::cli::terminal::Failure;
 use crate::export::sheet::{Sheet, Specimen};
 
 /// Refuses files that hold one leaf only.
 pub(super) fn check(outputs: &Outputs) -> Result<(), Failure> {
     let is_good = |kind: &Kind| matches!(kind, Kind::Toml | Kind::Svg | Kind::Png);
     if outputs.whole.is_empty() || !outputs.whole.iter().all(|(_, kind)| is_good(kind)) {
-        return Err(Failure::bad(
+        bail!(
             "--individuals writes plans into one toml, or margins and veins side by side as svg or png: let --out end in one of \
-             these; other files hold one leaf, such as `lamina grow FILE.toml#NAME` takes from the plans",
-        ));
+             these; other files hold one leaf, such as `lamina grow FILE.toml#NAME` takes from the plans"
+        );
     }
     Ok(())
 }

@@ -10,7 +10,7 @@ use leafmodel::leaf::LeafPlan;
 use leafmodel::optics::Constituent;
 use leafmodel::shape::outline::Outline;
 
-use crate::cli::{Failure, say};
+use crate::cli::terminal::{Failure, say};
 use crate::export::mitsuba::map_picture;
 use crate::image::{Attribute, Picture, openexr};
 use crate::material::contents_texture::ContentsTexture;
@@ -27,8 +27,7 @@ pub(super) fn write(
     if stop.load(Ordering::Relaxed) {
         return Err(Failure::Interrupted);
     }
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::system(format!("{}: {error}", folder.display())))?;
+    std::fs::create_dir_all(folder).map_err(Failure::system_at(folder))?;
     let path = folder.join(format!("{name}.exr"));
     openexr::write(&picture(name, map, outline, day), &path).map_err(Failure::system)?;
     say(path.display());

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::arguments::{CaptionedKinds, GrowArguments, VeinColour};
+use crate::cli::places::check_writable;
 use crate::cli::places::{check_outputs, require_ending};
-use crate::cli::{Failure, check_writable};
+use crate::cli::terminal::Failure;
 
 /// The kind of a file, by its ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,11 +39,11 @@ impl Kind {
             Some("ply") => Ok(Self::Ply),
             Some("obj") => Ok(Self::Obj),
             Some("toml") => Ok(Self::Toml),
-            _ => Err(Failure::bad(format!(
-                "{}: the ending tells what is written: svg, png, json, graphml, geojson or csv (veins), gif, apng or mp4 \
-                 (films of them), ply or obj (blade), toml (plan)",
-                path.display()
-            ))),
+            _ => Err(bad_at!(
+                path,
+                "the ending tells what is written: svg, png, json, graphml, geojson or csv (veins), gif, apng or mp4 \
+                 (films of them), ply or obj (blade), toml (plan)"
+            )),
         }
     }
 
@@ -95,21 +96,21 @@ impl Outputs {
                 || (in_ages && (is_film || *kind == Kind::Png))
         });
         if let Some((path, _)) = whole.iter().find(|(_, kind)| kind.is_film()) {
-            return Err(Failure::bad(format!(
-                "{}: a film needs --frames N, which shows growth, or --ages N, which shows ageing",
-                path.display()
-            )));
+            bail_at!(
+                path,
+                "a film needs --frames N, which shows growth, or --ages N, which shows ageing"
+            );
         }
         check_look(arguments, whole.iter().chain(&staged))?;
         if in_ages && staged.is_empty() && arguments.contents.is_none() {
-            return Err(Failure::bad(
-                "--ages needs an --out that shows colours (png, gif, apng or mp4), or --contents",
-            ));
+            bail!(
+                "--ages needs an --out that shows colours (png, gif, apng or mp4), or --contents"
+            );
         }
         if in_stages && staged.is_empty() {
-            return Err(Failure::bad(
-                "--frames needs an --out that shows veins: svg, png, json, graphml, geojson, csv, gif, apng or mp4",
-            ));
+            bail!(
+                "--frames needs an --out that shows veins: svg, png, json, graphml, geojson, csv, gif, apng or mp4"
+            );
         }
         let reports = [&arguments.measure, &arguments.stats, &arguments.fields];
         let reports = reports.into_iter().flatten();
@@ -154,7 +155,7 @@ fn check_look<'a>(
         is_drawn |= kind.is_drawn();
         has_svg |= *kind == Kind::Svg;
     }
-    let refused = |flag: &str, needs: &str| Err(Failure::bad(format!("{flag} {needs}")));
+    let refused = |flag: &str, needs: &str| Err(bad!("{flag} {needs}"));
     let is_plain =
         arguments.colour == VeinColour::Plain && arguments.caption == CaptionedKinds::default();
     if arguments.individuals.is_some() && !is_plain {
@@ -196,10 +197,9 @@ fn check_folder(folder: &Path) -> Result<(), Failure> {
         .ancestors()
         .find(|path| path.as_os_str().is_empty() || path.exists());
     match there {
-        Some(path) if path == folder && !path.is_dir() => Err(Failure::bad(format!(
-            "{} is a file: name a folder",
-            folder.display()
-        ))),
+        Some(path) if path == folder && !path.is_dir() => {
+            Err(bad!("{} is a file: name a folder", folder.display()))
+        }
         Some(path) => check_writable(&path.join("map.exr")),
         None => Ok(()),
     }

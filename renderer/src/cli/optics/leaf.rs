@@ -4,8 +4,8 @@ use leafmodel::optics::presets::{self, Preset};
 use leafmodel::optics::{Constituent, Contents, PerConstituent};
 use serde_json::{Value, json};
 
-use crate::cli::Failure;
 use crate::cli::arguments::OpticsArguments;
+use crate::cli::terminal::Failure;
 use crate::report::table::in_columns;
 use leafmodel::document::nearest::meant;
 
@@ -45,10 +45,10 @@ fn unknown_preset(wanted: &str) -> Failure {
     let presets = presets::ALL.iter();
     let meant = meant(wanted, presets.map(|preset| (preset.name, preset.about)));
     let meant = meant.map_or_else(String::new, |name| format!("; did you mean `{name}`?"));
-    Failure::bad(format!(
+    bad!(
         "there is no preset `{}`{meant} (`lamina optics --list` names the presets)",
         wanted.escape_debug()
-    ))
+    )
 }
 
 impl Chosen {

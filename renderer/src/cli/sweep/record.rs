@@ -9,8 +9,8 @@ use serde_json::Value;
 
 use super::tasks::hexadecimal;
 use crate::checkpoint::PROGRAM;
-use crate::cli::Failure;
 use crate::cli::places::{has_ending, write_whole};
+use crate::cli::terminal::Failure;
 use crate::image::{Layer, openexr};
 use crate::sweep::{Sweep, Target, Task};
 
@@ -141,11 +141,11 @@ pub(super) fn check_version(folder: &Path) -> Result<(), Failure> {
         .find(|by| by != PROGRAM)
     {
         None => Ok(()),
-        Some(version) => Err(Failure::bad(format!(
-            "{}: its tasks were done by Lamina {version}: continue the sweep with that version, or \
-             name another folder by --out",
-            folder.display()
-        ))),
+        Some(version) => Err(bad_at!(
+            folder,
+            "its tasks were done by Lamina {version}: continue the sweep with that version, or \
+             name another folder by --out"
+        )),
     }
 }
 

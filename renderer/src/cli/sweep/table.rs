@@ -6,8 +6,8 @@ use super::list::{plain, value};
 use super::record::Record;
 use super::tasks::hexadecimal;
 use crate::checkpoint::PROGRAM;
-use crate::cli::Failure;
 use crate::cli::places::write_whole;
+use crate::cli::terminal::Failure;
 use crate::report::table::{Table, cell};
 use crate::sweep::{Sweep, Task};
 

@@ -7,7 +7,8 @@ use rayon::prelude::*;
 
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::{Arguments, Command};
-use crate::cli::{Failure, colour, grow};
+use crate::cli::grow;
+use crate::cli::terminal::{Failure, colour};
 use crate::scene::fingerprint::fnv1a;
 use crate::scene::load::load;
 use crate::sweep::{Refused, Sweep, Target, Task};
@@ -140,8 +141,8 @@ fn identity(sweep: &Sweep, task: &Task<'_>) -> Result<u64, Why> {
             line.extend(words_of(sweep, task, None));
             let parsed = Arguments::of_line(line);
             let Ok(Some(Command::Grow(arguments))) = parsed.map(|parsed| parsed.command) else {
-                return Err(Why::Failure(Failure::bad(
-                    "the leaf's name is no word of a command",
+                return Err(Why::Failure(bad!(
+                    "the leaf's name is no word of a command"
                 )));
             };
             let (name, plan) =
