@@ -133,9 +133,7 @@ pub fn draw_within(
         (size.y * scale).round().max(1.0) as u32,
     );
     if pixels_per_long_side == 0 {
-        return Err(ImageError::Inconsistent {
-            what: "a drawing needs at least 1 pixel".to_owned(),
-        });
+        return Err(ImageError::inconsistent("a drawing needs at least 1 pixel"));
     }
     let canvas = (u64::from(width) * u64::from(height) <= MOST_PIXELS
         && pixels_per_long_side <= LONGEST_SIDE)

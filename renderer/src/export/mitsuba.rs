@@ -334,20 +334,16 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
 /// A contents map as a picture whose first row is v = 0.
 pub fn map_picture(map: &ContentsTexture) -> Picture {
     let (width, height) = map.size();
-    let layers = Constituent::ALL.map(|constituent| Layer {
-        name: constituent.channel().to_owned(),
-        data: map
-            .texels()
-            .iter()
-            .map(|texel| texel[constituent])
-            .collect(),
+    let layers = Constituent::ALL.map(|constituent| {
+        Layer::new(
+            constituent.channel(),
+            map.texels()
+                .iter()
+                .map(|texel| texel[constituent])
+                .collect(),
+        )
     });
-    Picture {
-        width: width as u32,
-        height: height as u32,
-        layers: layers.into(),
-        attributes: Vec::new(),
-    }
+    Picture::new([width as u32, height as u32], layers)
 }
 
 /// Path, within the export, of the relief of a material.
@@ -364,12 +360,7 @@ fn relief_picture(relief: &Relief) -> Picture {
         name,
         data: texels.iter().map(|texel| texel[channel]).collect(),
     });
-    Picture {
-        width: width as u32,
-        height: height as u32,
-        layers: layers.collect(),
-        attributes: Vec::new(),
-    }
+    Picture::new([width as u32, height as u32], layers)
 }
 
 /// The bands of the film; a colour film is exported as one band over its range.

@@ -12,11 +12,13 @@ use serde::{Deserialize, Serialize};
 
 use super::card;
 use super::colours::{mapped, to_rec709};
+use super::error::ImageError;
 use super::light_colour;
+use super::picture::{Picture, luminance};
 use super::pixels::{Depth, Pixels};
 use super::tone::Tone;
 use super::white::{White, neutralised};
-use super::{ImageError, Picture, atomic, jpeg, luminance, portable_network};
+use super::{atomic, jpeg, portable_network};
 use crate::spectrum::observer::Observer;
 use crate::spectrum::{Share, WavelengthSampler};
 
@@ -95,7 +97,7 @@ impl Display {
             (FileKind::Jpeg, Depth::Eight, false) | (FileKind::Png, ..) => return Ok(()),
         };
         let what = format!("a JPEG cannot have {cannot}: write a PNG, or leave that out");
-        Err(ImageError::Inconsistent { what })
+        Err(ImageError::inconsistent(what))
     }
 
     /// Writes a picture as a file of a kind.
@@ -203,9 +205,7 @@ fn meter(colours: &[[f32; 3]]) -> f64 {
 }
 
 fn lacks(what: &str) -> ImageError {
-    ImageError::Inconsistent {
-        what: format!("it has no {what}"),
-    }
+    ImageError::inconsistent(format_args!("it has no {what}"))
 }
 
 /// Linear sRGB of each pixel.
@@ -229,11 +229,8 @@ pub fn colours(picture: &Picture) -> Result<Vec<[f32; 3]>, ImageError> {
         .filter_map(|layer| Some((wavelength(&layer.name)?, layer.data.as_slice())))
         .collect();
     if bands.is_empty() {
-        let Some(grey) = picture.layer("Y") else {
-            return Err(lacks(
-                "channels `R`, `G`, `B`, or `Y` alone, nor bands `S0.…nm`",
-            ));
-        };
+        let none = "channels `R`, `G`, `B`, or `Y` alone, nor bands `S0.…nm`";
+        let grey = picture.layer("Y").ok_or_else(|| lacks(none))?;
         return Ok(grey.data.iter().map(|&grey| [grey; 3]).collect());
     }
     Ok(colours_of_bands(&bands))

@@ -73,19 +73,15 @@ pub(super) fn write(
     if stop.load(Ordering::Relaxed) {
         return Err(Failure::Interrupted);
     }
-    let layer = |(channel, name): (usize, &&str)| Layer {
-        name: (*name).to_owned(),
-        data: rows
-            .iter()
-            .flat_map(|row| row[channel].iter().copied())
-            .collect(),
+    let layer = |(channel, name): (usize, &&str)| {
+        Layer::new(
+            *name,
+            rows.iter()
+                .flat_map(|row| row[channel].iter().copied())
+                .collect(),
+        )
     };
-    let picture = Picture {
-        width,
-        height,
-        layers: names.iter().enumerate().map(layer).collect(),
-        attributes: Vec::new(),
-    };
+    let picture = Picture::new([width, height], names.iter().enumerate().map(layer));
     openexr::write(&picture, path).map_err(Failure::system)?;
     say(path.display());
     Ok(())

@@ -22,7 +22,6 @@ pub(super) struct Viewer {
     client: TevClient,
     name: String,
     width: u32,
-    height: u32,
 }
 
 impl Viewer {
@@ -44,7 +43,6 @@ impl Viewer {
             client,
             name: name.to_owned(),
             width,
-            height,
         })
     }
 

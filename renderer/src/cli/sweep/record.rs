@@ -197,10 +197,7 @@ mod tests {
 
     #[test]
     fn means_and_errors_are_those_of_light() {
-        let layer = |name: &str| Layer {
-            name: name.to_owned(),
-            data: vec![1.0, 3.0, 5.0, 7.0],
-        };
+        let layer = |name: &str| Layer::new(name, vec![1.0, 3.0, 5.0, 7.0]);
         assert_eq!(mean(&layer("G")), Some(("mean.G".to_owned(), 4.0)));
         // Variances of pixels add up, that of the mean is their sum over the square of the count.
         assert_eq!(

@@ -68,20 +68,20 @@ pub(super) fn pictures(id: &str, map: &ColourMap) -> Vec<(String, Picture)> {
     let pictures = slots.filter_map(|(number, slot)| {
         let texture = slot.texture.as_ref()?;
         let [width, height] = texture.size();
-        let layer = |channel: usize, name: &str| Layer {
-            name: name.to_owned(),
-            data: texture
-                .texels()
-                .iter()
-                .map(|texel| texel[channel])
-                .collect(),
+        let layer = |channel: usize, name: &str| {
+            Layer::new(
+                name,
+                texture
+                    .texels()
+                    .iter()
+                    .map(|texel| texel[channel])
+                    .collect(),
+            )
         };
-        let picture = Picture {
-            width: width as u32,
-            height: height as u32,
-            layers: vec![layer(0, "R"), layer(1, "G"), layer(2, "B")],
-            attributes: Vec::new(),
-        };
+        let picture = Picture::new(
+            [width as u32, height as u32],
+            [layer(0, "R"), layer(1, "G"), layer(2, "B")],
+        );
         Some((file(id, number), picture))
     });
     pictures.collect()

@@ -137,15 +137,10 @@ pub(super) fn spectra(table: &RadianceTable<'_>) -> String {
 /// Three or four weights as a picture, its first row towards the zenith or at the upper border.
 pub(super) fn weights<const N: usize>(size: [usize; 2], texels: &[[f32; N]]) -> Picture {
     let layers = ["R", "G", "B", "A"].into_iter().take(N).enumerate();
-    Picture {
-        width: size[0] as u32,
-        height: size[1] as u32,
-        layers: layers
-            .map(|(channel, name)| Layer {
-                name: name.to_owned(),
-                data: texels.iter().map(|texel| texel[channel]).collect(),
-            })
-            .collect(),
-        attributes: Vec::new(),
-    }
+    Picture::new(
+        [size[0] as u32, size[1] as u32],
+        layers.map(|(channel, name)| {
+            Layer::new(name, texels.iter().map(|texel| texel[channel]).collect())
+        }),
+    )
 }
