@@ -11,6 +11,7 @@ use crate::cli::arguments::FitArguments;
 use crate::cli::places::{check_outputs, is_json_not_csv, require_ending, write_and_say};
 use crate::cli::progress::Patience;
 use crate::cli::terminal::{Failure, say};
+use crate::measured::series::retain;
 use crate::measured::spectra::Leaf;
 use crate::report::fit::{
     Fitted, Rounded, contents, covariances, fitted_spectra, human, report, shown, svg,
@@ -162,20 +163,15 @@ fn parse_range(written: &str) -> Result<[f64; 2], Failure> {
 /// Keeps the wavelengths of a range.
 fn keep(leaf: &mut Leaf, [low, high]: [f64; 2]) {
     let kept: Vec<bool> = leaf.nm.iter().map(|nm| (low..=high).contains(nm)).collect();
-    let Leaf {
-        name: _,
-        nm,
-        reflectance,
-        abaxial,
-        transmittance,
-        lines,
-    } = leaf;
-    for values in [nm, reflectance, abaxial, transmittance] {
-        let mut kept = kept.iter();
-        values.retain(|_| kept.next().copied().unwrap_or(true));
+    for values in [
+        &mut leaf.nm,
+        &mut leaf.reflectance,
+        &mut leaf.abaxial,
+        &mut leaf.transmittance,
+    ] {
+        retain(values, &kept);
     }
-    let mut kept = kept.iter();
-    lines.retain(|_| kept.next().copied().unwrap_or(true));
+    retain(&mut leaf.lines, &kept);
 }
 
 fn spectra(leaf: &Leaf) -> inversion::Spectra<'_> {

@@ -61,7 +61,7 @@ fn mean_of(colours: &[[f32; 3]], wanted: impl Fn(usize) -> bool) -> Option<[f64;
 
 #[cfg(test)]
 mod tests {
-    use super::super::Layer;
+    use super::super::{Attribute, Layer};
     use super::*;
 
     /// Five columns: background, an edge pixel of the card, two inside of it, a leaf.

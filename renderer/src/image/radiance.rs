@@ -379,7 +379,7 @@ mod tests {
         let points = |line: &str| {
             let picture = decode(&file(line)).expect("it is a picture");
             match picture.attribute("chromaticities") {
-                Some(Attribute::Chromaticities(points)) => *points,
+                Some(crate::image::Attribute::Chromaticities(points)) => *points,
                 other => panic!("{other:?}"),
             }
         };
