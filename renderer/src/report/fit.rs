@@ -10,7 +10,7 @@ use leafmodel::optics::inversion::{Determined, Found, INTERVAL, Inversion};
 use serde_json::{Map, Value as Json, json};
 
 pub(crate) use self::plot::svg;
-use super::table::{Table, cell, in_columns};
+use super::table::{Table, aligned, cell};
 use crate::checkpoint::PROGRAM;
 use crate::measured::spectra::Leaf;
 
@@ -214,7 +214,7 @@ pub(crate) fn human(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
             .contrast
             .map(|contrast| told("contrast of the faces", contrast.value, "", contrast.known));
         let rows: Vec<[String; 3]> = contents.chain(contrast).collect();
-        lines.push(in_columns(&rows));
+        lines.push(aligned(&rows));
     }
     lines.push("± is half of the interval of 95 %".to_owned());
     lines.join("\n")

@@ -120,7 +120,7 @@ impl<'p> Simulations<'p> {
     }
 
     fn table(&self, grown: &Grown) -> String {
-        let mut table = Table::new(header(self.problem));
+        let mut table = Table::of(header(self.problem));
         // All digits, and a point.
         let exact = |value: &f64| format!("{value:?}");
         for (draw, outcome) in grown.values() {

@@ -51,9 +51,8 @@ fn row(quantity: &Quantity) -> Row {
 
 /// The species, and rows with a heading: the traits of the leaf in summer, then what differs.
 fn table(traits: &Traits) -> String {
-    let heading = ["trait", "value", "range", "from"].map(str::to_owned);
-    let rows: Vec<Row> = std::iter::once(heading).chain(rows(traits)).collect();
-    format!("  {}\n{}", traits.species, in_columns(&rows))
+    let rows = in_columns(["trait", "value", "range", "from"], rows(traits));
+    format!("  {}\n{rows}", traits.species)
 }
 
 fn rows(traits: &Traits) -> impl Iterator<Item = Row> {
@@ -72,11 +71,10 @@ pub(super) fn findings_table(found: &[Finding]) -> String {
             told(&finding.from),
         ]
     };
-    let heading = ["trait", "found", "range", "", "from"].map(str::to_owned);
-    let rows: Vec<[String; 5]> = std::iter::once(heading)
-        .chain(found.iter().map(row))
-        .collect();
-    in_columns(&rows)
+    in_columns(
+        ["trait", "found", "range", "", "from"],
+        found.iter().map(row),
+    )
 }
 
 fn told(from: &Provenance) -> String {

@@ -82,9 +82,7 @@ impl Chosen {
 
     /// Every number with its unit and source.
     pub(super) fn about(&self) -> String {
-        let head = ["content", "value", "unit", "rests on"].map(str::to_owned);
-        let mut rows = vec![head];
-        for (constituent, value) in *self.contents {
+        let rows = self.contents.into_iter().map(|(constituent, value)| {
             let unit = constituent.counted_in().to_owned();
             let basis = match (self.given[constituent], &self.preset) {
                 ((option, Some(_)), _) => format!("given by {option}"),
@@ -92,12 +90,12 @@ impl Chosen {
                 ((_, None), None) => "default of this command".to_owned(),
             };
             let what = constituent.words().to_owned();
-            rows.push([what, value.to_string(), unit, basis]);
-        }
+            [what, value.to_string(), unit, basis]
+        });
         let mut text = String::new();
         if let Some(preset) = self.preset {
             text += &format!("{}: {}\n", preset.name, preset.about);
         }
-        text + &in_columns(&rows)
+        text + &in_columns(["content", "value", "unit", "rests on"], rows)
     }
 }

@@ -45,7 +45,7 @@ pub(super) fn write(path: &Path, sweep: &Sweep, rows: &[Row<'_>]) -> Result<(), 
     }
     header.push("file");
     header.extend(&names);
-    let mut table = Table::new(header);
+    let mut table = Table::of(header);
     for row in rows {
         let state = match row.state {
             State::Done => "done",
