@@ -283,7 +283,7 @@ fn leaves_are_grown_behind_one_seam() {
         "solid",
         "tracing",
     ];
-    const SEAM: [&str; 18] = [
+    const SEAM: [&str; 19] = [
         "scene/plants",
         "scene/expand/boughs",
         "scene/expand/individuals",
@@ -301,6 +301,7 @@ fn leaves_are_grown_behind_one_seam() {
         "export/daylight",
         "export/sheet",
         "export/drawing",
+        "export/veins",
         "export/overlay",
     ];
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../renderer/src");

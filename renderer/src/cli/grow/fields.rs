@@ -10,6 +10,7 @@ use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::leaf::{Lamina, LeafPlan};
 use rayon::prelude::*;
 
+use crate::cli::signals;
 use crate::cli::terminal::{Failure, say};
 use crate::image::{Layer, Picture, openexr};
 
@@ -70,9 +71,7 @@ pub(super) fn write(
         channels
     };
     let rows: Vec<Vec<Vec<f32>>> = (0..height).into_par_iter().map(row).collect();
-    if stop.load(Ordering::Relaxed) {
-        return Err(Failure::Interrupted);
-    }
+    signals::check(stop)?;
     let layer = |(channel, name): (usize, &&str)| {
         Layer::new(
             *name,

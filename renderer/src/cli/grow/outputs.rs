@@ -3,66 +3,55 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::arguments::{CaptionedKinds, GrowArguments, VeinColour};
-use crate::cli::places::check_writable;
-use crate::cli::places::{check_outputs, require_ending};
+use crate::cli::places::{check_outputs, check_writable, require_ending};
 use crate::cli::terminal::Failure;
+use crate::export::veins::VeinFormat;
+use crate::image::animation::Format;
 
 /// The kind of a file, by its ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    Svg,
-    Png,
-    Gif,
-    Apng,
+    /// Margin and veins, which exist at every stage of growth.
+    Veins(VeinFormat),
+    /// Several stages one after another, written by the program itself.
+    Film(Format),
+    /// The same, written by another program.
     Mp4,
-    Json,
-    GraphMl,
-    GeoJson,
-    Csv,
     Ply,
     Obj,
     Toml,
 }
 
 impl Kind {
-    fn of(path: &Path) -> Result<Self, Failure> {
-        match path.extension().and_then(|ending| ending.to_str()) {
-            Some("svg") => Ok(Self::Svg),
-            Some("png") => Ok(Self::Png),
-            Some("gif") => Ok(Self::Gif),
-            Some("apng") => Ok(Self::Apng),
-            Some("mp4") => Ok(Self::Mp4),
-            Some("json") => Ok(Self::Json),
-            Some("graphml") => Ok(Self::GraphMl),
-            Some("geojson") => Ok(Self::GeoJson),
-            Some("csv") => Ok(Self::Csv),
-            Some("ply") => Ok(Self::Ply),
-            Some("obj") => Ok(Self::Obj),
-            Some("toml") => Ok(Self::Toml),
-            _ => Err(bad_at!(
-                path,
-                "the ending tells what is written: svg, png, json, graphml, geojson or csv (veins), gif, apng or mp4 \
-                 (films of them), ply or obj (blade), toml (plan)"
-            )),
-        }
-    }
+    pub(super) const SVG: Self = Self::Veins(VeinFormat::Svg);
+    pub(super) const PNG: Self = Self::Veins(VeinFormat::Png);
 
-    /// Whether it shows margin and veins, which exist at every stage of growth.
-    pub(super) fn is_of_veins(self) -> bool {
-        match self {
-            Self::Svg | Self::Png | Self::Json | Self::GraphMl | Self::GeoJson | Self::Csv => true,
-            Self::Gif | Self::Apng | Self::Mp4 | Self::Ply | Self::Obj | Self::Toml => false,
-        }
+    fn of(path: &Path) -> Result<Self, Failure> {
+        Ok(match path.extension().and_then(|ending| ending.to_str()) {
+            Some("gif") => Self::Film(Format::Gif),
+            Some("apng") => Self::Film(Format::Apng),
+            Some("mp4") => Self::Mp4,
+            Some("ply") => Self::Ply,
+            Some("obj") => Self::Obj,
+            Some("toml") => Self::Toml,
+            _ => VeinFormat::of(path).map(Self::Veins).ok_or_else(|| {
+                bad_at!(
+                    path,
+                    "the ending tells what is written: svg, png, json, graphml, geojson or csv (veins), gif, apng or mp4 \
+                     (films of them), ply or obj (blade), toml (plan)"
+                )
+            })?,
+        })
     }
 
     /// Whether it shows several stages one after another.
     pub(super) fn is_film(self) -> bool {
-        matches!(self, Self::Gif | Self::Apng | Self::Mp4)
+        matches!(self, Self::Film(_) | Self::Mp4)
     }
 
     /// Whether it shows drawn veins in colours.
     fn is_drawn(self) -> bool {
-        self.is_film() || matches!(self, Self::Png)
+        self.is_film() || self == Self::PNG
     }
 
     fn needs_blade(self) -> bool {
@@ -92,8 +81,8 @@ impl Outputs {
         let in_ages = arguments.ages.is_some();
         let (staged, whole): (Vec<_>, Vec<_>) = files.partition(|(_, kind)| {
             let is_film = kind.is_film();
-            (in_stages && (is_film || kind.is_of_veins()))
-                || (in_ages && (is_film || *kind == Kind::Png))
+            (in_stages && (is_film || matches!(kind, Kind::Veins(_))))
+                || (in_ages && (is_film || *kind == Kind::PNG))
         });
         if let Some((path, _)) = whole.iter().find(|(_, kind)| kind.is_film()) {
             bail_at!(
@@ -153,7 +142,7 @@ fn check_look<'a>(
     let (mut is_drawn, mut has_svg) = (false, false);
     for (_, kind) in files {
         is_drawn |= kind.is_drawn();
-        has_svg |= *kind == Kind::Svg;
+        has_svg |= *kind == Kind::SVG;
     }
     let refused = |flag: &str, needs: &str| Err(bad!("{flag} {needs}"));
     let is_plain =
