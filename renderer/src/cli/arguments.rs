@@ -8,8 +8,9 @@ mod fit_veins;
 mod grow;
 mod instruments;
 mod measure;
+mod numbers;
 mod optics;
-mod samples;
+mod scene;
 mod shell;
 mod sweep;
 mod tables;
@@ -21,7 +22,7 @@ use std::path::PathBuf;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::film::MOST_SAMPLES;
+use self::numbers::{MOST_GIB, MOST_SECONDS, between, samples, size};
 
 pub use check_bsdf::CheckBsdfArguments;
 pub use compare_networks::{Alignment, CompareNetworksArguments, Group, Groups};
@@ -31,8 +32,9 @@ pub use fit_veins::FitVeinsArguments;
 pub use grow::{CaptionedKinds, GrowArguments, VeinColour};
 pub use instruments::InstrumentsArguments;
 pub use measure::{MeasureArguments, MeasuringArguments, ReadingArguments};
+pub use numbers::SampleRange;
 pub use optics::OpticsArguments;
-pub use samples::SampleRange;
+pub use scene::SceneArguments;
 pub use shell::{CompletionsArguments, ManArguments};
 pub use sweep::{SweepArguments, TaskRange};
 pub use tables::{ReadingTablesArguments, TableArguments};
@@ -211,17 +213,6 @@ pub enum Command {
     Licenses,
 }
 
-/// A scene file with overrides.
-#[derive(Args, Clone, Debug, PartialEq, Eq)]
-pub struct SceneArguments {
-    /// The scene file
-    #[arg(value_name = "SCENE.toml")]
-    pub scene: PathBuf,
-    /// Override a value, written as in the file: -D film.rgb.spp=16
-    #[arg(short = 'D', value_name = "KEY=VALUE")]
-    pub overrides: Vec<String>,
-}
-
 /// `lamina check`.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct CheckArguments {
@@ -235,11 +226,6 @@ pub struct CheckArguments {
     /// Memory that a render may take; the default is what the machine has free
     #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,
-}
-
-/// Numbers of samples of a pixel.
-fn samples() -> clap::builder::RangedI64ValueParser<u32> {
-    clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES))
 }
 
 /// `lamina render`.
@@ -328,42 +314,6 @@ pub struct MergeArguments {
     /// written instead of the PNG
     #[arg(long, value_name = "STEM")]
     pub out: PathBuf,
-}
-
-/// Longest time that a render may be given: a year.
-const MOST_SECONDS: u32 = 366 * 24 * 3600;
-
-/// Most memory that a render may be given, GiB.
-const MOST_GIB: u32 = 1 << 20;
-
-/// A number from `LOW` to `HIGH`.
-fn between<const LOW: u32, const HIGH: u32>(text: &str) -> Result<f64, String> {
-    let number: f64 = text
-        .parse()
-        .map_err(|_| format!("not a number; write one from {LOW} to {HIGH}"))?;
-    let allowed = f64::from(LOW)..=f64::from(HIGH);
-    if allowed.contains(&number) {
-        Ok(number)
-    } else {
-        Err(format!("must be from {LOW} to {HIGH}"))
-    }
-}
-
-/// A width and a height, such as `640x480`.
-fn size(text: &str) -> Result<[u32; 2], String> {
-    let number = |text: &str| text.trim().parse().ok();
-    let pair = text.split_once(['x', '×', ',']);
-    let pair = pair.and_then(|(width, height)| Some([number(width)?, number(height)?]));
-    pair.ok_or_else(|| "write a width and a height: 640x480".to_owned())
-}
-
-/// Two finite numbers with a comma between them; `wanted` tells what is to be written.
-fn two_numbers(text: &str, wanted: &str) -> Result<[f64; 2], String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
-    let pair = text
-        .split_once(',')
-        .and_then(|(x, y)| Some([number(x)?, number(y)?]));
-    pair.ok_or_else(|| wanted.to_owned())
 }
 
 /// `lamina export`.

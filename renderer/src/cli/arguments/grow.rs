@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{MOST_GIB, between};
+use super::numbers::{MOST_GIB, between};
 
 /// Examples of the command.
 pub(super) const EXAMPLES: &str = "\

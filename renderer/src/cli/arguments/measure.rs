@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 use leafmodel::import::Format;
 
+use super::numbers::{above_0, between, two_numbers};
 use super::tables::{self, TableArguments};
-use super::{between, two_numbers};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -177,13 +177,6 @@ impl MeasureArguments {
         let endings: Vec<&str> = Format::ENDINGS.iter().map(|(ending, _)| *ending).collect();
         endings.join(", ")
     }
-}
-
-/// A number above 0 and up to `HIGH`.
-fn above_0<const HIGH: u32>(text: &str) -> Result<f64, String> {
-    let number = between::<0, HIGH>(text)?;
-    let allowed = format!("it must be above 0 and at most {HIGH}");
-    (number > 0.0).then_some(number).ok_or(allowed)
 }
 
 /// Millimetres to a unit.

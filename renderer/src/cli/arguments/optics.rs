@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 use leafmodel::optics::{Constituent, PerConstituent};
 
-use super::TableArguments;
+use super::tables::TableArguments;
 
 /// `lamina optics`: a preset, PROSPECT-D's inputs and betalains, and what is to be told of them.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
