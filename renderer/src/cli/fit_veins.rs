@@ -4,7 +4,8 @@ mod free;
 mod observed;
 mod simulations;
 
-use leafmodel::inference::{FitError, Problem, fit};
+use leafmodel::inference::{FitError, Problem, Role, fit};
+use serde_json::json;
 
 use self::free::Grower;
 use self::observed::Observed;
@@ -41,12 +42,21 @@ pub(super) fn run(arguments: &FitVeinsArguments) -> Result<(), Failure> {
     }
     let signals = Signals::listen()?;
     let _lock = Lock::take(&json, &signals)?;
-    let told = format!(
-        "{PROGRAM} {} {} {problem:?}",
-        grower.told(),
-        arguments.memory
-    );
-    let simulations = Simulations::open(&table, fnv1a(told.as_bytes()), &problem)?;
+    let parameters = problem.parameters().iter();
+    let parameters = parameters.map(|one| json!([one.name(), one.range(), one.is_whole()]));
+    let observed = problem.observed().iter();
+    let observed = observed.map(|one| json!([one.key, one.value, one.role == Role::HeldOut]));
+    let identity = json!({
+        "program": PROGRAM,
+        "leaf": grower.file(),
+        "memory": arguments.memory,
+        "parameters": parameters.collect::<Vec<_>>(),
+        "observed": observed.collect::<Vec<_>>(),
+        "simulations": problem.simulations(),
+        "seed": problem.seed(),
+    });
+    let identity = fnv1a(identity.to_string().as_bytes());
+    let simulations = Simulations::open(&table, identity, &problem)?;
     signals.begin_work();
     let work = || {
         fit(&problem, |draws| {

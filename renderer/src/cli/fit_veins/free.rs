@@ -2,10 +2,11 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use leafmodel::document::written::Extent;
 use leafmodel::inference::{Draw, Observation, Outcome, Parameter};
 use leafmodel::leaf::LeafPlan;
 use leafmodel::measure::measure;
-use leafmodel::plan_file::{LeafFile, load_one_leaf};
+use leafmodel::plan_file::{LeafFile, leaf_to_toml, load_one_leaf};
 
 use super::observed::Observed;
 use crate::cli::arguments::FitVeinsArguments;
@@ -63,9 +64,9 @@ impl Grower {
         &self.parameters
     }
 
-    /// All that outcomes depend on besides the draws.
-    pub(super) fn told(&self) -> String {
-        format!("{} {:?}", self.name, self.plan)
+    /// The leaf as a file of all of its keys.
+    pub(super) fn file(&self) -> String {
+        leaf_to_toml(&self.name, &self.plan, Extent::All)
     }
 
     /// What a user should know of the leaf before it is grown.
