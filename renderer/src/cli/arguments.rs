@@ -1,17 +1,14 @@
 //! The command line as written: what can be asked for, and nothing of how it is done.
 
-mod check_bsdf;
 mod compare_networks;
-mod example;
-mod fit;
 mod fit_veins;
 mod grow;
 mod instruments;
 mod measure;
+mod measured;
 mod numbers;
 mod optics;
 mod scene;
-mod shell;
 mod sweep;
 mod tables;
 mod tonemap;
@@ -21,21 +18,19 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap_complete::Shell;
 
 use self::numbers::{MOST_GIB, MOST_SECONDS, between, samples, size};
 
-pub use check_bsdf::CheckBsdfArguments;
 pub use compare_networks::{Alignment, CompareNetworksArguments, Group, Groups};
-pub use example::ExampleArguments;
-pub use fit::FitArguments;
 pub use fit_veins::FitVeinsArguments;
 pub use grow::{CaptionedKinds, GrowArguments, VeinColour};
 pub use instruments::InstrumentsArguments;
 pub use measure::{MeasureArguments, MeasuringArguments, ReadingArguments};
+pub use measured::{CheckBsdfArguments, FitArguments};
 pub use numbers::SampleRange;
 pub use optics::OpticsArguments;
 pub use scene::SceneArguments;
-pub use shell::{CompletionsArguments, ManArguments};
 pub use sweep::{SweepArguments, TaskRange};
 pub use tables::{ReadingTablesArguments, TableArguments};
 pub use tonemap::TonemapArguments;
@@ -48,6 +43,11 @@ Render the first leaf:  lamina example first-leaf && lamina render first-leaf/sc
 Check a scene file:     lamina check SCENE.toml
 All commands:           lamina help
 The guide starts at:    docs/src/guide.md";
+
+const EXAMPLE_EXAMPLES: &str = "\
+Examples:
+  lamina example first-leaf && lamina render first-leaf/scene.toml
+  lamina example --list";
 
 const RENDER_EXAMPLES: &str = "\
 Examples:
@@ -151,7 +151,7 @@ impl Arguments {
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
     /// Write a scene that the program carries into a folder
-    #[command(after_help = example::EXAMPLES)]
+    #[command(after_help = EXAMPLE_EXAMPLES)]
     Example(ExampleArguments),
     /// Render a scene to STEM.exr and STEM.png, or STEM.jpg
     #[command(after_help = RENDER_EXAMPLES)]
@@ -175,7 +175,7 @@ pub enum Command {
     #[command(after_help = FIT_EXAMPLES)]
     Fit(FitArguments),
     /// Check a measured BRDF or BTDF: reciprocity, its error, its energy
-    #[command(after_help = check_bsdf::EXAMPLES)]
+    #[command(after_help = measured::CHECK_BSDF_EXAMPLES)]
     CheckBsdf(CheckBsdfArguments),
     /// Read out the instruments of a scene: what it reflects, transmits and absorbs
     #[command(after_help = instruments::EXAMPLES)]
@@ -366,6 +366,35 @@ pub struct SchemaArguments {
     /// `<!-- keys: BLOCK -->`
     #[arg(long, value_name = "FILE.md", num_args = 1.., conflicts_with = "out")]
     pub pages: Vec<PathBuf>,
+}
+
+/// `lamina example`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct ExampleArguments {
+    /// The scene
+    #[arg(required_unless_present = "list")]
+    pub name: Option<String>,
+    /// The folder that is made; the default is the scene's name in this folder
+    #[arg(long, value_name = "FOLDER")]
+    pub out: Option<PathBuf>,
+    /// Name the scenes
+    #[arg(long, exclusive = true)]
+    pub list: bool,
+}
+
+/// `lamina completions`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct CompletionsArguments {
+    /// The shell
+    pub shell: Shell,
+}
+
+/// `lamina man`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct ManArguments {
+    /// Folder for a page of each command; without it the page of `lamina` itself goes to stdout
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 /// The file, and the leaf in it if one is named behind `#`.

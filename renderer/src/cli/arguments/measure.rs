@@ -191,8 +191,6 @@ fn area(text: &str) -> Result<f64, String> {
 
 /// A place in mm.
 fn place(text: &str) -> Result<[f64; 2], String> {
-    two_numbers(
-        text,
-        "it must be x and y in mm with a comma between them: 0,-1.5",
-    )
+    let wanted = "it must be x and y in mm with a comma between them: 0,-1.5";
+    two_numbers(text, wanted)
 }

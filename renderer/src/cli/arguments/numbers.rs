@@ -12,15 +12,23 @@ pub(super) const MOST_GIB: u32 = 1 << 20;
 
 /// A number from `LOW` to `HIGH`.
 pub(super) fn between<const LOW: u32, const HIGH: u32>(text: &str) -> Result<f64, String> {
-    let number: f64 = text
-        .parse()
-        .map_err(|_| format!("not a number; write one from {LOW} to {HIGH}"))?;
     let allowed = f64::from(LOW)..=f64::from(HIGH);
-    if allowed.contains(&number) {
-        Ok(number)
-    } else {
-        Err(format!("must be from {LOW} to {HIGH}"))
-    }
+    let none = format!("not a number; write one from {LOW} to {HIGH}");
+    let refused = format!("must be from {LOW} to {HIGH}");
+    number(text, |number| allowed.contains(&number), [none, refused])
+}
+
+/// A number that is allowed; else one of the messages: that the text is none, or that it must be
+/// another.
+pub(super) fn number(
+    text: &str,
+    is_allowed: impl FnOnce(f64) -> bool,
+    [none, refused]: [impl Into<String>; 2],
+) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| none.into())?;
+    is_allowed(number)
+        .then_some(number)
+        .ok_or_else(|| refused.into())
 }
 
 /// A width and a height, such as `640x480`.

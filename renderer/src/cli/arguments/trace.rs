@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::numbers::{MOST_GIB, between, two_numbers};
+use super::numbers::{MOST_GIB, between, number, two_numbers};
 
 /// Examples of the command.
 pub(super) const EXAMPLES: &str = "\
@@ -125,20 +125,15 @@ pub struct TraceArguments {
 
 /// A number above 0.
 fn positive(text: &str) -> Result<f64, String> {
-    let number: f64 = text
-        .parse()
-        .map_err(|_| "not a number; write one above 0".to_owned())?;
-    if number.is_finite() && number > 0.0 {
-        Ok(number)
-    } else {
-        Err("must be finite and above 0".to_owned())
-    }
+    let messages = [
+        "not a number; write one above 0",
+        "must be finite and above 0",
+    ];
+    number(text, |number| number.is_finite() && number > 0.0, messages)
 }
 
 /// A place in pixels.
 fn place(text: &str) -> Result<[f64; 2], String> {
-    two_numbers(
-        text,
-        "not a place; write pixels from the left and from the top: 512,1800",
-    )
+    let wanted = "not a place; write pixels from the left and from the top: 512,1800";
+    two_numbers(text, wanted)
 }

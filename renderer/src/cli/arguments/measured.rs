@@ -1,11 +1,11 @@
-//! `lamina fit` as written.
+//! The commands that read tables of measurements, as written.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::tables::{ReadingTablesArguments, overlap, quantity, values};
-use crate::measured::known::{Known, Measure, Overlap, ValueUnit};
+use super::tables::{ReadingTablesArguments, word};
+use crate::measured::known::{AngleUnit, Known, Measure, Overlap, ValueUnit};
 
 /// `lamina fit`: contents of leaves from their spectra.
 #[derive(Args, Clone, Debug, PartialEq)]
@@ -28,15 +28,15 @@ pub struct FitArguments {
     pub reading: ReadingTablesArguments,
     /// Unit of reflectance and transmittance: fraction or percent; by default found from the names of
     /// columns and the sizes of values
-    #[arg(long, value_name = "UNIT", value_parser = values)]
+    #[arg(long, value_name = "UNIT", value_parser = |text: &str| word(text, &ValueUnit::ALL))]
     pub values: Option<ValueUnit>,
     /// What values are whose columns do not say it: reflectance, abaxial or transmittance; for tables
     /// whose columns are named by wavelengths, or by leaves
-    #[arg(long, value_name = "WORD", value_parser = quantity)]
+    #[arg(long, value_name = "WORD", value_parser = |text: &str| word(text, &Measure::ALL))]
     pub quantity: Option<Measure>,
     /// Where two detectors of a .sig file have measured: the first counts, the second, or each up to
     /// the middle [default: middle]
-    #[arg(long, value_name = "WORD", value_parser = overlap)]
+    #[arg(long, value_name = "WORD", value_parser = |text: &str| word(text, &Overlap::ALL))]
     pub overlap: Option<Overlap>,
     /// The number in bands that were masked; by default empty values, NA, NaN, -9999 and such
     #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
@@ -75,4 +75,29 @@ impl FitArguments {
             ..self.reading.known()
         }
     }
+}
+
+pub(super) const CHECK_BSDF_EXAMPLES: &str = "\
+Columns: theta_i, phi_i, theta_o, phi_o (degrees from and around the normal), wavelength (nm),
+value (per steradian, without the cosine).
+Examples:
+  lamina check-bsdf leaf-brdf.csv
+  lamina check-bsdf leaf-brdf.csv --out reciprocal.csv";
+
+/// `lamina check-bsdf`: reciprocity and energy of a measured table over angles.
+#[derive(Args, Clone, Debug, PartialEq)]
+pub struct CheckBsdfArguments {
+    /// Table of a BRDF, a BTDF or both
+    #[arg(value_name = "TABLE.csv")]
+    pub table: PathBuf,
+    /// How the table is read.
+    #[command(flatten)]
+    pub reading: ReadingTablesArguments,
+    /// Unit of angles: degrees or radians; by default found from the names of columns and the sizes of
+    /// angles
+    #[arg(long, value_name = "UNIT", value_parser = |text: &str| word(text, &AngleUnit::ALL))]
+    pub angles: Option<AngleUnit>,
+    /// Reciprocal part and error of each row to write as csv, or figures as json
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
 }
