@@ -79,14 +79,11 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
         };
         write_and_say(file, text)?;
     }
-    if let Some(file) = &arguments.spectra_out {
-        write_and_say(file, fitted_spectra(&fitted))?;
-    }
-    if let Some(file) = &arguments.plot {
-        write_and_say(file, svg(&fitted))?;
-    }
-    if let Some(file) = &arguments.covariance_out {
-        write_and_say(file, covariances(&fitted))?;
+    let texts = [fitted_spectra, svg, covariances];
+    for ((file, ..), text) in others.into_iter().zip(texts) {
+        if let Some(file) = file {
+            write_and_say(file, text(&fitted))?;
+        }
     }
     for fitted in &fitted {
         say_correlation(fitted);

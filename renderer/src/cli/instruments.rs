@@ -55,12 +55,12 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
     })?;
     let ended = match ended {
         // Nothing was measured: what older runs wrote stays.
-        Err(Ended::Failed(failure)) if rows.is_empty() => return Err(failure),
+        Some(Ended::Failed(failure)) if rows.is_empty() => return Err(failure),
         ended => ended,
     };
     for path in &arguments.out {
         let text = if has_ending(path, "json") {
-            report::json(&scene, &budget, (&rows, &cuts), ended.is_ok())
+            report::json(&scene, &budget, (&rows, &cuts), ended.is_none())
         } else {
             report::csv(&rows)
         };
@@ -77,18 +77,19 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
         write_and_say(path, drawing)?;
     }
     match ended {
-        Err(Ended::Failed(failure)) => Err(failure),
-        Err(Ended::Late) | Ok(()) => Ok(()),
+        Some(Ended::Failed(failure)) => Err(failure),
+        Some(Ended::Late) | None => Ok(()),
     }
 }
 
 /// What was measured.
+#[derive(Default)]
 struct Measured {
     rows: Vec<Row>,
     /// Paths that the limit of events cut, of each instrument.
     cuts: Cuts,
     /// Why not all of it was, or not with all rays.
-    ended: Result<(), Ended>,
+    ended: Option<Ended>,
 }
 
 /// Why a measurement ended early.
@@ -135,12 +136,9 @@ fn measure(
     signals: &Signals,
 ) -> Result<Measured, Failure> {
     needs::check_geometry(scene, "measurement", arguments.memory)?;
+    let mut measured = Measured::default();
     let Some((sampler, first)) = sets_of(scene) else {
-        return Ok(Measured {
-            rows: Vec::new(),
-            cuts: Vec::new(),
-            ended: Ok(()),
-        });
+        return Ok(measured);
     };
     let building = Building {
         memory: arguments.memory,
@@ -152,7 +150,6 @@ fn measure(
     signals.begin_work();
     let time = arguments.time.map(Duration::from_secs_f64);
     let until = time.map(|time| Instant::now() + time);
-    let (mut rows, mut cuts) = (Vec::new(), Vec::new());
     for (place, &number) in chosen.iter().enumerate() {
         let started = Instant::now();
         let name = &scene.instruments[number].name;
@@ -171,12 +168,12 @@ fn measure(
         let found = match read_out_watched(&world, scene, number, first[number], &effort) {
             Ok(found) => found,
             Err(error) => {
-                let ended = Err(Ended::Failed(Failure::bad(error)));
-                return Ok(Measured { rows, cuts, ended });
+                measured.ended = Some(Ended::Failed(Failure::bad(error)));
+                break;
             }
         };
         report_cuts(name, &found.cut, scene.integrator.max_events);
-        cuts.push((name.clone(), found.cut));
+        measured.cuts.push((name.clone(), found.cut));
         let found = found.rows;
         let greatest = found.iter().map(|row| row.error).fold(0.0, f64::max);
         eprintln!(
@@ -196,41 +193,29 @@ fn measure(
                  standard errors, up to {greatest:.1e}"
             );
         }
-        rows.extend(found);
+        measured.rows.extend(found);
         let left = chosen[place + 1..].iter();
-        let left: Vec<&str> = left
-            .map(|&number| scene.instruments[number].name.as_str())
-            .collect();
+        let left = left.map(|&number| scene.instruments[number].name.as_str());
+        let left: Vec<&str> = left.collect();
         let is_cut = open > 0 || (budget.error.is_none() && (1..budget.rays).contains(&rays));
         let is_stopped = signals.stop.load(Ordering::Relaxed);
         let is_over = is_stopped || until.is_some_and(|until| Instant::now() >= until);
         if is_over && (is_cut || !left.is_empty()) {
-            let by = if is_stopped {
-                "the interruption"
-            } else {
-                "--time"
+            let by = ["--time", "the interruption"][usize::from(is_stopped)];
+            let rest = match left.as_slice() {
+                [] => String::new(),
+                left => format!("; not measured: {}", left.join(", ")),
             };
-            eprintln!(
-                "note: {by} ended the measurement after {rays} rays of `{name}`{}",
-                if left.is_empty() {
-                    String::new()
-                } else {
-                    format!("; not measured: {}", left.join(", "))
-                }
-            );
-            let ended = Err(if is_stopped {
+            eprintln!("note: {by} ended the measurement after {rays} rays of `{name}`{rest}");
+            measured.ended = Some(if is_stopped {
                 Ended::Failed(Failure::Interrupted)
             } else {
                 Ended::Late
             });
-            return Ok(Measured { rows, cuts, ended });
+            break;
         }
     }
-    Ok(Measured {
-        rows,
-        cuts,
-        ended: Ok(()),
-    })
+    Ok(measured)
 }
 
 /// Says so if a limit cut paths.
