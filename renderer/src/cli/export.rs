@@ -27,12 +27,12 @@ pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
         ExportError::Write { .. } | ExportError::Image(_) => Failure::system(error),
         ExportError::Asset(_)
         | ExportError::Fluorescence
-        | ExportError::Lens { .. }
+        | ExportError::Lens(_)
         | ExportError::Nested { .. }
         | ExportError::CameraInside
-        | ExportError::Layers { .. }
-        | ExportError::Tangents { .. }
-        | ExportError::NotOurs { .. } => Failure::bad(error),
+        | ExportError::Layers(_)
+        | ExportError::Tangents(_)
+        | ExportError::NotOurs(_) => Failure::bad(error),
     })?;
     say(arguments.out.display());
     if world.objects.have_drops() {

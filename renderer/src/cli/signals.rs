@@ -31,10 +31,10 @@ const ECHO: Duration = Duration::from_millis(300);
 
 /// Ends the work if it is to stop.
 pub(super) fn check(stop: &AtomicBool) -> Result<(), Failure> {
-    match stop.load(Ordering::Relaxed) {
-        true => Err(Failure::Interrupted),
-        false => Ok(()),
+    if stop.load(Ordering::Relaxed) {
+        return Err(Failure::Interrupted);
     }
+    Ok(())
 }
 
 /// Why work ended with an error: it was to stop, or its input is bad.

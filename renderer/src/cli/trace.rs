@@ -1,6 +1,6 @@
 //! `lamina trace`: the margin and the veins of a picture as files.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 use glam::DVec2;
@@ -31,7 +31,7 @@ const WINDOW_PX: f64 = 61.0;
 const SAUVOLA_K: f64 = 0.2;
 
 /// The format of a file, by its ending.
-fn format_of(path: &PathBuf) -> Result<VeinFormat, Failure> {
+fn format_of(path: &Path) -> Result<VeinFormat, Failure> {
     let format = VeinFormat::of(path).filter(|format| *format != VeinFormat::Csv);
     let what = "the ending tells what is written: svg, png, json, graphml or geojson";
     format.ok_or_else(|| bad_at!(path, "{what}"))
@@ -61,7 +61,7 @@ pub(super) fn run(arguments: &TraceArguments) -> Result<(), Failure> {
     let formats: Vec<VeinFormat> = arguments
         .out
         .iter()
-        .map(format_of)
+        .map(|path| format_of(path))
         .collect::<Result<_, _>>()?;
     if arguments.mask && arguments.margin.is_none() && !arguments.cut_out {
         bail!(

@@ -53,7 +53,7 @@ pub fn encoded(pixels: &Pixels) -> Result<Vec<u8>, ImageError> {
     let mut bytes = Vec::new();
     JpegEncoder::new_with_quality(&mut bytes, QUALITY)
         .write_image(&values, width, height, ExtendedColorType::Rgb8)
-        .map_err(|error| ImageError::inconsistent(error))?;
+        .map_err(ImageError::inconsistent)?;
     bytes.splice(AFTER_START..AFTER_START, comment());
     Ok(bytes)
 }

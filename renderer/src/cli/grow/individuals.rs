@@ -43,9 +43,10 @@ pub(super) fn write(
                     Some(sheet) => sheet,
                     None => sheet.insert(drawn(chosen, numbers.clone(), stop)?),
                 };
-                match format {
-                    VeinFormat::Svg => sheet.svg().into_bytes(),
-                    _ => sheet.png(pixels).map_err(Failure::bad)?,
+                if format == VeinFormat::Svg {
+                    sheet.svg().into_bytes()
+                } else {
+                    sheet.png(pixels).map_err(Failure::bad)?
                 }
             }
             Kind::Film(_) | Kind::Mp4 | Kind::Ply | Kind::Obj => continue,
