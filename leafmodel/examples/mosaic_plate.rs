@@ -15,7 +15,7 @@ use leafmodel::mosaic::shapes::{lathe, rounded_cube, sphere};
 use leafmodel::mosaic::voronoi::Voronoi;
 use leafmodel::mosaic::{
     CellType, ControlImage, CylinderControl, Mosaic, MosaicPlan, RadiusRule, Steered, Surface,
-    SurfaceGrowth, SurfacePoint,
+    SurfacePoint,
 };
 use leafmodel::optics::Contents;
 use rayon::prelude::*;
@@ -95,7 +95,7 @@ fn watermelon() -> MosaicPlan {
             },
             steers: Steered::InitialType(1),
         }],
-        growth: SurfaceGrowth::None,
+        growth: None,
     }
 }
 

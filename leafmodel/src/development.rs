@@ -31,7 +31,6 @@ mod steps;
 mod tests;
 mod tissue;
 
-pub use self::check::DevelopmentError;
 pub use self::leaf::{DevelopedLeaf, MainVein};
 pub use self::network::MainVeinStyle;
 pub use self::plan::{DevelopmentPlan, Primordium, Sequence, Wave};

@@ -143,9 +143,7 @@ pub fn read_margin(format: Format, text: &str) -> Result<Draft, ImportError> {
         Format::Neighbours => adjacency::read(text)?,
     };
     if !draft.has_margin() {
-        return Err(ImportError::BadMargin {
-            problem: "there is none".to_owned(),
-        });
+        return Err(ImportError::bad_margin("there is none"));
     }
     Ok(draft)
 }

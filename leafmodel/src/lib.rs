@@ -76,6 +76,7 @@ pub mod import;
 pub mod leaf;
 pub mod measure;
 pub mod mosaic;
+pub mod not_grown;
 pub mod plan_file;
 pub mod plant;
 pub mod shape;

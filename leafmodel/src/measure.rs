@@ -119,41 +119,44 @@ impl List {
     }
 
     fn count(&mut self, key: &'static str, value: usize) {
-        let (unit, value) = ("", Value::Count(value as u64));
-        self.entries.push(Entry { key, unit, value });
+        self.add(key, Value::Count(value as u64));
     }
 
     fn count_or_none(&mut self, key: &'static str, value: Option<usize>) {
         match value {
             Some(value) => self.count(key, value),
-            None => self.number(key, "", None),
+            None => self.number(key, None),
         }
     }
 
-    fn number(&mut self, key: &'static str, unit: &'static str, value: Option<f64>) {
+    fn number(&mut self, key: &'static str, value: Option<f64>) {
         // Adding 0 turns the negative zero of an empty sum into zero.
-        let value = Value::Number(value.filter(|v| v.is_finite()).map(|v| v + 0.0));
-        self.entries.push(Entry { key, unit, value });
+        let value = value.filter(|v| v.is_finite()).map(|v| v + 0.0);
+        self.add(key, Value::Number(value));
     }
 
-    fn list(&mut self, key: &'static str, unit: &'static str, value: Vec<f64>) {
-        let value = Value::List(value);
+    fn list(&mut self, key: &'static str, value: Vec<f64>) {
+        self.add(key, Value::List(value));
+    }
+
+    fn add(&mut self, key: &'static str, value: Value) {
+        let unit = definitions::unit(key);
         self.entries.push(Entry { key, unit, value });
     }
 
     /// The distribution of some values: 5th, 25th, 50th, 75th and 95th percentile, or nothing
     /// without values.
-    fn percentiles(&mut self, key: &'static str, unit: &'static str, values: &mut [f64]) {
+    fn percentiles(&mut self, key: &'static str, values: &mut [f64]) {
         let all = PERCENTILES
             .iter()
             .filter_map(|&share| quantile(values, share));
         let all = all.collect();
-        self.list(key, unit, all);
+        self.list(key, all);
     }
 
     /// A number divided by the area of the blade.
-    fn per_area(&mut self, key: &'static str, unit: &'static str, value: f64) {
-        self.number(key, unit, self.area.map(|area| value / area));
+    fn per_area(&mut self, key: &'static str, value: f64) {
+        self.number(key, self.area.map(|area| value / area));
     }
 
     fn shape(&mut self, outline: Option<&Outline>) {
@@ -177,42 +180,42 @@ impl List {
             ]
         });
         let keys = [
-            ("length_mm", "mm"),
-            ("width_mm", "mm"),
-            ("width_over_length", ""),
-            ("extent_over_length", ""),
-            ("widest_at", ""),
-            ("area_mm2", "mm²"),
-            ("perimeter_mm", "mm"),
-            ("circularity", ""),
-            ("solidity", ""),
+            "length_mm",
+            "width_mm",
+            "width_over_length",
+            "extent_over_length",
+            "widest_at",
+            "area_mm2",
+            "perimeter_mm",
+            "circularity",
+            "solidity",
         ];
-        for (i, (key, unit)) in keys.into_iter().enumerate() {
-            self.number(key, unit, form.map(|form| form[i]));
+        for (i, key) in keys.into_iter().enumerate() {
+            self.number(key, form.map(|form| form[i]));
         }
         let series = outline.map(fourier::descriptors);
-        self.list("elliptic_fourier", "", series.unwrap_or_default());
+        self.list("elliptic_fourier", series.unwrap_or_default());
     }
 
     fn veins(&mut self, skeleton: &Skeleton, known: Known) {
         let lengths = skeleton.lengths_by_order();
         let total: f64 = lengths.iter().sum();
         let minor: f64 = lengths.iter().skip(FIRST_MINOR_ORDER - 1).sum();
-        self.number("vein_length_mm", "mm", Some(total));
-        self.per_area("vein_density_mm_per_mm2", "mm/mm²", total);
+        self.number("vein_length_mm", Some(total));
+        self.per_area("vein_density_mm_per_mm2", total);
         let area = self.area.filter(|_| known.orders);
         let by_order = area.map(|area| lengths.iter().map(|length| length / area).collect());
         let by_order = by_order.unwrap_or_default();
-        self.list("vein_density_mm_per_mm2_by_order", "mm/mm²", by_order);
+        self.list("vein_density_mm_per_mm2_by_order", by_order);
         let share = (total > 0.0 && known.orders).then_some(minor / total);
-        self.number("minor_vein_share", "", share);
+        self.number("minor_vein_share", share);
     }
 
     fn distances(&mut self, distances: &[f64]) {
-        self.number("vein_distance_mm_mean", "mm", mean(distances));
-        self.number("vein_distance_mm_mode", "mm", mode(distances));
+        self.number("vein_distance_mm_mean", mean(distances));
+        self.number("vein_distance_mm_mode", mode(distances));
         let middle = median(&mut distances.to_vec());
-        self.number("vein_distance_mm_median", "mm", middle);
+        self.number("vein_distance_mm_median", middle);
     }
 
     fn areoles(&mut self, found: &Areoles) {
@@ -220,16 +223,16 @@ impl List {
         let mut round: Vec<f64> = found.iter().map(Areole::circularity).collect();
         let mut long: Vec<f64> = found.iter().map(|a| a.elongation).collect();
         self.count("areole_count", found.len());
-        self.per_area("areoles_per_mm2", "1/mm²", found.len() as f64);
-        self.number("areole_area_mm2_mean", "mm²", mean(&areas));
-        self.number("areole_area_cv", "", variation(&areas));
-        self.number("areole_area_mm2_median", "mm²", median(&mut areas));
-        self.number("areole_circularity_mean", "", mean(&round));
-        self.number("areole_circularity_median", "", median(&mut round));
-        self.number("areole_elongation_median", "", median(&mut long));
-        self.percentiles("areole_area_mm2_percentiles", "mm²", &mut areas);
-        self.percentiles("areole_circularity_percentiles", "", &mut round);
-        self.percentiles("areole_elongation_percentiles", "", &mut long);
+        self.per_area("areoles_per_mm2", found.len() as f64);
+        self.number("areole_area_mm2_mean", mean(&areas));
+        self.number("areole_area_cv", variation(&areas));
+        self.number("areole_area_mm2_median", median(&mut areas));
+        self.number("areole_circularity_mean", mean(&round));
+        self.number("areole_circularity_median", median(&mut round));
+        self.number("areole_elongation_median", median(&mut long));
+        self.percentiles("areole_area_mm2_percentiles", &mut areas);
+        self.percentiles("areole_circularity_percentiles", &mut round);
+        self.percentiles("areole_elongation_percentiles", &mut long);
     }
 
     fn free_endings(
@@ -250,47 +253,43 @@ impl List {
         let inside = free.iter().filter(|f| f.areole.is_some()).count();
         let per_areole = (!found.is_empty()).then(|| inside as f64 / found.len() as f64);
         self.count("freely_ending_veinlet_count", free.len());
-        self.per_area("freely_ending_veinlets_per_mm2", "1/mm²", free.len() as f64);
-        self.number("freely_ending_veinlets_per_areole", "", per_areole);
-        self.number("freely_ending_veinlet_length_mm_mean", "mm", mean(&lengths));
+        self.per_area("freely_ending_veinlets_per_mm2", free.len() as f64);
+        self.number("freely_ending_veinlets_per_areole", per_areole);
+        self.number("freely_ending_veinlet_length_mm_mean", mean(&lengths));
     }
 
     fn forks(&mut self, forks: &Forks, known: Known) {
         let wide = |value: Option<f64>| value.filter(|_| known.radii);
         self.count("junction_count", forks.junctions);
-        self.number("junction_degree_3_share", "", forks.degree_3_share);
-        self.number("branching_angle_deg_median", "°", forks.angle_deg);
+        self.number("junction_degree_3_share", forks.degree_3_share);
+        self.number("branching_angle_deg_median", forks.angle_deg);
         let [first, second] = [forks.wide_deg, forks.fine_deg].map(wide);
-        self.number("branching_wide_deflection_deg_median", "°", first);
-        self.number("branching_fine_deflection_deg_median", "°", second);
-        self.number("murray_ratio_median", "", wide(forks.murray_ratio));
-        self.number("murray_exponent_median", "", wide(forks.murray_exponent));
+        self.number("branching_wide_deflection_deg_median", first);
+        self.number("branching_fine_deflection_deg_median", second);
+        self.number("murray_ratio_median", wide(forks.murray_ratio));
+        self.number("murray_exponent_median", wide(forks.murray_exponent));
     }
 
     fn junctions(&mut self, found: Junctions, known: Known) {
         let wide = |value: Option<f64>| value.filter(|_| known.radii);
-        self.list("junction_degree_shares", "", found.degree_shares);
-        self.number("junction_bent_share", "", wide(found.bent_share));
+        self.list("junction_degree_shares", found.degree_shares);
+        self.number("junction_bent_share", wide(found.bent_share));
         let angle = wide(found.largest_angle_deg);
-        self.number("junction_largest_angle_deg_median", "°", angle);
-        let by_order = known.radii && known.orders;
-        self.entries.push(Entry {
-            key: "murray_exponent_by_order",
-            unit: "",
-            value: Value::Orders(if by_order {
-                found.exponents
-            } else {
-                Vec::new()
-            }),
-        });
+        self.number("junction_largest_angle_deg_median", angle);
+        let by_order = if known.radii && known.orders {
+            found.exponents
+        } else {
+            Vec::new()
+        };
+        self.add("murray_exponent_by_order", Value::Orders(by_order));
     }
 
     fn nesting(&mut self, nesting: Option<Nesting>) {
         let (mean, weighted) = nesting
             .as_ref()
             .map_or((None, None), |n| (n.mean, n.weighted));
-        self.number("loop_nesting", "", mean);
-        self.number("loop_nesting_weighted", "", weighted);
+        self.number("loop_nesting", mean);
+        self.number("loop_nesting_weighted", weighted);
         let strahler = nesting.map(|nesting| nesting.strahler as usize);
         self.count_or_none("loop_tree_strahler", strahler);
     }
@@ -298,19 +297,19 @@ impl List {
     fn hierarchy(&mut self, veins: Option<Hierarchy>) {
         let counts = veins.as_ref().map(|veins| [veins.left, veins.right]);
         let veins = veins.unwrap_or_default();
-        self.number("midrib_length_mm", "mm", veins.midrib_mm);
+        self.number("midrib_length_mm", veins.midrib_mm);
         self.count_or_none("secondary_vein_count_left", counts.map(|counts| counts[0]));
         self.count_or_none("secondary_vein_count_right", counts.map(|counts| counts[1]));
-        self.number("secondary_spacing_mm_mean", "mm", veins.spacing_mm);
-        self.number("secondary_spacing_cv", "", veins.spacing_cv);
-        self.number("secondary_angle_deg_mean", "°", veins.secondary_deg);
-        self.number("tertiary_angle_deg_mean", "°", veins.tertiary_deg);
+        self.number("secondary_spacing_mm_mean", veins.spacing_mm);
+        self.number("secondary_spacing_cv", veins.spacing_cv);
+        self.number("secondary_angle_deg_mean", veins.secondary_deg);
+        self.number("tertiary_angle_deg_mean", veins.tertiary_deg);
     }
     fn supply(&mut self, found: Option<&Supply>) {
         let key = "conductance_mm3_per_s_mpa";
-        self.number(key, "mm³/(s MPa)", found.map(|found| found.conductance));
-        self.number("supplied_share", "", found.map(|found| found.supplied));
-        self.number("bridge_share", "", found.map(|found| found.bridges));
+        self.number(key, found.map(|found| found.conductance));
+        self.number("supplied_share", found.map(|found| found.supplied));
+        self.number("bridge_share", found.map(|found| found.bridges));
         let cuts = found.map(|found| found.cuts.as_slice()).unwrap_or_default();
         let lost: Vec<f64> = cuts
             .iter()
@@ -318,8 +317,8 @@ impl List {
             .map(|cut| cut.lost)
             .collect();
         let off: Vec<f64> = cuts.iter().map(|cut| cut.cut_off).collect();
-        self.number("conductance_lost_widest_mean", "", mean(&lost));
-        self.number("cut_off_share_widest_mean", "", mean(&off));
+        self.number("conductance_lost_widest_mean", mean(&lost));
+        self.number("cut_off_share_widest_mean", mean(&off));
         let orders = found
             .map(|found| found.orders.as_slice())
             .unwrap_or_default();
@@ -328,16 +327,8 @@ impl List {
             let at = |order| orders.iter().find(|loss| loss.order == order);
             (1..=last).map(|order| at(order).and_then(value)).collect()
         };
-        for (key, list) in [
-            ("conductance_lost_by_order", of(&|loss| loss.lost)),
-            ("cut_off_share_by_order", of(&|loss| Some(loss.cut_off))),
-        ] {
-            let value = Value::Orders(list);
-            self.entries.push(Entry {
-                key,
-                unit: "",
-                value,
-            });
-        }
+        let (lost, off) = (of(&|loss| loss.lost), of(&|loss| Some(loss.cut_off)));
+        self.add("conductance_lost_by_order", Value::Orders(lost));
+        self.add("cut_off_share_by_order", Value::Orders(off));
     }
 }

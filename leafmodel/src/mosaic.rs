@@ -12,7 +12,7 @@
 //!
 //! ```
 //! use leafmodel::mosaic::shapes::sphere;
-//! use leafmodel::mosaic::{CellType, Mosaic, MosaicPlan, RadiusRule, Surface, SurfaceGrowth};
+//! use leafmodel::mosaic::{CellType, Mosaic, MosaicPlan, RadiusRule, Surface};
 //!
 //! // Cells of one kind that divide about once in two days, on a ball of 10 mm.
 //! let cells = CellType {
@@ -33,7 +33,7 @@
 //!     radius: RadiusRule::Daily,
 //!     types: vec![cells],
 //!     controls: Vec::new(),
-//!     growth: SurfaceGrowth::None,
+//!     growth: None,
 //! };
 //! let ball = sphere(10.0, 2.0)?;
 //! let mosaic = Mosaic::grow(&Surface::new(ball.positions, ball.faces)?, &plan, 1)?;
@@ -46,7 +46,6 @@
 pub mod atlas;
 pub mod control;
 mod division;
-mod error;
 pub mod growth;
 mod live;
 pub mod noise_pattern;
@@ -62,13 +61,13 @@ pub mod surface;
 mod testing;
 #[cfg(test)]
 mod tests;
+mod types;
 pub mod voronoi;
 mod walk;
 
-pub use self::control::{ControlError, ControlImage, CylinderControl, Steered};
-pub use self::error::MosaicError;
-pub use self::growth::{GrowthCourse, SurfaceGrowth};
+pub use self::control::{ControlImage, CylinderControl, Steered};
+pub use self::growth::SurfaceGrowth;
 pub use self::patch::{Patch, PatchFinder};
 pub use self::plan::{CellType, MosaicPlan, RadiusRule};
 pub use self::simulation::{Cell, Mosaic};
-pub use self::surface::{Ancestry, Surface, SurfaceError, SurfacePoint, Unfold};
+pub use self::surface::{Ancestry, Surface, SurfacePoint, Unfold};

@@ -25,30 +25,20 @@
 //!   scene.
 
 mod compound;
-mod control;
-mod development;
-mod growth_form;
 mod leaf;
-mod mosaic;
 mod one_leaf;
-mod outline;
-mod pigments;
 mod plant;
 mod presets;
-mod solid;
-mod specimen;
 #[cfg(test)]
 mod tests;
 mod venation;
 
 use std::path::Path;
 
-pub use self::leaf::{leaf, usual_leaf};
+pub use self::leaf::leaf;
 pub use self::one_leaf::{LeafFile, LeafNotChosen, load_one_leaf};
-pub use self::pigments::pigments;
 pub use self::plant::{plant, plant_preset, usual_plant};
 pub use self::presets::{colour_preset, leaf_preset};
-pub use self::solid::{held_contents, solid, usual_solid};
 use crate::blade::senescence::Senescence;
 use crate::document::assets::Assets;
 use crate::document::context::Context;
@@ -215,7 +205,7 @@ fn file_of_leaves<T: From<LeafPlan>>(
         required: false,
         new: &|name: &str| Named {
             name: name.to_owned(),
-            value: T::from(usual_leaf(100.0)),
+            value: T::from(LeafPlan::of_length(100.0)),
         },
         name_of: |leaf: &Named<T>| &leaf.name,
     };
@@ -279,7 +269,7 @@ pub fn leaf_beside_preset(name: &str, plan: &LeafPlan, preset: &str) -> String {
         // As it will be read, of another length.
         let mut beneath = preset.plan();
         let before = beneath.length_mm;
-        leaf::follow_length(&mut beneath, before, plan.length_mm);
+        beneath.follow_length(before, plan.length_mm);
         written(&beneath, Extent::All)
     });
     let beside = found.and_then(|preset| written(plan, Extent::All).beside_preset(&preset));
@@ -329,7 +319,7 @@ fn written(plan: &LeafPlan, extent: Extent) -> Written {
     match extent {
         Extent::All => block,
         Extent::Changed => {
-            let mut usual = usual_leaf(plan.length_mm);
+            let mut usual = LeafPlan::of_length(plan.length_mm);
             let usual = Keys::write(extent, |keys| leaf(&mut usual, keys));
             block.without_defaults(&usual)
         }

@@ -32,16 +32,19 @@ mod shape;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use thiserror::Error;
 
+pub use self::raised::Raised;
 use self::raised::Relief;
-pub use self::raised::{Raised, RaisedError};
 pub use self::shape::{SolidMesh, SolidShape, creased, smooth_normals};
 use crate::blade::contents_map::ContentsMap;
-use crate::mosaic::atlas::{Atlas, AtlasError};
-use crate::mosaic::pattern::{MosaicPattern, PatternError};
+use crate::document::declared::Declared;
+use crate::document::keys::Keys;
+use crate::mosaic::atlas::Atlas;
+use crate::mosaic::pattern::MosaicPattern;
 use crate::mosaic::shapes::{Shape, ShapeError};
-use crate::mosaic::{Mosaic, MosaicError, Surface, SurfaceError, SurfacePoint};
+use crate::mosaic::{Mosaic, Surface, SurfacePoint};
+use crate::not_grown::{NotGrown, not_grown};
+use crate::optics::contents_keys::{changed_contents, warn_of_mixture};
 use crate::optics::{Contents, Pigments};
 
 /// Width of the gutter around each chart of the map, texels.
@@ -59,23 +62,99 @@ const MOST_PER_SPACING: f64 = 3.0;
 const OF_A_TRIANGLE: f64 = 300.0;
 const OF_A_TEXEL: f64 = 120.0;
 
-/// The parameters of a body.
-#[derive(Clone, Debug, PartialEq)]
+/// The plan of a body.
+#[derive(Clone, Debug, Declared, PartialEq)]
+#[key(last = warn_of_mixed_cells)]
 pub struct SolidPlan {
-    /// Its shape.
-    pub shape: SolidShape,
-    /// The seed; the same plan and seed give the same body, bit for bit.
+    /// Same plan and seed, same body, bit for bit.
+    #[key("seed")]
     pub seed: u64,
-    /// Contents of its outer tissue per area of the surface, where no mosaic sets others.
-    pub contents: Contents,
-    /// Cells with contents of their own.
-    pub mosaic: Option<MosaicPattern>,
-    /// Cells of the mosaic whose tissue stands out.
-    pub raised: Option<Raised>,
-    /// The kinds of pigments of its contents.
-    pub pigments: Pigments,
-    /// Texels of the map of contents along a side, 16 to 8192.
+    /// Texels of the map of contents along a side; a body without a mosaic needs none.
+    #[key("map_size", 16..=8192)]
     pub map_size: u32,
+    /// Its shape.
+    #[key("shape", required, block, about = "See below.")]
+    pub shape: SolidShape,
+    /// What the outer tissue holds per area of the surface, see below.
+    #[key("contents", required, block, with = held_contents)]
+    pub contents: Contents,
+    /// Its cells, if it has some.
+    #[key(with = skin)]
+    pub mosaic: Option<MosaicPattern>,
+    /// Tissue of cells that stands out, or lies below.
+    #[key(with = raised)]
+    pub raised: Option<Raised>,
+    /// Which substances its pigments are.
+    #[key("pigments", block)]
+    pub pigments: Pigments,
+}
+
+impl Default for SolidPlan {
+    fn default() -> Self {
+        Self {
+            seed: 0,
+            map_size: 1024,
+            shape: SolidShape::Sphere { radius_mm: 1.0 },
+            contents: Contents::NOTHING,
+            mosaic: None,
+            raised: None,
+            pigments: Pigments::default(),
+        }
+    }
+}
+
+fn skin(plan: &mut SolidPlan, keys: &mut Keys<'_>) {
+    let (base, mosaic) = (plan.contents, &mut plan.mosaic);
+    let about = "Cells of several types.";
+    keys.optional_block(
+        "mosaic",
+        mosaic,
+        Default::default,
+        about,
+        |pattern, keys| {
+            pattern.keys(keys, base);
+        },
+    );
+    if keys.has_path(&["mosaic", "faces"]) {
+        let problem = "a body of solid tissue has one skin, not two faces".to_owned();
+        keys.refuse(&["mosaic", "faces"], problem, "leave `faces` out");
+    }
+}
+
+fn raised(plan: &mut SolidPlan, keys: &mut Keys<'_>) {
+    let types = plan.mosaic.iter().flat_map(|mosaic| &mosaic.plan.types);
+    let names: Vec<String> = types.map(|one| one.name.clone()).collect();
+    let about = "Cells whose tissue stands out from the shape, as warts do, or lies below it.";
+    let raised = &mut plan.raised;
+    keys.optional_block("raised", raised, Default::default, about, |raised, keys| {
+        raised.keys(keys, &names);
+    });
+}
+
+/// The keys of what solid tissue holds; a key that is left out means none.
+pub fn held_contents(contents: &mut Contents, keys: &mut Keys<'_>) {
+    changed_contents(contents, keys);
+    warn_of_mixture(contents, keys, "this tissue holds");
+}
+
+/// Warns of anthocyanins and betalains in unlike cells of one body; what the body itself holds is
+/// told there.
+fn warn_of_mixed_cells(plan: &mut SolidPlan, keys: &mut Keys<'_>) {
+    if !keys.is_sound() {
+        return;
+    }
+    let cells = plan.mosaic.iter().flat_map(|mosaic| &mosaic.contents);
+    // Under a mosaic the body itself shows only where no cell may be.
+    let shows = |mosaic: &MosaicPattern| mosaic.may_leave_bare();
+    let own = plan.mosaic.as_ref().is_none_or(shows);
+    let parts = own.then_some(&plan.contents).into_iter().chain(cells);
+    if plan.contents.mixes_betalains_and_anthocyanins() {
+        return;
+    }
+    let most = parts.fold(Contents::NOTHING, |most, part| {
+        Contents(most.zip_with(part.0, f64::max))
+    });
+    warn_of_mixture(&most, keys, "cells of this body hold");
 }
 
 /// A body as mesh and map. Lengths are millimetres.
@@ -95,53 +174,21 @@ pub struct Solid {
     pub mosaic: Option<Mosaic>,
 }
 
-/// Why a body cannot be grown.
-#[derive(Debug, Error)]
-pub enum SolidError {
-    /// Its shape.
-    #[error("shape: {0}")]
-    Shape(#[source] ShapeError),
-    /// The body is too slender, or has too many cells or too narrow slopes, for the allowed number
-    /// of triangles.
-    #[error(
-        "shape: it would take about {triangles:.0} triangles, too many: make the body less slender, give its mosaic fewer cells, or raised tissue a wider slope"
-    )]
-    TooFine {
-        /// How many it would take.
-        triangles: f64,
-    },
-    /// Its surface.
-    #[error("shape: {0}")]
-    Surface(#[from] SurfaceError),
-    /// Its mosaic.
-    #[error("mosaic: {0}")]
-    Mosaic(#[from] PatternError),
-    /// Its raised tissue.
-    #[error("raised: {0}")]
-    Raised(#[from] RaisedError),
-    /// Its map.
-    #[error("map_size: {0}")]
-    Atlas(#[from] AtlasError),
+/// An error of the shape.
+fn of_shape(error: ShapeError) -> NotGrown {
+    // A plan has no key for edges, so the error names triangles instead.
+    if let ShapeError::TooFine { triangles } = error {
+        return not_grown!(
+            "shape: it would take about {triangles:.0} triangles, too many: make the body less \
+             slender, give its mosaic fewer cells, or raised tissue a wider slope"
+        );
+    }
+    NotGrown::of("shape", error)
 }
 
-impl From<ShapeError> for SolidError {
-    fn from(error: ShapeError) -> Self {
-        if let ShapeError::TooFine { triangles } = error {
-            // A plan has no key for edges, so the error names triangles instead.
-            return Self::TooFine { triangles };
-        }
-        Self::Shape(error)
-    }
-}
-
-impl SolidError {
-    /// Whether growth was stopped by the caller.
-    pub fn is_stop(&self) -> bool {
-        matches!(
-            self,
-            Self::Mosaic(PatternError::Mosaic(MosaicError::Stopped))
-        )
-    }
+/// An error of a part of the plan.
+fn of(part: &str) -> impl Fn(NotGrown) -> NotGrown {
+    move |error| NotGrown::of(part, error)
 }
 
 impl SolidPlan {
@@ -155,15 +202,15 @@ impl SolidPlan {
     }
 
     /// Checks the numbers of mosaic and raised tissue.
-    fn validate(&self) -> Result<(), SolidError> {
+    fn validate(&self) -> Result<(), NotGrown> {
         if let Some(pattern) = &self.mosaic {
-            pattern.validate()?;
+            pattern.validate().map_err(of("mosaic"))?;
         }
-        match (&self.raised, &self.mosaic) {
-            (None, _) => Ok(()),
-            (Some(raised), Some(pattern)) => Ok(raised.validate(pattern.plan.types.len())?),
-            (Some(_), None) => Err(RaisedError::NoMosaic.into()),
-        }
+        let Some(raised) = &self.raised else {
+            return Ok(());
+        };
+        let types = self.mosaic.as_ref().map(|pattern| pattern.plan.types.len());
+        raised.validate(types).map_err(of("raised"))
     }
 
     /// Estimates the memory that the body takes, bytes, and refuses what [`Solid::grow`] would
@@ -171,13 +218,14 @@ impl SolidPlan {
     ///
     /// # Errors
     ///
-    /// [`SolidError::TooFine`], and errors of the numbers of shape and mosaic.
-    pub fn memory_bytes(&self) -> Result<f64, SolidError> {
+    /// [`NotGrown`] if it is too fine, and errors of the numbers of shape and mosaic.
+    pub fn memory_bytes(&self) -> Result<f64, NotGrown> {
         self.validate()?;
-        let area = self.shape.area()?;
+        let area = self.shape.area().map_err(of_shape)?;
         let slopes_mm = self.raised.as_ref().map_or(f64::INFINITY, Raised::edge_mm);
         let edge_mm = self.edge_mm(area).min(slopes_mm);
-        let triangles = self.shape.count_of_triangles(edge_mm, area)?;
+        let triangles = self.shape.count_of_triangles(edge_mm, area);
+        let triangles = triangles.map_err(of_shape)?;
         let texels = f64::from(self.map_size) * f64::from(self.map_size);
         let painted = self.mosaic.as_ref().map_or(0.0, |pattern| {
             pattern.plan.memory_bytes() + texels * OF_A_TEXEL
@@ -191,20 +239,25 @@ impl Solid {
     ///
     /// # Errors
     ///
-    /// [`SolidError`] for the first stage whose numbers are out of range.
-    pub fn grow(plan: &SolidPlan, is_stopped: &dyn Fn() -> bool) -> Result<Self, SolidError> {
+    /// [`NotGrown`] for the first stage whose numbers are out of range.
+    pub fn grow(plan: &SolidPlan, is_stopped: &dyn Fn() -> bool) -> Result<Self, NotGrown> {
         plan.validate()?;
-        let area = plan.shape.area()?;
+        let area = plan.shape.area().map_err(of_shape)?;
         let edge_mm = plan.edge_mm(area);
-        let shape = plan.shape.triangles(edge_mm)?;
+        let shape = plan.shape.triangles(edge_mm).map_err(of_shape)?;
         let Some(pattern) = &plan.mosaic else {
             return Ok(Self::plain(shape, plan.contents));
         };
         // Imported meshes may be coarse, and faces that hold many cells take long.
-        let coarse = Surface::new(shape.positions.clone(), shape.faces.clone())?;
-        let (surface, ancestry) = coarse.subdivided(pattern.edge_mm(area))?;
-        let (mosaic, field) = pattern.grow(&surface, plan.seed, is_stopped)?;
-        let atlas = Atlas::new(&surface, plan.map_size, GUTTER)?;
+        let coarse = Surface::new(shape.positions.clone(), shape.faces.clone());
+        let coarse = coarse.map_err(of("shape"))?;
+        let (surface, ancestry) = coarse
+            .subdivided(pattern.edge_mm(area))
+            .map_err(of("shape"))?;
+        let (mosaic, field) = pattern
+            .grow(&surface, plan.seed, is_stopped)
+            .map_err(of("mosaic"))?;
+        let atlas = Atlas::new(&surface, plan.map_size, GUTTER).map_err(of("map_size"))?;
         let texels = atlas.texels();
         let texel = |contents: Option<Contents>| contents.unwrap_or(plan.contents).to_texel();
         let mut contents = ContentsMap {
@@ -222,10 +275,13 @@ impl Solid {
             let painted = field.paint(shown, &pattern.contents);
             contents.texels.extend(painted.into_iter().map(texel));
         }
-        let (fine, within_surface) = raised::fine(&surface, plan.raised.as_ref())?;
+        let (fine, within_surface) =
+            raised::fine(&surface, plan.raised.as_ref()).map_err(of("shape"))?;
         let relief = plan.raised.as_ref().map(|raised| {
-            let field = pattern.field(&mosaic, 2.0 * raised.over_mm)?;
-            Ok::<_, SolidError>(Relief::new(raised, &field, (&fine, &within_surface)))
+            let field = pattern
+                .field(&mosaic, 2.0 * raised.over_mm)
+                .map_err(of("mosaic"))?;
+            Ok::<_, NotGrown>(Relief::new(raised, &field, (&fine, &within_surface)))
         });
         let relief = relief.transpose()?;
         let normal = |place: &SurfacePoint| {

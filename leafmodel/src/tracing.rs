@@ -122,7 +122,8 @@ pub struct Settings {
     /// Area of the largest hole between veins that is filled, and of the largest speck that is left
     /// out, pixels.
     pub speck_px: usize,
-    /// Length of the pieces of veins, mm, at least a pixel; `None` takes the median width of the veins, but at least
+    /// Length of the pieces of veins, mm, at least a pixel; `None` takes the median width of the
+    /// veins, but at least
     /// 4 pixels.
     pub segment_mm: Option<f64>,
     /// Where the petiole meets the blade, pixels from the upper left corner, if it is known.
@@ -152,9 +153,7 @@ impl Settings {
 
     fn check(&self) -> Result<(), TraceError> {
         if !(self.mm_per_pixel.is_finite() && self.mm_per_pixel > 0.0) {
-            return Err(TraceError::BadScale {
-                value: self.mm_per_pixel,
-            });
+            return Err(TraceError::BadScale(self.mm_per_pixel));
         }
         let bad = |name, value, allowed| {
             Err(TraceError::BadSetting {
@@ -206,18 +205,12 @@ pub struct Traced {
 /// Why a picture cannot be traced.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum TraceError {
-    /// The raster is too small or too large, or its values are not numbers.
-    #[error("the picture cannot be traced: {what}")]
-    BadRaster {
-        /// What is wrong.
-        what: String,
-    },
-    /// The size of a pixel is not finite and above 0.
-    #[error("a pixel is {value} mm wide; it must be finite and above 0")]
-    BadScale {
-        /// The size given, mm.
-        value: f64,
-    },
+    /// The raster is too small or too large, or its values are not numbers (what is wrong).
+    #[error("the picture cannot be traced: {0}")]
+    BadRaster(String),
+    /// The size of a pixel is not finite and above 0 (the size given, mm).
+    #[error("a pixel is {0} mm wide; it must be finite and above 0")]
+    BadScale(f64),
     /// A setting is out of its range.
     #[error("{name} is {value}; allowed is {allowed}")]
     BadSetting {
@@ -239,37 +232,29 @@ pub enum TraceError {
         /// Of the picture of the veins.
         veins: [usize; 2],
     },
-    /// Nothing stands out from the background.
+    /// Nothing stands out from the background (share of the picture that stands out).
     #[error(
         "there is no leaf in the picture: what stands out from the background at its frame takes \
-         {:.2} % of it", 100.0 * .share
+         {:.2} % of it", 100.0 * .0
     )]
-    NoLeaf {
-        /// Share of the picture that stands out.
-        share: f64,
-    },
+    NoLeaf(f64),
     /// Nothing is background.
     #[error("the leaf fills the whole picture, so that it has no margin in it")]
     NoBackground,
     /// All of the blade has one grey value.
     #[error("no veins stand out from the tissue between them: the blade has one grey value")]
     NoContrast,
-    /// What was taken for the blade is not where the veins are.
+    /// What was taken for the blade is not where the veins are (share of the ends and junctions of
+    /// veins that lie outside).
     #[error(
         "{:.0} % of the veins lie outside of what was taken for the blade: the background is uneven, or \
          the frame cuts the leaf. Cut the picture to the leaf and a rim of background, or give the blade \
-         as a picture of its own", 100.0 * .share
+         as a picture of its own", 100.0 * .0
     )]
-    VeinsOutside {
-        /// Share of the ends and junctions of veins that lie outside.
-        share: f64,
-    },
-    /// No line is left.
-    #[error("no vein is long enough to be a line: {what}")]
-    NoVeins {
-        /// What was there.
-        what: String,
-    },
+    VeinsOutside(f64),
+    /// No line is left (what was there).
+    #[error("no vein is long enough to be a line: {0}")]
+    NoVeins(String),
     /// A place that was given is not in the picture.
     #[error("the {end}, ({x}, {y}), is not within the {width} × {height} pixels of the picture")]
     OffPicture {
@@ -351,9 +336,9 @@ pub fn trace(picture: &Raster, settings: &Settings) -> Result<Traced, TraceError
         joint
     };
     if veins.count() == 0 {
-        return Err(TraceError::NoVeins {
-            what: "no pixel of the blade is one of a vein".to_owned(),
-        });
+        return Err(TraceError::NoVeins(
+            "no pixel of the blade is one of a vein".to_owned(),
+        ));
     }
     let thin = thinning::thinned(veins, &squares);
     let graph = graph::graph_of(&thin, &squares);

@@ -61,6 +61,6 @@ pub use self::death_field::DeathField;
 pub use self::examples::example;
 pub use self::filled::{FilledBlade, FilledPlan};
 pub use self::leaf::{Stage, TransportLeaf};
-pub use self::plan::{Ladder, TransportError, TransportPlan};
+pub use self::plan::{Ladder, TransportPlan};
 pub use self::secondaries::Secondary;
 pub use self::vein_style::VeinStyle;

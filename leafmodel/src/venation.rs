@@ -115,39 +115,25 @@ pub fn grow(
     plan: &AuxinPlan,
     seed: u64,
 ) -> Result<VenationNetwork, VenationError> {
-    grow_unless(outline, plan, seed, &|| false)
+    grow_around(outline, plan, None, seed, &|| false)
 }
 
-/// As [`grow`], but stops when `is_stopped`, which is called after each step, returns true.
+/// As [`grow`], but stops when `is_stopped`, which is called after each step, returns true. If main
+/// veins are there, in the frame of the full-grown outline, finer veins grow around them. They move
+/// with the lamina as it grows, and a margin that grows alone finds them in place.
 ///
 /// # Errors
 ///
-/// As [`grow`], and [`VenationError::Stopped`].
-pub fn grow_unless(
+/// As [`grow`], [`VenationError::Stopped`], and if main veins are there and the plan has an
+/// architecture.
+pub(crate) fn grow_around(
     outline: &Outline,
     plan: &AuxinPlan,
+    main: Option<&VenationNetwork>,
     seed: u64,
     is_stopped: &dyn Fn() -> bool,
 ) -> Result<VenationNetwork, VenationError> {
-    let (grown, _) = develop(outline, plan, None, seed, &[], is_stopped)?;
-    Ok(grown.network)
-}
-
-/// As [`grow_unless`], but from veins that are there, in the frame of the full-grown outline: finer
-/// veins grow around them. They move with the lamina as it grows, and a margin that grows alone
-/// finds them in place.
-///
-/// # Errors
-///
-/// As [`grow_unless`], and if the plan has an architecture, since its main veins are there already.
-pub fn grow_around(
-    outline: &Outline,
-    plan: &AuxinPlan,
-    main: &VenationNetwork,
-    seed: u64,
-    is_stopped: &dyn Fn() -> bool,
-) -> Result<VenationNetwork, VenationError> {
-    let (grown, _) = develop(outline, plan, Some(main), seed, &[], is_stopped)?;
+    let (grown, _) = develop(outline, plan, main, seed, &[], is_stopped)?;
     Ok(grown.network)
 }
 
@@ -168,34 +154,12 @@ pub struct Stage {
 /// Grows the veins of a leaf and returns their state after each of `steps`; 0 is before the first.
 /// A step beyond the last gives the full-grown leaf. Stages come in the order of `steps`.
 ///
-/// # Errors
-///
-/// As [`grow`].
-pub fn grow_stages(
-    outline: &Outline,
-    plan: &AuxinPlan,
-    seed: u64,
-    steps: &[u32],
-) -> Result<Vec<Stage>, VenationError> {
-    stages_of(outline, plan, None, seed, steps)
-}
-
-/// As [`grow_stages`], from veins that are there as in [`grow_around`].
+/// Main veins may be there before as in [`grow_around`].
 ///
 /// # Errors
 ///
-/// As [`grow`].
-pub fn grow_stages_around(
-    outline: &Outline,
-    plan: &AuxinPlan,
-    main: &VenationNetwork,
-    seed: u64,
-    steps: &[u32],
-) -> Result<Vec<Stage>, VenationError> {
-    stages_of(outline, plan, Some(main), seed, steps)
-}
-
-fn stages_of(
+/// As [`grow_around`].
+pub(crate) fn grow_stages(
     outline: &Outline,
     plan: &AuxinPlan,
     main: Option<&VenationNetwork>,

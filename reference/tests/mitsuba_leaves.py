@@ -14,7 +14,7 @@ from lamina.mitsuba import leaf_bsdf, plugins
 plugins.register()
 
 ROOT = Path(__file__).resolve().parents[2]
-TABLE = ROOT / "leafmodel" / "src" / "optics" / "prospect_d.csv"
+TABLE = ROOT / "leafmodel" / "optics" / "src" / "prospect_d.csv"
 GREEN = {
     "structure": 1.5,
     "chlorophyll": 40.0,

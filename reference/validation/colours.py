@@ -97,7 +97,7 @@ def rows(binary: Path) -> list[Row]:
     from validation import colour
 
     kind = dr.float64_array_t(mi.Float)
-    table = ROOT / "leafmodel" / "src" / "optics" / "prospect_d.csv"
+    table = ROOT / "leafmodel" / "optics" / "src" / "prospect_d.csv"
     model = prospect.Prospect(table, kind, False)
     names = [line.split()[0] for line in lamina(binary, "--list").splitlines()]
     result = []

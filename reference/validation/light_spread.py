@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-TABLE = ROOT / "leafmodel" / "src" / "optics" / "prospect_d.csv"
+TABLE = ROOT / "leafmodel" / "optics" / "src" / "prospect_d.csv"
 INDEX = 1.43
 ASYMMETRY = 0.8
 # Reduced scattering of the slab, µs' d, for N plates: fitted to the transmittance without

@@ -55,7 +55,7 @@ def write(file: Path, about: list[str], header: str, rows: list[str]) -> None:
 
 def main() -> None:
     root = Path(sys.argv[1])
-    shipped = root / "renderer" / "src" / "light" / "daylight"
+    shipped = root / "renderer" / "trace" / "src" / "light" / "daylight"
     data = root / "tests" / "data"
     kept = COEFFICIENTS[COEFFICIENTS["wavelength"] <= 2600]
     names = [

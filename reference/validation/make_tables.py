@@ -28,7 +28,7 @@ with warnings.catch_warnings():
 
 Array = NDArray[np.float64]
 
-FOLDER = Path(__file__).resolve().parent.parent / "renderer" / "src" / "spectrum"
+FOLDER = Path(__file__).resolve().parent.parent / "renderer" / "trace" / "src" / "spectrum"
 BASIS_NM = np.arange(360.0, 830.1, 5.0)
 OBSERVER_NM = np.arange(360.0, 830.1, 1.0)
 REC709_XY = np.array([[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]])

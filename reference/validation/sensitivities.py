@@ -28,7 +28,7 @@ from validation.program import program
 
 Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[2]
-FOLDER = ROOT / "renderer" / "src" / "spectrum" / "cameras"
+FOLDER = ROOT / "renderer" / "trace" / "src" / "spectrum" / "cameras"
 CAMERAS = ("nikon-d5100", "canon-5d-mark-ii", "sony-a7r-iii", "sigma-sd1-merrill")
 NM = np.arange(380.5, 780.0, 1.0)
 SRGB = colour.RGB_COLOURSPACES["sRGB"]

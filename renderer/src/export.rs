@@ -49,3 +49,4 @@ mod element;
 pub mod mitsuba;
 pub mod overlay;
 pub(crate) mod sheet;
+pub(crate) mod veins;

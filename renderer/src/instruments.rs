@@ -63,6 +63,7 @@ mod flux;
 mod gonio;
 mod lamp;
 mod ledger;
+mod measurement;
 mod period;
 mod row;
 mod spectral;
@@ -73,9 +74,9 @@ mod stage;
 pub use self::batches::{Budget, Effort, FEWEST_RAYS, Target, Watch};
 pub use self::error::{InstrumentError, Problem};
 use self::flux::LANES;
+use self::measurement::Measurement;
 pub use self::period::MOST_TURNS;
-pub use self::row::{Direction, Reading, Row, ViewAngles};
-pub use self::stage::CutPaths;
+pub use self::row::{CutPaths, Direction, Reading, Row, ViewAngles};
 use crate::scene::description::{Description, InstrumentKind};
 use crate::spectrum::WavelengthSampler;
 use trace::world::World;
@@ -84,9 +85,7 @@ use trace::world::World;
 /// instruments.
 pub fn sets_of(scene: &Description) -> Option<(WavelengthSampler, Vec<usize>)> {
     let lists = scene.instruments.iter();
-    let lists: Vec<Vec<f64>> = lists
-        .map(|instrument| instrument.value.measured_nm())
-        .collect();
+    let lists: Vec<_> = lists.map(|named| named.value.measured_nm()).collect();
     let lists: Vec<&[f64]> = lists.iter().map(Vec::as_slice).collect();
     (!lists.is_empty()).then(|| WavelengthSampler::of_lists(LANES, &lists))
 }
@@ -134,16 +133,17 @@ pub fn read_out_watched(
     effort: &Effort<'_>,
 ) -> Result<Reading, InstrumentError> {
     let instrument = &scene.instruments[number];
+    let measurement = &Measurement {
+        world,
+        scene,
+        instrument,
+        first_set,
+        effort,
+    };
     match &instrument.value.kind {
-        InstrumentKind::Sphere(sample) => {
-            sphere::read_out(world, scene, (instrument, sample), first_set, effort)
-        }
-        InstrumentKind::Gonio(gonio) => {
-            gonio::read_out(world, scene, (instrument, gonio), first_set, effort)
-        }
-        InstrumentKind::Canopy(canopy) => {
-            canopy::read_out(world, scene, (instrument, canopy), first_set, effort)
-        }
-        InstrumentKind::Depth(depth) => depth::read_out(world, scene, (instrument, depth)),
+        InstrumentKind::Sphere(sample) => sphere::read_out(measurement, sample),
+        InstrumentKind::Gonio(gonio) => gonio::read_out(measurement, gonio),
+        InstrumentKind::Canopy(canopy) => canopy::read_out(measurement, canopy),
+        InstrumentKind::Depth(depth) => depth::read_out(measurement, depth),
     }
 }

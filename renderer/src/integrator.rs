@@ -36,7 +36,8 @@
 //! "#;
 //! let scene = parse(scene, "furnace.toml", Path::new("."), &[])?.description;
 //! let job = Job { width: 8, height: 8, spp: 16, seed: 1 };
-//! let rendered = render(&World::build(&scene)?, &job, &AtomicBool::new(false), &|_progress| ())?;
+//! let world = World::build(&scene)?;
+//! let rendered = render(&world, &job, &AtomicBool::new(false), &|_progress| ())?;
 //! assert_eq!(rendered.ended, Ended::Samples);
 //! let means = rendered.film.mean(0);
 //! assert!(means.iter().all(|mean| (mean - 1.0).abs() < 0.05), "{means:?}");

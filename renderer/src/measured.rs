@@ -21,6 +21,7 @@
 pub mod bsdf;
 mod columns;
 pub mod known;
+mod leaf;
 mod masks;
 mod misnomers;
 pub mod sensitivities;

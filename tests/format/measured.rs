@@ -1,6 +1,7 @@
 //! Measured leaves: what their files mean.
 
-use renderer::scene::description::{LeafFaces, LeafTissue, Material, Spectrum};
+use renderer::scene::description::material::leaf::LeafTissue;
+use renderer::scene::description::{LeafFaces, Material, Spectrum};
 
 use super::{accept, text_of};
 
@@ -13,13 +14,13 @@ fn leaf(measured: &str) -> (LeafTissue, LeafFaces, Vec<String>) {
     let loaded = accept(&text, "measured.toml", &[]);
     let materials = &loaded.description.materials;
     let own = materials.iter().find(|material| material.name == "own");
-    let Material::Leaf { tissue, faces, .. } = &own.expect("it is there").value else {
+    let Material::Leaf(leaf) = &own.expect("it is there").value else {
         panic!("it is a leaf");
     };
     let said = loaded.warnings.iter().map(ToString::to_string);
     // No object has the material, which is told too.
     let said = said.filter(|warning: &String| warning.contains("scene::units"));
-    (tissue.clone(), faces.clone(), said.collect())
+    (leaf.tissue.clone(), leaf.faces.clone(), said.collect())
 }
 
 fn points(spectrum: &Spectrum) -> &[(f64, f64)] {

@@ -2,10 +2,15 @@
 //! never occurs together.
 
 use glam::DVec3;
-use leafmodel::optics::betalains::{Betacyanin, Betaxanthin};
-use leafmodel::optics::pigments::{AnthocyaninMix, CarotenoidMix, ChlorophyllMix};
+use leafmodel::document::declared::Declared as _;
+use leafmodel::optics::betalains::{Betacyanin, Betalains, Betaxanthin};
+use leafmodel::optics::pigments::{
+    AnthocyaninMix, CarotenoidMix, ChlorophyllBands, ChlorophyllMix,
+};
 use leafmodel::optics::{Constituent, Pigments};
 use leafmodel::solid::SolidShape;
+use renderer::scene::description::material::leaf::PlainLeaf;
+use renderer::scene::description::material::solid::PlainSolid;
 use renderer::scene::description::{Held, Material};
 
 use super::{accept, text_of};
@@ -49,7 +54,7 @@ fn bodies_of_solid_tissue_are_planned_as_written() {
         semi_axes_mm: DVec3::new(x, y, z),
     };
     assert_eq!(melon.plan.shape, axes(115.0, 110.0, 100.0));
-    assert_eq!(solid(1).plan.shape, axes(20.0, 20.0, 20.0));
+    assert_eq!(solid(1).plan.shape, SolidShape::Sphere { radius_mm: 20.0 });
     assert_eq!(solid(1).optics.tissue.eta, solid(1).optics.coat.eta);
     let dice = SolidShape::RoundedCube {
         side_mm: 20.0,
@@ -71,16 +76,16 @@ fn bodies_of_solid_tissue_are_planned_as_written() {
             .iter()
             .all(|n| (n.length() - 1.0).abs() < 1e-12)
     );
-    let ChlorophyllMix::Apportioned { a_to_b } = solid(1).plan.pigments.chlorophyll else {
+    let Some(mix) = solid(1).plan.pigments.chlorophyll else {
         panic!("the ball's pigments are {:?}", solid(1).plan.pigments);
     };
-    assert_eq!(a_to_b, 6.0);
+    assert_eq!((mix.a_to_b, mix.bands), (6.0, ChlorophyllBands::Leaf));
     assert_eq!(solid(2).plan.pigments, Pigments::default());
-    let Material::Solid {
+    let Material::Solid(PlainSolid {
         held,
         pigments,
         optics,
-    } = &scene.materials[5].value
+    }) = &scene.materials[5].value
     else {
         panic!("rind is {:?}", scene.materials[5].value);
     };
@@ -88,38 +93,41 @@ fn bodies_of_solid_tissue_are_planned_as_written() {
         matches!(held, Held::Contents { contents, extrapolate: true } if contents[Constituent::Betaxanthins] == 1.0)
     );
     assert_eq!((optics.tissue.depth_mm, optics.coat.eta), (0.5, 1.33));
-    assert_eq!(pigments.betaxanthins, Betaxanthin::Vulgaxanthin);
+    assert_eq!(pigments.betalains.betaxanthin, Betaxanthin::Vulgaxanthin);
 }
 
 #[test]
 fn pigments_are_those_that_are_written_and_else_prospects() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
-    let Material::Leaf { pigments, .. } = &scene.materials[2].value else {
+    let Material::Leaf(PlainLeaf { pigments, .. }) = &scene.materials[2].value else {
         panic!("green is {:?}", scene.materials[2].value);
     };
     let green = Pigments {
-        chlorophyll: ChlorophyllMix::Bands {
+        chlorophyll: Some(ChlorophyllMix {
+            bands: ChlorophyllBands::Solution,
             a_to_b: 3.1,
             shift_per_cm: -380.0,
             packaging: 0.4,
-        },
-        carotenoids: CarotenoidMix::Bands {
+        }),
+        carotenoids: Some(CarotenoidMix {
             shares: [0.25, 0.5, 0.1, 0.15, 0.0],
             shift_per_cm: -900.0,
             packaging: 0.3,
-        },
-        anthocyanins: AnthocyaninMix::Aglycones {
+        }),
+        anthocyanins: Some(AnthocyaninMix {
             shares: [0.1, 0.5, 0.1, 0.1, 0.1, 0.1],
             shift_nm: 15.0,
             blue_fraction: 0.05,
+        }),
+        betalains: Betalains {
+            betacyanin: Betacyanin::Amaranthine,
+            betaxanthin: Betaxanthin::Vulgaxanthin,
+            packaging: 0.45,
         },
-        betacyanins: Betacyanin::Amaranthine,
-        betaxanthins: Betaxanthin::Vulgaxanthin,
-        betalain_packaging: 0.45,
     };
     assert_eq!(**pigments, green);
-    assert_eq!(green.checked(), Ok(green));
-    let Material::Leaf { pigments, .. } = &scene.materials[3].value else {
+    assert_eq!(green.in_range(), Ok(()));
+    let Material::Leaf(PlainLeaf { pigments, .. }) = &scene.materials[3].value else {
         panic!("mapped is {:?}", scene.materials[3].value);
     };
     assert_eq!(**pigments, Pigments::default());
@@ -128,9 +136,9 @@ fn pigments_are_those_that_are_written_and_else_prospects() {
         "whole.toml",
         &["leaves.beech.pigments.anthocyanins.shift_nm=20"],
     );
-    let AnthocyaninMix::Aglycones {
+    let Some(AnthocyaninMix {
         shares, shift_nm, ..
-    } = shifted.description.leaves[0]
+    }) = shifted.description.leaves[0]
         .value
         .plan
         .pigments

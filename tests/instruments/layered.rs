@@ -32,10 +32,10 @@ fn sphere(preset: &str, nm: f64) -> String {
 
 /// Makes the faces of a scene's leaf smooth, which no scene can ask for.
 fn smoothed(mut scene: Description) -> Description {
-    let Material::Leaf { faces, .. } = &mut scene.materials[0].value else {
+    let Material::Leaf(leaf) = &mut scene.materials[0].value else {
         panic!("the material is a leaf");
     };
-    for coat in &mut faces.coats {
+    for coat in &mut leaf.faces.coats {
         (coat.alpha_across, coat.alpha_along) = (0.0, 0.0);
     }
     scene

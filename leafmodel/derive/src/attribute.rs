@@ -12,6 +12,8 @@ pub(crate) struct Key {
     pub(crate) value: Option<ValueKind>,
     /// `required`: it must be there, unless a preset lies beneath.
     pub(crate) is_required: bool,
+    /// `skip`: the variant is no kind of block.
+    pub(crate) is_skipped: bool,
     /// The first paragraph of the doc comment above it.
     pub(crate) sentence: String,
     /// `about = "…"`: its sentence, where it is another one.
@@ -32,6 +34,11 @@ pub(crate) struct Key {
 pub(crate) enum ValueKind {
     /// Numbers within limits, perhaps in degrees.
     Numbers { limits: Limits, degrees: bool },
+    /// Numbers within limits, in a file in this part of the program's unit.
+    Scaled {
+        limits: Limits,
+        prefix: &'static str,
+    },
     /// A word of an enum.
     Word,
     /// A block of its own.
@@ -138,6 +145,7 @@ fn key(attribute: &Attribute) -> Result<Key> {
             }
             other => match word(other).as_deref() {
                 Some("required") => key.is_required = true,
+                Some("skip") => key.is_skipped = true,
                 Some("block") => key.value = Some(ValueKind::Block),
                 Some("flat") => key.value = Some(ValueKind::Flat),
                 Some("word") => key.value = Some(ValueKind::Word),
@@ -169,11 +177,20 @@ fn value(expr: &Expr) -> Result<ValueKind> {
                 let degrees = true;
                 return Ok(ValueKind::Numbers { limits, degrees });
             }
+            Some("milli") => return scaled(call, "milli"),
+            Some("nano") => return scaled(call, "nano"),
             Some("list") => return list(call),
             Some(_) | None => {}
         }
     }
     Ok(ValueKind::Other(expr.clone()))
+}
+
+/// `milli(low..=high)`, `nano(low..=high)`.
+fn scaled(call: &ExprCall, prefix: &'static str) -> Result<ValueKind> {
+    let limits = call.args.first().and_then(limits);
+    let limits = limits.ok_or_else(|| Error::new_spanned(call, "expected a range"))?;
+    Ok(ValueKind::Scaled { limits, prefix })
 }
 
 /// `low..=high`, `low..high`, `above(low, high)`, `open(low, high)` or `within(LIMITS)`.

@@ -1,7 +1,7 @@
 //! Keys of fields, one call of `Keys` for each.
 
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{format_ident, quote};
 use syn::{DataStruct, DeriveInput, Error, Field, Member, Result, Type};
 
 use crate::attribute::{Key, ValueKind, inside_option, keys};
@@ -25,6 +25,34 @@ pub(crate) fn of_struct(input: &DeriveInput, data: &DataStruct) -> Result<TokenS
     })
 }
 
+/// `Default` of a struct: what `default = …` says at each field, else the field's own.
+pub(crate) fn defaults(input: &DeriveInput) -> Result<TokenStream> {
+    let syn::Data::Struct(data) = &input.data else {
+        return Err(Error::new_spanned(input, "defaults are those of a struct"));
+    };
+    let name = &input.ident;
+    let fields = data.fields.iter().zip(data.fields.members());
+    let fields = fields.map(|(field, member)| {
+        let own = keys(&field.attrs)?.into_iter().find_map(|key| key.default);
+        // At an optional block it is that of the block, which is left out by default.
+        let own = own.filter(|_| inside_option(&field.ty).is_none());
+        let value = own.map_or_else(
+            || quote! { ::core::default::Default::default() },
+            |own| quote! { #own },
+        );
+        Ok(quote! { #member: #value })
+    });
+    let fields = fields.collect::<Result<Vec<TokenStream>>>()?;
+    Ok(quote! {
+        #[automatically_derived]
+        impl ::core::default::Default for #name {
+            fn default() -> Self {
+                Self { #(#fields),* }
+            }
+        }
+    })
+}
+
 fn at_self(member: &Member) -> TokenStream {
     quote! { (&mut self.#member) }
 }
@@ -43,18 +71,25 @@ pub(crate) fn of_field(field: &Field, place: &TokenStream) -> Result<TokenStream
 }
 
 fn of_key(field: &Field, key: &Key, place: &TokenStream) -> Result<TokenStream> {
-    if let (Some(with), None) = (&key.with, &key.name) {
+    let value = key.value.as_ref();
+    let is_flat = matches!(value, Some(ValueKind::Flat));
+    if let (Some(with), None, false) = (&key.with, &key.name, is_flat) {
         return Ok(quote! { #with(self, keys); });
     }
-    let value = key.value.as_ref();
-    if matches!(value, Some(ValueKind::Flat)) {
+    if is_flat {
         let declare = key.with.as_ref().map_or_else(
             || quote! { ::document::declared::Declared::declare },
             |with| quote! { #with },
         );
         return Ok(quote! { #declare(#place, keys); });
     }
+    if let (Some(with), None) = (&key.with, &key.name) {
+        return Ok(quote! { #with(self, keys); });
+    }
     let Some(name) = &key.name else {
+        if key.default.is_some() {
+            return Ok(TokenStream::new());
+        }
         return Err(Error::new_spanned(
             field,
             "a key has a name: #[key(\"name\")]",
@@ -89,6 +124,10 @@ fn of_key(field: &Field, key: &Key, place: &TokenStream) -> Result<TokenStream> 
             )
         },
         Some(ValueKind::Numbers { limits, degrees }) => numbers(of, limits, *degrees)?,
+        Some(ValueKind::Scaled { limits, prefix }) => {
+            let (prefix, numbers) = (format_ident!("{prefix}"), numbers(of, limits, false)?);
+            quote! { ::document::value_kind::Scaled::#prefix(#numbers) }
+        }
         Some(ValueKind::Other(kind)) => quote! { #kind },
     };
     Ok(match (inner, key.is_required) {

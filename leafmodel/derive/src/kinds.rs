@@ -10,8 +10,10 @@ use crate::fields::of_field;
 /// `Declared` and `Kinds` of an enum: one block for each of its variants.
 pub(crate) fn of_enum(input: &DeriveInput, data: &DataEnum) -> Result<TokenStream> {
     let name = &input.ident;
-    let kinds = data.variants.iter().map(of_variant);
-    let kinds = kinds.collect::<Result<Vec<TokenStream>>>()?;
+    let mut kinds = Vec::new();
+    for variant in &data.variants {
+        kinds.extend(of_variant(variant)?);
+    }
     Ok(quote! {
         #[automatically_derived]
         impl ::document::declared::Kinds for #name {
@@ -31,9 +33,13 @@ pub(crate) fn of_enum(input: &DeriveInput, data: &DataEnum) -> Result<TokenStrea
     })
 }
 
-fn of_variant(variant: &Variant) -> Result<TokenStream> {
+/// The kind of a variant, unless it is none.
+fn of_variant(variant: &Variant) -> Result<Option<TokenStream>> {
     let ident = &variant.ident;
     let key = key_of_variant(&variant.attrs)?;
+    if key.is_skipped {
+        return Ok(None);
+    }
     let about = key.about();
     let name = key.name.unwrap_or_else(|| snake_case(&ident.to_string()));
     let last = key.last.map(|last| quote! { #last(value, keys); });
@@ -86,7 +92,7 @@ fn of_variant(variant: &Variant) -> Result<TokenStream> {
     } else {
         quote! { |value, keys| }
     };
-    Ok(quote! {
+    Ok(Some(quote! {
         ::document::keys::Variant {
             name: #name,
             about: #about,
@@ -94,7 +100,7 @@ fn of_variant(variant: &Variant) -> Result<TokenStream> {
             is: |value| ::core::matches!(value, Self::#ident { .. }),
             declare: #arguments { #declare #last },
         }
-    })
+    }))
 }
 
 /// `Words` of an enum without data.

@@ -50,6 +50,8 @@ pub struct Context {
     pub range_nm: Cell<Option<[f64; 2]>>,
     /// Who needs these wavelengths, as messages say it.
     pub needed_by: Cell<&'static str>,
+    /// Whether only a part of what it describes is wanted, so that it may lack others.
+    pub is_partial: Cell<bool>,
     /// The document, and all that it is made of.
     pub sources: RefCell<Sources>,
     /// The files that it names, as they are found.
@@ -75,6 +77,7 @@ impl Context {
             extrapolate: Cell::new(false),
             range_nm: Cell::new(None),
             needed_by: Cell::new("the film"),
+            is_partial: Cell::new(false),
             sources: RefCell::new(sources),
             inputs: RefCell::default(),
             survey: RefCell::default(),

@@ -30,12 +30,14 @@
 //! | --- | --- |
 //! | `low..=high`, `low..high`, `above(low, high)`, `open(low, high)`, `within(LIMITS)` | a range; the field's type says whether of an integer, a number, or each of several |
 //! | `degrees(…)` | the same of an angle, which is in radians in the program |
+//! | `milli(…)`, `nano(…)` | the same of a number that a file has in thousandths or billionths of the program's unit |
 //! | `word` | a word of an enum with `#[derive(Words)]` |
 //! | `block`, `list(most = …, wanted = …)` | a block of keys, a list of blocks |
+//! | `skip` | at a variant: it is no kind of block, but what there is without one |
 //! | `flat` | a struct whose keys lie in the block around it |
 //! | an expression | any other [`Kind`](super::value_kind::Kind) |
 //! | `required` | the key must be there, unless a preset lies beneath |
-//! | `default = …` | what a block has of which nothing is said, where that is not `Default` |
+//! | `default = …` | what a block has of which nothing is said, where that is not `Default`; at a field of a struct with `#[derive(Defaults)]`, its value there |
 //! | `about = …` | the sentence, where it is not that of the doc comment |
 //! | `at = …` | an element of an array has a key of its own |
 //! | `when = …` | the key is there only then; `self` is the block |
@@ -45,7 +47,7 @@
 //! A `bool` and a seed (`u64`) need a name only. An enum with data is a block of one of several
 //! kinds: each variant is a block with the name of the variant or of its `#[key("name")]`.
 
-pub use leafmodel_derive::{Declared, Words};
+pub use leafmodel_derive::{Declared, Defaults, Words};
 
 use super::keys::{Keys, Variant};
 use super::ranges::RangeError;
@@ -85,6 +87,15 @@ pub trait Kinds: Sized + 'static {
 pub trait Words: Sized + 'static {
     /// The words and what they are.
     const WORDS: &'static [(&'static str, Self)];
+
+    /// The word for this one.
+    fn word(&self) -> &'static str
+    where
+        Self: PartialEq,
+    {
+        let found = Self::WORDS.iter().find(|(_, one)| one == self);
+        found.map_or("", |(word, _)| word)
+    }
 }
 
 #[cfg(test)]
@@ -102,15 +113,17 @@ mod tests {
         #[key("pitch_deg", degrees(-90.0..=90.0))]
         pitch: f64,
         /// What turns it.
-        #[key("motor", block, default = Motor { power: 1.0 })]
+        #[key("motor", block)]
         motor: Option<Motor>,
     }
 
-    #[derive(Clone, Declared)]
+    #[derive(Clone, Debug, Declared, Defaults, PartialEq)]
     struct Motor {
         /// What it takes.
-        #[key("power_w", required, above(0.0, 1e3))]
+        #[key("power_w", required, above(0.0, 1e3), default = 1.0)]
         power: f64,
+        #[key(default = 3)]
+        blades: u32,
     }
 
     #[test]
@@ -118,7 +131,7 @@ mod tests {
         let fan = |blades, degrees: f64, power: Option<f64>| Fan {
             blades,
             pitch: degrees.to_radians(),
-            motor: power.map(|power| Motor { power }),
+            motor: power.map(|power| Motor { power, blades: 3 }),
         };
         assert_eq!(fan(3, 90.0, Some(1e3)).in_range(), Ok(()));
         let mut wrong = fan(1, -90.5, Some(f64::NAN));
@@ -132,6 +145,15 @@ mod tests {
                 "motor.power_w is NaN, outside the values above 0 and up to 1000",
             ]
         );
+    }
+
+    #[test]
+    fn defaults_are_what_the_keys_say() {
+        let expected = Motor {
+            power: 1.0,
+            blades: 3,
+        };
+        assert_eq!(Motor::default(), expected);
     }
 
     #[test]

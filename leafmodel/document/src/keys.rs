@@ -31,11 +31,11 @@ mod lists;
 
 use std::rc::Rc;
 
-pub use self::kinds::Variant;
+pub use self::kinds::{Choice, Variant};
 pub use self::lists::{BlockList, NamedList};
 use super::ranges::{RangeError, Ranges};
 use super::reader::Block;
-use super::schema::{BlockSchema, EntrySchema, Is};
+use super::schema::{BlockSchema, Is};
 use super::value_kind::Kind;
 use super::written::{Extent, Written};
 
@@ -60,8 +60,18 @@ struct Reading<'p> {
     base: Option<Rc<str>>,
     /// Number of errors before this block.
     errors: usize,
+    /// Blocks inside this one that have errors.
+    broken: Vec<&'static str>,
     /// Whether unknown keys were already reported.
     is_judged: bool,
+}
+
+/// What is to be done where a key is left out.
+#[derive(Clone, Copy, PartialEq)]
+enum Need {
+    HasDefault,
+    Required,
+    MayLack,
 }
 
 #[allow(
@@ -81,16 +91,17 @@ impl<'p> Keys<'p> {
         declare: impl FnOnce(&mut Keys<'_>),
     ) -> bool {
         let errors = block.cx.error_count();
-        let mut keys = Keys {
-            pass: Pass::Read(Reading {
+        let pass = Self::declared(
+            Pass::Read(Reading {
                 block,
                 base,
                 errors,
+                broken: Vec::new(),
                 is_judged: false,
             }),
-        };
-        declare(&mut keys);
-        let Pass::Read(reading) = keys.pass else {
+            declare,
+        );
+        let Pass::Read(reading) = pass else {
             return false;
         };
         if !reading.is_judged {
@@ -99,14 +110,17 @@ impl<'p> Keys<'p> {
         reading.block.cx.error_count() == errors
     }
 
+    /// A pass once all keys are named.
+    fn declared(pass: Pass<'_>, declare: impl FnOnce(&mut Keys<'_>)) -> Pass<'_> {
+        let mut keys = Keys { pass };
+        declare(&mut keys);
+        keys.pass
+    }
+
     /// Writes a block.
     pub fn write(extent: Extent, declare: impl FnOnce(&mut Keys<'_>)) -> Written {
         let block = Written::default();
-        let mut keys = Keys {
-            pass: Pass::Write { extent, block },
-        };
-        declare(&mut keys);
-        match keys.pass {
+        match Self::declared(Pass::Write { extent, block }, declare) {
             Pass::Write { block, .. } => block,
             Pass::Read(_) | Pass::Describe(_) | Pass::Check(_) => Written::default(),
         }
@@ -114,11 +128,7 @@ impl<'p> Keys<'p> {
 
     /// Describes a block whose values are defaults.
     pub fn describe(declare: impl FnOnce(&mut Keys<'_>)) -> BlockSchema {
-        let mut keys = Keys {
-            pass: Pass::Describe(BlockSchema::default()),
-        };
-        declare(&mut keys);
-        match keys.pass {
+        match Self::declared(Pass::Describe(BlockSchema::default()), declare) {
             Pass::Describe(schema) => schema,
             Pass::Read(_) | Pass::Write { .. } | Pass::Check(_) => BlockSchema::default(),
         }
@@ -130,11 +140,7 @@ impl<'p> Keys<'p> {
     }
 
     fn check_within(ranges: Ranges, declare: impl FnOnce(&mut Keys<'_>)) -> Ranges {
-        let mut keys = Keys {
-            pass: Pass::Check(ranges),
-        };
-        declare(&mut keys);
-        match keys.pass {
+        match Self::declared(Pass::Check(ranges), declare) {
             Pass::Check(ranges) => ranges,
             Pass::Read(_) | Pass::Write { .. } | Pass::Describe(_) => Ranges::default(),
         }
@@ -153,25 +159,8 @@ impl<'p> Keys<'p> {
         kind: K,
         about: &'static str,
     ) {
-        match &mut self.pass {
-            Pass::Read(reading) => {
-                if let Some(node) = reading.block.node(name)
-                    && let Some(read) = kind.read_in(&reading.block, node, name)
-                {
-                    *value = read;
-                }
-            }
-            Pass::Write { block, .. } => block.value(name, false, kind.write(value)),
-            Pass::Check(ranges) => ranges.value(name, &kind.describe(), &kind.write(value)),
-            Pass::Describe(schema) => schema.add(EntrySchema {
-                key: name.to_owned(),
-                about,
-                required: false,
-                is: Is::Value {
-                    of: kind.describe(),
-                    default: Some(kind.write(value)),
-                },
-            }),
+        if let Some(read) = self.value(name, Some(&*value), &kind, about, Need::HasDefault) {
+            *value = read;
         }
     }
 
@@ -183,32 +172,61 @@ impl<'p> Keys<'p> {
         kind: K,
         about: &'static str,
     ) {
-        match &mut self.pass {
-            Pass::Read(reading) => {
-                let block = &reading.block;
-                let node = if reading.base.is_some() {
-                    block.node(name)
-                } else {
-                    block.needed(name, || kind.describe().to_add(name))
-                };
-                if let Some(node) = node
-                    && let Some(read) = kind.read_in(block, node, name)
-                {
-                    *value = read;
-                }
-            }
-            Pass::Write { block, .. } => block.value(name, true, kind.write(value)),
-            Pass::Check(ranges) => ranges.value(name, &kind.describe(), &kind.write(value)),
-            Pass::Describe(schema) => schema.add(EntrySchema {
-                key: name.to_owned(),
-                about,
-                required: true,
-                is: Is::Value {
-                    of: kind.describe(),
-                    default: None,
-                },
-            }),
+        if let Some(read) = self.value(name, Some(&*value), &kind, about, Need::Required) {
+            *value = read;
         }
+    }
+
+    /// A key without a default: what is not there is `None`.
+    pub fn optional<K: Kind>(
+        &mut self,
+        name: &'static str,
+        value: &mut Option<K::Of>,
+        kind: K,
+        about: &'static str,
+    ) {
+        if let Some(read) = self.value(name, value.as_ref(), &kind, about, Need::MayLack) {
+            *value = Some(read);
+        }
+    }
+
+    /// A key with a value, if it has one; gives what a file has.
+    fn value<K: Kind>(
+        &mut self,
+        name: &'static str,
+        value: Option<&K::Of>,
+        kind: &K,
+        about: &'static str,
+        need: Need,
+    ) -> Option<K::Of> {
+        let required = need == Need::Required;
+        match (&mut self.pass, value) {
+            (Pass::Read(reading), _) => {
+                let block = &reading.block;
+                let node = if required && reading.base.is_none() {
+                    block.needed(name, || kind.describe().to_add(name))
+                } else {
+                    block.node(name)
+                };
+                return kind.read_in(block, node?, name);
+            }
+            (Pass::Write { block, .. }, Some(value)) => {
+                block.value(name, required, kind.write(value));
+            }
+            (Pass::Check(ranges), Some(value)) => {
+                ranges.value(name, &kind.describe(), &kind.write(value));
+            }
+            (Pass::Describe(schema), _) => {
+                let default = value.filter(|_| need == Need::HasDefault);
+                let is = Is::Value {
+                    of: kind.describe(),
+                    default: default.map(|value| kind.write(value)),
+                };
+                schema.entry(name, about, required, is);
+            }
+            (Pass::Write { .. } | Pass::Check(_), None) => {}
+        }
+        None
     }
 
     /// A key that must be there beside another that is, with or without a preset.
@@ -229,42 +247,6 @@ impl<'p> Keys<'p> {
         self.required(name, value, kind, about);
         if let Pass::Read(reading) = &mut self.pass {
             reading.base = base;
-        }
-    }
-
-    /// A key without a default: what is not there is `None`.
-    pub fn optional<K: Kind>(
-        &mut self,
-        name: &'static str,
-        value: &mut Option<K::Of>,
-        kind: K,
-        about: &'static str,
-    ) {
-        match &mut self.pass {
-            Pass::Read(reading) => {
-                if let Some(node) = reading.block.node(name) {
-                    *value = kind.read_in(&reading.block, node, name).or(value.take());
-                }
-            }
-            Pass::Write { block, .. } => {
-                if let Some(value) = value {
-                    block.value(name, false, kind.write(value));
-                }
-            }
-            Pass::Check(ranges) => {
-                if let Some(value) = value {
-                    ranges.value(name, &kind.describe(), &kind.write(value));
-                }
-            }
-            Pass::Describe(schema) => schema.add(EntrySchema {
-                key: name.to_owned(),
-                about,
-                required: false,
-                is: Is::Value {
-                    of: kind.describe(),
-                    default: None,
-                },
-            }),
         }
     }
 
@@ -299,12 +281,16 @@ impl<'p> Keys<'p> {
     ) {
         match &mut self.pass {
             Pass::Read(reading) => {
+                let errors = reading.block.cx.error_count();
                 let inner = match required {
                     Some(kinds) if reading.base.is_none() => reading.block.block(name, kinds),
                     Some(_) | None => reading.block.optional_block(name),
                 };
                 if let Some(inner) = inner {
                     Self::read_within(inner, reading.base.clone(), declare);
+                }
+                if reading.block.cx.error_count() > errors {
+                    reading.broken.push(name);
                 }
             }
             Pass::Write { extent, block } => {
@@ -315,12 +301,12 @@ impl<'p> Keys<'p> {
                 }
             }
             Pass::Check(ranges) => Self::check_inside(ranges, name, declare),
-            Pass::Describe(schema) => schema.add(EntrySchema {
-                key: name.to_owned(),
+            Pass::Describe(schema) => schema.entry(
+                name,
                 about,
-                required: required.is_some(),
-                is: Is::Block(Self::describe(declare)),
-            }),
+                required.is_some(),
+                Is::Block(Self::describe(declare)),
+            ),
         }
     }
 
@@ -355,12 +341,12 @@ impl<'p> Keys<'p> {
                     Self::check_inside(ranges, name, |keys| declare(value, keys));
                 }
             }
-            Pass::Describe(schema) => schema.add(EntrySchema {
-                key: name.to_owned(),
+            Pass::Describe(schema) => schema.entry(
+                name,
                 about,
-                required: false,
-                is: Is::Block(Self::describe(|keys| declare(&mut new(), keys))),
-            }),
+                false,
+                Is::Block(Self::describe(|keys| declare(&mut new(), keys))),
+            ),
         }
     }
 }

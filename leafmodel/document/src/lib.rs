@@ -27,6 +27,7 @@ pub mod limits;
 pub mod named_asset;
 pub mod names;
 pub mod nearest;
+pub mod number_lists;
 pub mod opened;
 mod other_format;
 pub mod overrides;

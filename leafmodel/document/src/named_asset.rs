@@ -1,6 +1,6 @@
 //! Files that a key names and that somebody else decodes.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use super::assets::Assets;
 use super::context::{Context, QUOTED};
@@ -13,25 +13,30 @@ use super::values::text_at;
 /// Largest picture that is read, bytes.
 const MOST_PICTURE_BYTES: u64 = 1 << 30;
 
-/// The file behind a key, and who can decode it; an error is left if it is not there or nobody can.
-pub fn asset(
+/// What is decoded of the file behind a key, by whoever can: `decode` gives it, or what is wrong with
+/// the file and what to do about it. Errors are left; nothing is decoded where there are some.
+pub fn decoded<T>(
     keys: &Keys<'_>,
     key: &'static str,
     endings: &'static [&'static str],
-) -> Option<(&'static dyn Assets, PathBuf, Place)> {
-    let block = keys.reader()?;
+    decode: impl FnOnce(&dyn Assets, &Path) -> Result<T, (String, &'static str)>,
+) -> Option<T> {
+    let block = keys.reader().filter(|_| keys.is_sound())?;
     let (written, at) = text_at(block.cx, block.node(key)?, key)?;
     let wanted = Wanted {
         endings,
         most_bytes: MOST_PICTURE_BYTES,
     };
     let file = resolve(block.cx, written, at, wanted)?;
-    let assets = block.cx.assets;
-    if assets.is_none() {
-        let help = "read this leaf with the renderer, which decodes pictures and meshes";
-        bad_file(block.cx, at, written, "cannot be decoded here", help);
-    }
-    Some((assets?, file, at.clone()))
+    let read = match block.cx.assets {
+        Some(assets) => decode(assets, &file),
+        None => Err((
+            "cannot be decoded here".to_owned(),
+            "read this leaf with the renderer, which decodes pictures and meshes",
+        )),
+    };
+    read.map_err(|(problem, help)| bad_file(block.cx, at, written, &problem, help))
+        .ok()
 }
 
 /// Reports a file that is of no use.

@@ -118,6 +118,16 @@ impl BlockSchema {
         }
     }
 
+    /// Adds a key as [`BlockSchema::add`] does.
+    pub(super) fn entry(&mut self, key: &str, about: &'static str, required: bool, is: Is) {
+        self.add(EntrySchema {
+            key: key.to_owned(),
+            about,
+            required,
+            is,
+        });
+    }
+
     /// The key of that name.
     pub fn get(&self, key: &str) -> Option<&EntrySchema> {
         self.entries.iter().find(|entry| entry.key == key)

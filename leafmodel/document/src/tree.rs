@@ -96,6 +96,19 @@ impl Value {
 }
 
 impl Table {
+    /// A table that stands nowhere in a file yet.
+    pub fn of<K: Into<String>>(entries: impl IntoIterator<Item = (K, Value)>) -> Self {
+        let entries = entries.into_iter().map(|(key, value)| {
+            let node = Node::unplaced(value);
+            Entry {
+                key: key.into(),
+                key_at: node.at.clone(),
+                node,
+            }
+        });
+        Self(entries.collect())
+    }
+
     /// The tree of a parsed document.
     pub fn from_toml(source: usize, table: DeTable<'_>) -> Self {
         let mut entries: Vec<Entry> = table

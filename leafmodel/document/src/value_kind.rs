@@ -11,7 +11,7 @@ use super::nearest::nearest;
 use super::reader::Block;
 use super::schema::Type;
 use super::source::escaped;
-use super::tree::{Entry, Node, Table, Value};
+use super::tree::{Node, Table, Value};
 use super::values::{
     integer_at, list, listed, number, number_at, numbers_at, text_at, wrong_length, wrong_type,
 };
@@ -261,6 +261,63 @@ impl Kind for Vector {
     }
 }
 
+/// Numbers that a file has in another unit than the program.
+#[derive(Clone, Copy, Debug)]
+pub struct Scaled<K> {
+    of: K,
+    /// The file's units in one of the program, and the inverse.
+    factors: [f64; 2],
+}
+
+impl<K> Scaled<K> {
+    /// Thousandths: millimetres of metres.
+    pub const fn milli(of: K) -> Self {
+        let factors = [1e3, 1e-3];
+        Self { of, factors }
+    }
+
+    /// Billionths: microlitres of cubic metres.
+    pub const fn nano(of: K) -> Self {
+        let factors = [1e9, 1e-9];
+        Self { of, factors }
+    }
+}
+
+impl<K: Kind<Of: Copy + Times>> Kind for Scaled<K> {
+    type Of = K::Of;
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<K::Of> {
+        Some(self.of.read(cx, node, key)?.times(self.factors[1]))
+    }
+
+    fn write(&self, value: &K::Of) -> Value {
+        self.of.write(&value.times(self.factors[0]))
+    }
+
+    fn describe(&self) -> Type {
+        self.of.describe()
+    }
+}
+
+/// Numbers that can be multiplied by one.
+pub trait Times {
+    /// The product.
+    #[must_use]
+    fn times(self, factor: f64) -> Self;
+}
+
+impl Times for f64 {
+    fn times(self, factor: f64) -> Self {
+        factor * self
+    }
+}
+
+impl<const N: usize> Times for [f64; N] {
+    fn times(self, factor: f64) -> Self {
+        self.map(|number| factor * number)
+    }
+}
+
 /// A list of values of one kind; `wanted` says so in words, such as "a list of 1 to 9 numbers".
 #[derive(Clone, Copy, Debug)]
 pub struct ListOf<K> {
@@ -332,16 +389,10 @@ impl<K: Kind> Kind for MapOf<K> {
     }
 
     fn write(&self, value: &Self::Of) -> Value {
-        let entries = value.iter().map(|(name, value)| {
-            let node = Node::unplaced(self.0.write(value));
-            let key_at = node.at.clone();
-            Entry {
-                key: name.clone(),
-                key_at,
-                node,
-            }
-        });
-        Value::Table(Table(entries.collect()))
+        let entries = value.iter();
+        Value::Table(Table::of(
+            entries.map(|(name, value)| (name.as_str(), self.0.write(value))),
+        ))
     }
 
     fn describe(&self) -> Type {
@@ -396,6 +447,26 @@ impl Kind for FilePath {
 
     fn describe(&self) -> Type {
         Type::Text(self.what)
+    }
+}
+
+/// The file behind such a path, of which the path as written is not kept.
+#[derive(Clone, Copy, Debug)]
+pub struct FileOnly(pub FilePath);
+
+impl Kind for FileOnly {
+    type Of = std::path::PathBuf;
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<Self::Of> {
+        self.0.read(cx, node, key).map(|named| named.file)
+    }
+
+    fn write(&self, value: &Self::Of) -> Value {
+        Value::Text(value.display().to_string())
+    }
+
+    fn describe(&self) -> Type {
+        self.0.describe()
     }
 }
 

@@ -25,6 +25,16 @@ pub fn smooth_step(x: f64) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
+/// Weights of the value before, at and behind the nearest of even places, for a smooth curve through
+/// the middles between them; `t` is the way from that place, −½ to ½.
+pub fn spline_weights(t: f64) -> [f64; 3] {
+    [
+        0.5 * (0.5 - t) * (0.5 - t),
+        0.75 - t * t,
+        0.5 * (0.5 + t) * (0.5 + t),
+    ]
+}
+
 /// The number at a share of the way from one to another.
 pub fn between(from: f64, to: f64, share: f64) -> f64 {
     from + (to - from) * share

@@ -10,6 +10,7 @@
 pub mod distances;
 mod first_crossing;
 mod interior_grid;
+mod lattice;
 pub mod polygon;
 pub mod polyline;
 pub mod segment;
@@ -19,6 +20,7 @@ use glam::DVec2;
 
 pub use self::first_crossing::first_crossing;
 pub use self::interior_grid::InteriorGrid;
+pub use self::lattice::Lattice;
 pub use self::slabs::Slabs;
 
 /// Twice the signed area of a triangle: positive if it is counter-clockwise.

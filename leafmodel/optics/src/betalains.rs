@@ -7,9 +7,37 @@
 //! become absorptivities in leaves by a packaging factor of 0.5, by analogy with anthocyanin, whose
 //! PROSPECT-D column is 0.41 to 0.53 of the solution's: an assumption.
 
+use document::declared::{Declared, Words};
+
 /// In-leaf over in-solution absorptivity of vacuolar pigments: an assumption, 0.4 to 0.55 are as
 /// likely.
 pub const PACKAGING: f64 = 0.5;
+
+/// Which betalains there are, and how much they absorb in a leaf.
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
+pub struct Betalains {
+    /// That of beet, or of amaranths.
+    #[key("betacyanin", word)]
+    pub betacyanin: Betacyanin,
+    /// That of cacti, or of beet.
+    #[key("betaxanthin", word)]
+    pub betaxanthin: Betaxanthin,
+    /// Absorptivity in the leaf over that in solution.
+    ///
+    /// 0.4 to 0.55 are likely.
+    #[key("packaging", above(0.0, 1.0))]
+    pub packaging: f64,
+}
+
+impl Default for Betalains {
+    fn default() -> Self {
+        Self {
+            betacyanin: Betacyanin::default(),
+            betaxanthin: Betaxanthin::default(),
+            packaging: PACKAGING,
+        }
+    }
+}
 
 /// Standard deviations of betanin's band in nm, on its blue and its red side (unverified).
 pub(super) const BETACYANIN_WIDTHS_NM: [f64; 2] = [41.0, 28.0];
@@ -17,35 +45,26 @@ pub(super) const BETACYANIN_WIDTHS_NM: [f64; 2] = [41.0, 28.0];
 pub(super) const BETAXANTHIN_WIDTH_NM: f64 = 32.0;
 
 /// Which betacyanin a leaf holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Words)]
 pub enum Betacyanin {
     /// That of beet and chard: peak 538 nm, 60 000 to 65 000 L mol⁻¹ cm⁻¹ in water.
+    #[default]
     Betanin,
     /// That of amaranths: peak 536 nm, 56 600 L mol⁻¹ cm⁻¹ (unverified); betanin's widths.
     Amaranthine,
 }
 
 /// Which betaxanthin a leaf holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Words)]
 pub enum Betaxanthin {
     /// That of cacti: taken at 480 nm.
+    #[default]
     Indicaxanthin,
     /// Vulgaxanthin I, of beet: taken at 477 nm.
     Vulgaxanthin,
 }
 
 impl Betacyanin {
-    /// Both of them.
-    pub const ALL: [Self; 2] = [Self::Betanin, Self::Amaranthine];
-
-    /// As scenes spell it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Betanin => "betanin",
-            Self::Amaranthine => "amaranthine",
-        }
-    }
-
     /// Molar absorptivity at the peak, L mol⁻¹ cm⁻¹.
     pub(super) fn epsilon(self) -> f64 {
         match self {
@@ -68,17 +87,6 @@ impl Betacyanin {
 }
 
 impl Betaxanthin {
-    /// Both of them.
-    pub const ALL: [Self; 2] = [Self::Indicaxanthin, Self::Vulgaxanthin];
-
-    /// As scenes spell it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Indicaxanthin => "indicaxanthin",
-            Self::Vulgaxanthin => "vulgaxanthin",
-        }
-    }
-
     /// Molar absorptivity at the peak, L mol⁻¹ cm⁻¹ (unverified).
     pub(super) fn epsilon(self) -> f64 {
         match self {
@@ -97,16 +105,6 @@ impl Betaxanthin {
     }
 }
 
-/// Specific absorption of betanin in a leaf at a wavelength in nm, cm² µg⁻¹.
-pub fn betacyanin(wavelength_nm: f64) -> f64 {
-    Betacyanin::Betanin.specific(wavelength_nm, PACKAGING)
-}
-
-/// Specific absorption of indicaxanthin in a leaf at a wavelength in nm, cm² µg⁻¹.
-pub fn betaxanthin(wavelength_nm: f64) -> f64 {
-    Betaxanthin::Indicaxanthin.specific(wavelength_nm, PACKAGING)
-}
-
 /// Specific absorption (Napierian, cm² µg⁻¹) in solution from a molar absorptivity (decadic, L
 /// mol⁻¹ cm⁻¹) and a molar mass (g mol⁻¹).
 pub fn in_solution(epsilon: f64, molar_mass: f64) -> f64 {
@@ -122,12 +120,16 @@ fn gaussian(distance: f64, width: f64) -> f64 {
 mod tests {
     use super::*;
 
+    fn betacyanin(nm: f64) -> f64 {
+        Betacyanin::Betanin.specific(nm, PACKAGING)
+    }
+
     #[test]
     fn absorptivities_in_solution_are_those_worked_out_by_hand() {
         // Cyanidin-3-glucoside: 26 900 L mol⁻¹ cm⁻¹ and 449.4 g mol⁻¹ are 0.1378 cm² µg⁻¹.
         assert!((in_solution(26_900.0, 449.4) - 0.1378).abs() < 5e-5);
         assert!((betacyanin(538.0) - 0.1307).abs() < 5e-4);
-        assert!((betaxanthin(480.0) - 0.179).abs() < 5e-4);
+        assert!((Betaxanthin::Indicaxanthin.specific(480.0, PACKAGING) - 0.179).abs() < 5e-4);
     }
 
     #[test]

@@ -51,7 +51,7 @@ pub use constituent::Constituent;
 pub use contents::{Contents, ContentsError, Texel};
 pub use interface::Interface;
 pub use per_constituent::PerConstituent;
-pub use pigments::{Pigments, PigmentsError};
+pub use pigments::Pigments;
 pub use pile::ReflectanceTransmittance;
 pub use plate::layer_transmissivity;
 pub use prospect_d::{Coefficients, OutsideTable, ProspectD};

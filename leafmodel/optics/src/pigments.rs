@@ -19,118 +19,63 @@ mod carotenoid;
 mod chlorophyll;
 mod figures;
 
-use thiserror::Error;
-
-use super::betalains::{self, Betacyanin, Betaxanthin};
+use super::betalains::Betalains;
+use document::declared::{Declared, Words};
+use document::error::DocumentError;
+use document::keys::Keys;
+use document::limits::Limits;
+use document::value_kind::Number;
+use document::values::rounded;
 
 pub use anthocyanin::{Aglycone, AnthocyaninMix};
 pub use carotenoid::{Carotenoid, CarotenoidMix};
-pub use chlorophyll::ChlorophyllMix;
+pub use chlorophyll::{ChlorophyllBands, ChlorophyllMix};
 pub use figures::{Basis, Figure};
 
 /// What each pigment column consists of; the default is PROSPECT-D's columns, betanin and
 /// indicaxanthin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, Default, PartialEq)]
 pub struct Pigments {
-    /// Chlorophylls.
-    pub chlorophyll: ChlorophyllMix,
-    /// Carotenoids.
-    pub carotenoids: CarotenoidMix,
-    /// Anthocyanins.
-    pub anthocyanins: AnthocyaninMix,
-    /// Betacyanins.
-    pub betacyanins: Betacyanin,
-    /// Betaxanthins.
-    pub betaxanthins: Betaxanthin,
-    /// In-leaf over in-solution absorptivity of betalains, in (0, 1]; 0.4 to 0.55 are likely.
-    pub betalain_packaging: f64,
+    /// Chlorophyll a and b apart.
+    #[key("chlorophyll", block)]
+    pub chlorophyll: Option<ChlorophyllMix>,
+    /// Named carotenoids.
+    #[key("carotenoids", block)]
+    pub carotenoids: Option<CarotenoidMix>,
+    /// Named aglycones; cyanidin where none is named.
+    #[key("anthocyanins", block)]
+    pub anthocyanins: Option<AnthocyaninMix>,
+    /// Which betalains there are.
+    #[key("betalains", block)]
+    pub betalains: Betalains,
 }
 
-impl Default for Pigments {
-    fn default() -> Self {
-        Self {
-            chlorophyll: ChlorophyllMix::Prospect,
-            carotenoids: CarotenoidMix::Prospect,
-            anthocyanins: AnthocyaninMix::Prospect,
-            betacyanins: Betacyanin::Betanin,
-            betaxanthins: Betaxanthin::Indicaxanthin,
-            betalain_packaging: betalains::PACKAGING,
-        }
+/// Rounding that a sum of shares may show.
+const ROUNDING: f64 = 1e-6;
+
+/// Shares by mass under the substances' names.
+fn shares<T: Words, const N: usize>(shares: &mut [f64; N], class: &str, keys: &mut Keys<'_>) {
+    if keys.reader().is_some() {
+        // Those of a preset do not add up with others.
+        *shares = [0.0; N];
     }
-}
-
-/// A parameter of the pigments outside the range in which it means something.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("{field} is {value}, it must be {range}")]
-pub struct PigmentsError {
-    /// Which parameter.
-    pub field: &'static str,
-    /// What it was.
-    pub value: f64,
-    /// What it may be.
-    pub range: &'static str,
-}
-
-impl Pigments {
-    /// The pigments themselves if every parameter is in range.
-    ///
-    /// # Errors
-    ///
-    /// [`PigmentsError`] for the first parameter outside its range.
-    pub fn checked(self) -> Result<Self, PigmentsError> {
-        self.chlorophyll.check()?;
-        self.carotenoids.check()?;
-        self.anthocyanins.check()?;
-        packaging("betalain_packaging", self.betalain_packaging)?;
-        Ok(self)
+    let names: Vec<&'static str> = T::WORDS.iter().map(|(name, _)| *name).collect();
+    for (name, share) in names.iter().zip(shares.iter_mut()) {
+        let limits = Number(Limits::closed(0.0, 1.0));
+        keys.key(name, share, limits, "Its share, 0 where it is left out.");
     }
-}
-
-/// Refuses what is not in (0, 1].
-fn packaging(field: &'static str, value: f64) -> Result<(), PigmentsError> {
-    within(
-        field,
-        value,
-        value > 0.0 && value <= 1.0,
-        "above 0 and at most 1",
-    )
-}
-
-/// Refuses a shift of bands beyond ±3000 cm⁻¹, which is some 60 nm in the blue.
-fn shift_per_cm(field: &'static str, value: f64) -> Result<(), PigmentsError> {
-    within(
-        field,
-        value,
-        (-3000.0..=3000.0).contains(&value),
-        "from -3000 to 3000",
-    )
-}
-
-/// Refuses shares below 0, and those that do not add up to 1.
-fn shares(field: &'static str, values: &[f64]) -> Result<(), PigmentsError> {
-    for &value in values {
-        within(field, value, value >= 0.0, "shares of at least 0")?;
+    let sum: f64 = shares.iter().sum();
+    if keys.has_only(&names) && keys.is_sound() && (sum - 1.0).abs() > ROUNDING {
+        let error = DocumentError::Impossible {
+            key: "shares".to_owned(),
+            problem: format!(
+                "the shares of the {class} sum to {}, not to 1",
+                rounded(sum)
+            ),
+            help: "change them so that they sum to 1; what is left out has a share of 0".to_owned(),
+        };
+        keys.report(&[], error);
     }
-    let sum: f64 = values.iter().sum();
-    within(
-        field,
-        sum,
-        (sum - 1.0).abs() <= 1e-6,
-        "shares whose sum is 1",
-    )
-}
-
-fn within(
-    field: &'static str,
-    value: f64,
-    good: bool,
-    range: &'static str,
-) -> Result<(), PigmentsError> {
-    good.then_some(()).ok_or(PigmentsError {
-        field,
-        value,
-        range,
-    })
 }
 
 #[cfg(test)]

@@ -67,7 +67,7 @@ impl ProspectD {
     }
 
     /// As [`ProspectD::coefficients_extrapolated`], with pigment columns that consist of these
-    /// substances (which [`Pigments::checked`] has found good). Columns other than PROSPECT's own
+    /// substances. Columns other than PROSPECT's own
     /// are linear between whole nanometres too.
     pub fn coefficients_of(pigments: &Pigments, wavelength_nm: f64) -> Coefficients {
         let place = wavelength_nm.clamp(FIRST_NM, LAST_NM) - FIRST_NM;
@@ -82,33 +82,29 @@ impl ProspectD {
             let (low, high) = (absorption(below), absorption(below + 1.0));
             low + fraction * (high - low)
         };
-        let own_or = |column: usize, mix: &dyn Fn(f64) -> Option<f64>| {
-            if mix(FIRST_NM).is_none() {
-                return between(column);
-            }
-            band(&|nm| mix(nm).expect("a mix has all wavelengths or none"))
-        };
+        let betalains = &pigments.betalains;
         Coefficients {
             interface: Interface::of_index(between(0)),
             absorption: PerConstituent::from_fn(|constituent| match constituent {
                 Constituent::Structure => 0.0,
-                Constituent::Chlorophyll => own_or(1, &|nm| {
-                    pigments.chlorophyll.specific(nm, |nm| column(1, nm))
-                }),
-                Constituent::Carotenoids => own_or(2, &|nm| pigments.carotenoids.specific(nm)),
-                Constituent::Anthocyanins => own_or(3, &|nm| {
-                    pigments.anthocyanins.specific(nm, |nm| column(3, nm))
-                }),
-                Constituent::Betacyanins => band(&|nm| {
-                    pigments
-                        .betacyanins
-                        .specific(nm, pigments.betalain_packaging)
-                }),
-                Constituent::Betaxanthins => band(&|nm| {
-                    pigments
-                        .betaxanthins
-                        .specific(nm, pigments.betalain_packaging)
-                }),
+                Constituent::Chlorophyll => match pigments.chlorophyll {
+                    Some(mix) => band(&|nm| mix.specific(nm, |nm| column(1, nm))),
+                    None => between(1),
+                },
+                Constituent::Carotenoids => match pigments.carotenoids {
+                    Some(mix) => band(&|nm| mix.specific(nm)),
+                    None => between(2),
+                },
+                Constituent::Anthocyanins => match pigments.anthocyanins {
+                    Some(mix) => band(&|nm| mix.specific(nm, |nm| column(3, nm))),
+                    None => between(3),
+                },
+                Constituent::Betacyanins => {
+                    band(&|nm| betalains.betacyanin.specific(nm, betalains.packaging))
+                }
+                Constituent::Betaxanthins => {
+                    band(&|nm| betalains.betaxanthin.specific(nm, betalains.packaging))
+                }
                 Constituent::Brown => between(4),
                 Constituent::Water => between(5),
                 Constituent::DryMatter => between(6),

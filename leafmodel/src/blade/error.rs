@@ -10,20 +10,15 @@ pub enum BladeError {
     /// A number is outside its range.
     #[error(transparent)]
     Range(#[from] RangeError),
-    /// The mesh would be too large.
+    /// The mesh would be too large (greatest number of triangles).
     #[error(
-        "the blade would take more than {limit} triangles: raise max_edge_mm or meshed_vein_radius_mm"
+        "the blade would take more than {0} triangles: raise max_edge_mm or meshed_vein_radius_mm"
     )]
-    TooFine {
-        /// Greatest number of triangles.
-        limit: usize,
-    },
-    /// Fold, curl and ruffle bend the blade so much that it turns inside out.
+    TooFine(usize),
+    /// Fold, curl and ruffle bend the blade so much that it turns inside out (how many triangles
+    /// face the wrong way).
     #[error(
-        "{faces} triangles of the blade are turned over: fold, curl, ruffle or relief are too strong together"
+        "{0} triangles of the blade are turned over: fold, curl, ruffle or relief are too strong together"
     )]
-    TurnedOver {
-        /// How many triangles face the wrong way.
-        faces: usize,
-    },
+    TurnedOver(usize),
 }

@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 
 use super::BladeForm;
 use super::pleats::Pleats;
+use crate::numeric::spline_weights;
 use crate::plane::polygon;
 use crate::shape::outline::Outline;
 use crate::venation::conformal_map::ConformalMap;
@@ -239,9 +240,8 @@ impl Ruffle {
         let middle = (place + 0.5).floor().min(last);
         let t = place - middle;
         let at = |offset: f64| self.widths[(middle + offset).clamp(0.0, last) as usize];
-        0.5 * (0.5 - t) * (0.5 - t) * at(-1.0)
-            + (0.75 - t * t) * at(0.0)
-            + 0.5 * (0.5 + t) * (0.5 + t) * at(1.0)
+        let [before, here, behind] = spline_weights(t);
+        before * at(-1.0) + here * at(0.0) + behind * at(1.0)
     }
 }
 

@@ -4,30 +4,36 @@
 //! the contents `C` below it become `C + (C′ − C) w`. Layers set the contents of the living lamina
 //! between veins. Ageing, veins and the mottle apply afterwards, in this order.
 
-mod keys;
-
 use std::sync::Arc;
 
 use glam::DVec2;
 
 use super::ageing::Place;
 use super::frame::UvFrame;
-use super::masks::{Mask, MaskField, Picture};
-use crate::document::declared::Declared;
+use super::masks::{MEND_PICTURE, Mask, MaskField, Picture};
+use crate::document::declared::{Declared, Kinds, Words};
+use crate::document::keys::{Keys, NamedList};
+use crate::document::limits::Limits;
+use crate::document::named_asset::decoded;
 use crate::document::ranges::RangeError;
+use crate::document::value_kind::{Number, Text, Word};
+use crate::optics::contents_keys::limits;
 use crate::optics::{Constituent, Contents, PerConstituent};
 use crate::random::{self, Use};
 
 /// A layer of contents.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct Layer {
     /// Its name in the plan.
     pub name: String,
-    /// Where it lies.
-    pub mask: Mask,
-    /// Factor on the mask's weight, 0 to 1.
+    /// Factor on the mask's weight.
+    #[key("share", 0.0..=1.0)]
     pub share: f64,
+    /// Where it lies.
+    #[key(flat, with = mask)]
+    pub mask: Mask,
     /// What it changes.
+    #[key(flat, with = change)]
     pub change: Change,
 }
 
@@ -46,7 +52,7 @@ pub enum Change {
 }
 
 /// How numbers change contents.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Words)]
 pub enum Mode {
     /// They replace contents.
     Replace,
@@ -56,7 +62,96 @@ pub enum Mode {
     Multiply,
 }
 
+impl Change {
+    /// No change.
+    const NONE: Self = Self::Values {
+        mode: Mode::Replace,
+        values: PerConstituent::splat(None),
+    };
+}
+
+fn mask(mask: &mut Mask, keys: &mut Keys<'_>) {
+    keys.kind_or_none(mask, Mask::KINDS);
+}
+
+fn change(change: &mut Change, keys: &mut Keys<'_>) {
+    let current = match change {
+        Change::Values { .. } => "contents",
+        Change::Map(_) => "map",
+    };
+    for name in keys.one_of(&["contents", "map"], Some(current)) {
+        if name == "contents" {
+            values(change, keys);
+        } else {
+            map(change, keys);
+        }
+    }
+}
+
+fn values(change: &mut Change, keys: &mut Keys<'_>) {
+    if matches!(change, Change::Map(_)) {
+        *change = Change::NONE;
+    }
+    let Change::Values { mode, values } = change else {
+        return;
+    };
+    let about = "How the numbers change what is below: they take its place, are added (also \
+        below 0), or are factors (0 to 100).";
+    keys.key("mode", mode, Word(Words::WORDS), about);
+    let mode = *mode;
+    let about = "What it changes.";
+    keys.required_block("contents", about, &[], |keys| {
+        for (constituent, value) in values.iter_mut() {
+            let [_, most] = constituent.range();
+            let limits = match mode {
+                Mode::Replace => limits(constituent),
+                Mode::Add => Limits::closed(-most, most),
+                Mode::Multiply => Limits::closed(0.0, 100.0),
+            };
+            let number = Number(limits);
+            keys.optional(constituent.key(), value, number, constituent.meaning());
+        }
+    });
+}
+
+fn map(change: &mut Change, keys: &mut Keys<'_>) {
+    keys.exclude("map", "mode");
+    let before = match change {
+        Change::Map(map) => map.file.clone(),
+        Change::Values { .. } => String::new(),
+    };
+    let mut file = before.clone();
+    let path = Text("the path of an EXR with contents");
+    let about = "An EXR that takes the place of all contents, as `materials.NAME.leaf.map` reads \
+        it.";
+    keys.required("map", &mut file, path, about);
+    if file == before && !keys.is_description() {
+        return;
+    }
+    let decoded = decoded(keys, "map", &["exr"], |assets, file| {
+        let read = assets.contents(file);
+        read.map_err(|problem| (problem, MEND_PICTURE))
+    });
+    *change = Change::Map(Arc::new(Picture::of_raster(file, None, decoded)));
+}
+
 impl Layer {
+    /// The keys of all layers of a leaf.
+    pub(crate) fn all(layers: &mut Vec<Self>, keys: &mut Keys<'_>) {
+        let list = NamedList {
+            required: false,
+            new: &|name: &str| Self {
+                name: name.to_owned(),
+                mask: Mask::Everywhere,
+                share: 1.0,
+                change: Change::NONE,
+            },
+            name_of: |layer: &Self| &layer.name,
+        };
+        let about = "Contents on top of the tissue's, the later on top.";
+        keys.named("layers", layers, &list, about, Self::declare);
+    }
+
     /// Checks every number.
     ///
     /// # Errors

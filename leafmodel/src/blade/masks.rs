@@ -10,7 +10,13 @@ use glam::DVec2;
 use super::ageing::{Along, Place};
 use super::frame::UvFrame;
 use super::mottle::Mottle;
+use crate::document::assets::Raster;
+use crate::document::declared::Declared;
+use crate::document::keys::Keys;
+use crate::document::limits::Limits;
+use crate::document::named_asset::decoded;
 use crate::document::ranges::RangeError;
+use crate::document::value_kind::{Integer, Number, Text};
 use crate::numeric::smooth_step;
 use crate::plane::distances::Distances;
 
@@ -31,7 +37,27 @@ pub struct Picture<const N: usize> {
     pub texels: Vec<[f32; N]>,
 }
 
+impl<const N: usize> Default for Picture<N> {
+    fn default() -> Self {
+        Self::of_raster(String::new(), None, None)
+    }
+}
+
 impl<const N: usize> Picture<N> {
+    /// The picture of a file, once it is decoded.
+    pub(super) fn of_raster(file: String, channel: Option<String>, read: Option<Raster>) -> Self {
+        let (width, values) = read.map_or((1, Vec::new()), |read| (read.width, read.values));
+        let texels = values.chunks_exact(N);
+        Self {
+            file,
+            channel,
+            width,
+            texels: texels
+                .map(|texel| std::array::from_fn(|index| texel[index]))
+                .collect(),
+        }
+    }
+
     /// The values at texture coordinates.
     #[must_use]
     pub fn at(&self, uv: DVec2) -> [f64; N] {
@@ -70,92 +96,171 @@ impl<const N: usize> Picture<N> {
     }
 }
 
-/// The place of a layer, as a weight. Edges are smooth steps of width `softness_mm`, centred on the
-/// place that the numbers give.
-#[derive(Clone, Debug, PartialEq)]
+/// Where a layer of contents lies.
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub enum Mask {
     /// Everywhere alike.
+    #[key(skip)]
     Everywhere,
     /// Within some distance of the margin.
     Margin {
         /// Width of the rim.
+        #[key(flat, with = rim_width, default = RimWidth::Mm(0.0))]
         width: RimWidth,
-        /// Width of its edge, mm, 0.001 to 1000.
+        /// Width of the edge.
+        #[key("softness_mm", 0.001..=1000.0, default = SOFTNESS_MM)]
         softness_mm: f64,
-        /// Share by which its width varies along the margin, 0 to 1.
+        /// Share by which its width varies along the margin.
+        #[key("wander", 0.0..=1.0)]
         wander: f64,
-        /// Size of those variations, mm, 0.01 to 1000.
+        /// Size of those variations.
+        #[key("wander_scale_mm", 0.01..=1000.0, default = SCALE_MM)]
         wander_scale_mm: f64,
     },
-    /// Within some distance of the axes of veins, or outside of it.
+    /// Within some distance of the axes of veins.
     Veins {
-        /// Lowest and highest order that count, 1 to 20.
+        /// Lowest and highest order that count.
+        #[key(flat, with = vein_orders, default = [1, 20])]
         orders: [u8; 2],
-        /// Distance, mm, 0 to 1000.
+        /// Distance from the axis.
+        #[key("width_mm", required, 0.0..=1000.0)]
         width_mm: f64,
-        /// Width of the edge, mm, 0.001 to 1000.
+        /// Width of the edge.
+        #[key("softness_mm", 0.001..=1000.0, default = SOFTNESS_MM)]
         softness_mm: f64,
         /// Whether it lies between veins instead.
+        #[key("outside")]
         outside: bool,
     },
-    /// Within some distance of the straight line from base to apex.
+    /// Within some distance of the line from base to apex.
     Midrib {
-        /// Distance, mm, 0 to 1000.
-        width_mm: f64,
-        /// Width of the edge, mm, 0.001 to 1000.
+        /// Width of the edge.
+        #[key("softness_mm", 0.001..=1000.0, default = SOFTNESS_MM)]
         softness_mm: f64,
+        /// Distance from the line.
+        #[key("width_mm", required, 0.0..=1000.0)]
+        width_mm: f64,
     },
-    /// A ramp along the midrib from weight 0 to weight 1. Places are 0 at the base, 1 at the apex,
-    /// and either end may come first.
+    /// More and more of it along the midrib.
+    ///
+    /// Either end may come first.
+    #[key(last = ends)]
     BaseToTip {
-        /// Place where the weight is 0, 0 to 1.
+        /// Where there is nothing of it: 0 the base, 1 the apex.
+        #[key("from", 0.0..=1.0)]
         from: f64,
-        /// Place where the weight is 1, 0 to 1, other than `from`.
+        /// Where there is all of it.
+        #[key("to", 0.0..=1.0, default = 1.0)]
         to: f64,
     },
+    /// In patches.
+    ///
     /// Where gradient noise in [−1, 1] is above a threshold.
     Noise {
-        /// Size of patches, mm, 0.01 to 1000.
+        /// Size of patches.
+        #[key("scale_mm", 0.01..=1000.0, default = SCALE_MM)]
         scale_mm: f64,
-        /// −1 to 1: at −1 nearly all is covered, at 1 nothing.
+        /// Noise above which there is some of it; higher is less.
+        #[key("threshold", -1.0..=1.0)]
         threshold: f64,
-        /// Width of the edge in the noise's own unit, 0.001 to 2.
+        /// Width of the edge, in noise.
+        #[key("softness", 0.001..=2.0, default = 0.3)]
         softness: f64,
-        /// Number of cells of `scale_mm` after which the noise repeats, 1 to 65536; `None` if it
-        /// does not.
+        /// Patches after which the pattern repeats; left out, never.
+        #[key("repeat_cells", 1..=65536)]
         repeat_cells: Option<u32>,
     },
-    /// The value of a picture, clamped to 0 to 1.
+    /// As a picture over the leaf's box says.
+    ///
+    /// The value is clamped to 0 to 1.
+    #[key("image", with = picture)]
     Picture(Arc<Picture<1>>),
 }
 
-/// How wide a rim along the margin is.
+/// Width of a rim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RimWidth {
     /// In millimetres, 0 to 1000.
     Mm(f64),
-    /// As a share of half the width of the leaf's box, 0 to 2.
+    /// In half-widths of the leaf, 0 to 2.
     HalfWidths(f64),
 }
 
+/// Width of edges where nothing is said, mm.
+const SOFTNESS_MM: f64 = 0.5;
+/// Size of patches where nothing is said, mm.
+const SCALE_MM: f64 = 5.0;
+
+fn rim_width(width: &mut RimWidth, keys: &mut Keys<'_>) {
+    let current = match width {
+        RimWidth::Mm(_) => "width_mm",
+        RimWidth::HalfWidths(_) => "width_share",
+    };
+    for name in keys.one_of(&["width_mm", "width_share"], Some(current)) {
+        let (RimWidth::Mm(mut value) | RimWidth::HalfWidths(mut value)) = *width;
+        *width = if name == "width_mm" {
+            let limits = Number(Limits::closed(0.0, 1000.0));
+            keys.required("width_mm", &mut value, limits, "Width of the rim.");
+            RimWidth::Mm(value)
+        } else {
+            let limits = Number(Limits::closed(0.0, 2.0));
+            let about = "Width of the rim, in half-widths of the leaf.";
+            keys.required("width_share", &mut value, limits, about);
+            RimWidth::HalfWidths(value)
+        };
+    }
+}
+
+fn vein_orders([lowest, highest]: &mut [u8; 2], keys: &mut Keys<'_>) {
+    let about = "Lowest order of veins that count.";
+    keys.key("lowest_order", lowest, Integer::within(1, 20), about);
+    let orders = Integer::within(u64::from(*lowest).max(1), 20);
+    let about = "Highest order of veins that count.";
+    keys.key("highest_order", highest, orders, about);
+}
+
+fn ends(mask: &mut Mask, keys: &mut Keys<'_>) {
+    if keys.is_sound() && mask.validate().is_err() {
+        let problem = "the layer begins where it is whole";
+        let help = "let `from` and `to` differ";
+        keys.refuse(&["to"], problem.to_owned(), help);
+    }
+}
+
+fn picture(picture: &mut Arc<Picture<1>>, keys: &mut Keys<'_>) {
+    let (mut file, mut channel) = (picture.file.clone(), picture.channel.clone());
+    let path = Text("the path of a PNG or EXR");
+    keys.required("file", &mut file, path, "The picture.");
+    let name = Text("the name of a channel");
+    let about = "Which channel of an EXR; left out, its grey.";
+    keys.optional("channel", &mut channel, name, about);
+    if file == picture.file && channel == picture.channel {
+        return;
+    }
+    let decoded = decoded(keys, "file", &["png", "exr"], |assets, file| {
+        let read = assets.grey(file, channel.as_deref());
+        read.map_err(|problem| (problem, MEND_PICTURE))
+    });
+    *picture = Arc::new(Picture::of_raster(file, channel, decoded));
+}
+
+/// How to mend pictures of layers.
+pub(super) const MEND_PICTURE: &str =
+    "see docs/src/format/leaf.md for what pictures of layers hold";
+
 impl Mask {
-    /// Checks what the ranges of its keys leave open.
+    /// Checks what the numbers are together.
     pub(super) fn validate(&self) -> Result<(), RangeError> {
         match self {
             Self::BaseToTip { from, to } => {
                 RangeError::unless(from != to, "to", *to, "other than `from`")
             }
-            Self::Veins {
-                orders: [first, last],
-                ..
-            } => {
-                let limits = "rising, from 1 to 20";
-                RangeError::unless(first <= last, "orders", f64::from(*last), limits)
-            }
             Self::Picture(picture) => picture.validate(),
-            Self::Everywhere | Self::Margin { .. } | Self::Midrib { .. } | Self::Noise { .. } => {
-                Ok(())
-            }
+            Self::Everywhere
+            | Self::Margin { .. }
+            | Self::Veins { .. }
+            | Self::Midrib { .. }
+            | Self::Noise { .. } => Ok(()),
         }
     }
 }

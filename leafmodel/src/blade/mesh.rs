@@ -160,7 +160,7 @@ impl BladeMesh {
         }
         let faces = mesh.turned_over().count();
         if faces > 0 {
-            return Err(BladeError::TurnedOver { faces });
+            return Err(BladeError::TurnedOver(faces));
         }
         Ok(mesh)
     }

@@ -172,11 +172,7 @@ impl PetiolePlan {
         let midrib = Midrib::new(outline, network, JOINT_SHARE[1] * leaf);
         let radius = self.radius_mm.unwrap_or(midrib.radius).max(1e-3);
         let all: Vec<VeinSegment> = network.segments().collect();
-        let is_major = |vein: &&VeinSegment| {
-            vein.radius_from.max(vein.radius_to) >= form.meshed_vein_radius_mm
-        };
-        let veins: Vec<VeinSegment> = all.iter().filter(is_major).copied().collect();
-        let relief = Relief::new(form, &veins);
+        let relief = Relief::new(form, &form.major(&all));
         let posture = Posture::new(form, outline, (network.map(), &all), settled);
         if peltate::is_inside(outline, radius) {
             return Ok(self.peltate(outline, radius, &relief, &posture, seed));

@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 use super::BladeForm;
+use crate::numeric::spline_weights;
 use crate::shape::outline::Outline;
 use crate::venation::network::VeinSegment;
 
@@ -174,15 +175,8 @@ impl Pleats {
         let most = DVec2::new(self.columns as f64 - 2.0, self.rows as f64 - 2.0);
         let place = ((p - self.origin) / self.spacing).clamp(DVec2::ONE, most);
         let middle = (place + 0.5).floor().min(most);
-        let weights = |t: f64| {
-            [
-                0.5 * (0.5 - t) * (0.5 - t),
-                0.75 - t * t,
-                0.5 * (0.5 + t) * (0.5 + t),
-            ]
-        };
         let t = place - middle;
-        let (x, y) = (weights(t.x), weights(t.y));
+        let (x, y) = (spline_weights(t.x), spline_weights(t.y));
         let first = (middle.y as usize - 1) * self.columns + middle.x as usize - 1;
         (0..3)
             .map(|row| {

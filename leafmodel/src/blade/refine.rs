@@ -144,12 +144,11 @@ impl<'a> Refinement<'a> {
                 return Ok(());
             }
         }
-        Err(BladeError::TooFine { limit })
+        Err(BladeError::TooFine(limit))
     }
 
     fn point(&self, v: u32) -> DVec2 {
-        let p = self.cdt.vertex(handle(v)).position();
-        DVec2::new(p.x, p.y)
+        place(self.cdt.vertex(handle(v)).position())
     }
 
     /// Whether the forced edge still exists, and is too long or has a vertex within its circle.
@@ -166,8 +165,7 @@ impl<'a> Refinement<'a> {
         }
         [edge, edge.rev()].into_iter().any(|side| {
             side.opposite_vertex().is_some_and(|apex| {
-                let apex = apex.position();
-                let p = DVec2::new(apex.x, apex.y);
+                let p = place(apex.position());
                 let middle = (pa + pb + p) / 3.0;
                 (pa - p).dot(pb - p) < 0.0 && self.outline.contains(middle)
             })
@@ -312,10 +310,7 @@ impl<'a> Refinement<'a> {
                 continue;
             };
             for edge in face.adjacent_edges() {
-                let [from, to] = [edge.from(), edge.to()].map(|v| {
-                    let q = v.position();
-                    DVec2::new(q.x, q.y)
-                });
+                let [from, to] = [edge.from(), edge.to()].map(|v| place(v.position()));
                 if edge.is_constraint_edge() {
                     let hidden = (to - from).perp_dot(p - from) <= 0.0;
                     if hidden || (from - p).dot(to - p) < 0.0 {
@@ -325,12 +320,8 @@ impl<'a> Refinement<'a> {
                 }
                 let beyond = edge.rev().face();
                 let holds = beyond.as_inner().is_some_and(|beyond| {
-                    let corners = beyond.vertices().map(|v| {
-                        let q = v.position();
-                        DVec2::new(q.x, q.y)
-                    });
-                    circumcircle(corners[0], corners[1], corners[2])
-                        .is_none_or(|(centre, radius)| centre.distance(p) < radius)
+                    let [a, b, c] = beyond.vertices().map(|v| place(v.position()));
+                    circumcircle(a, b, c).is_none_or(|(centre, radius)| centre.distance(p) < radius)
                 });
                 if holds && !seen.contains(&beyond.fix()) {
                     seen.push(beyond.fix());
@@ -340,6 +331,10 @@ impl<'a> Refinement<'a> {
         }
         found
     }
+}
+
+fn place(p: Point2<f64>) -> DVec2 {
+    DVec2::new(p.x, p.y)
 }
 
 fn handle(v: u32) -> FixedVertexHandle {
@@ -363,12 +358,11 @@ fn circumcircle(a: DVec2, b: DVec2, c: DVec2) -> Option<(DVec2, f64)> {
 /// Whether two forced edges meet at a vertex at less than 60°.
 fn is_sharp(cdt: &Cdt, vertex: usize) -> bool {
     let vertex = cdt.vertex(FixedVertexHandle::from_index(vertex));
-    let position = |p: Point2<f64>| DVec2::new(p.x, p.y);
-    let at = position(vertex.position());
+    let at = place(vertex.position());
     let arms: Vec<DVec2> = vertex
         .out_edges()
         .filter(|edge| edge.is_constraint_edge())
-        .map(|edge| (position(edge.to().position()) - at).normalize())
+        .map(|edge| (place(edge.to().position()) - at).normalize())
         .collect();
     (0..arms.len()).any(|i| (0..i).any(|j| arms[i].dot(arms[j]) > SHARP_COSINE))
 }

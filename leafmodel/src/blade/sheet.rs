@@ -21,17 +21,8 @@ pub(crate) fn even_sheet(
     max_edge_mm: f64,
 ) -> Result<(Vec<DVec2>, Vec<[u32; 3]>), BladeError> {
     let form = BladeForm {
-        fold: 0.0,
-        curl: 0.0,
-        ruffle: 0.0,
-        ruffle_waves: 0.0,
-        pleat: 0.0,
-        relief: 0.0,
-        thickness_mm: 0.2,
-        margin: super::MarginThickness::EVEN,
-        closed: false,
         max_edge_mm,
-        meshed_vein_radius_mm: 1.0,
+        ..BladeForm::nearly_flat(outline.length())
     };
     form.validate()?;
     let size = SizeField::new(&form, &[]);

@@ -8,6 +8,8 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
+use crate::plane::polyline;
+
 /// How far the sides of a tube may lie inside the round stalk that they approximate, mm.
 const SAGITTA_MM: f64 = 0.01;
 /// Least and greatest number of sides.
@@ -44,18 +46,13 @@ pub enum StalkError {
         /// How many radii.
         radii: usize,
     },
-    /// A number is not finite, a radius is not above 0, or a point coincides with the one before.
-    #[error("point {index} of a stalk has a bad place or radius")]
-    BadPoint {
-        /// Which.
-        index: usize,
-    },
-    /// The polyline turns back.
-    #[error("a stalk turns by 90° or more at point {index}")]
-    Kink {
-        /// At which point.
-        index: usize,
-    },
+    /// A number is not finite, a radius is not above 0, or a point coincides with the one before
+    /// (which).
+    #[error("point {0} of a stalk has a bad place or radius")]
+    BadPoint(usize),
+    /// The polyline turns back (at which point).
+    #[error("a stalk turns by 90° or more at point {0}")]
+    Kink(usize),
 }
 
 impl StalkMesh {
@@ -92,7 +89,7 @@ impl StalkMesh {
         let around = (2.0 * PI * widest / edge_mm).ceil() as usize;
         let sides = around.clamp(sides(widest), MOST_SIDES);
         let mut tube = Self::of_sides(&points, &radii, sides)?;
-        let lengths = lengths(&points);
+        let lengths = polyline::lengths(&points);
         // Behind a pole and the rings of the first hemisphere.
         let first = 1 + (rings_of_cap(sides) - 1) * sides;
         for (ring, ((&middle, &radius), &way)) in
@@ -125,7 +122,7 @@ impl StalkMesh {
 
     fn of_sides(points: &[DVec3], radii_mm: &[f64], sides: usize) -> Result<Self, StalkError> {
         let tangents = tangents(points, radii_mm)?;
-        let lengths = lengths(points);
+        let lengths = polyline::lengths(points);
         let last = points.len() - 1;
         let whole = lengths[last];
         let mut tube = Self::default();
@@ -246,15 +243,6 @@ fn rings_of_cap(sides: usize) -> usize {
     (sides / 4).max(2)
 }
 
-/// How far each point is from the first, along the polyline.
-fn lengths(points: &[DVec3]) -> Vec<f64> {
-    let mut lengths = vec![0.0];
-    for pair in points.windows(2) {
-        lengths.push(lengths[lengths.len() - 1] + pair[0].distance(pair[1]));
-    }
-    lengths
-}
-
 /// A smooth line through the points with pieces of at most `edge_mm`, and the radii there.
 fn refined(
     points: &[DVec3],
@@ -305,7 +293,7 @@ fn tangents(points: &[DVec3], radii_mm: &[f64]) -> Result<Vec<DVec3>, StalkError
         points[i].is_finite() && radii_mm[i].is_finite() && radii_mm[i] > 0.0 && apart
     };
     if let Some(index) = (0..points.len()).find(|&i| !good(i)) {
-        return Err(StalkError::BadPoint { index });
+        return Err(StalkError::BadPoint(index));
     }
     let pieces: Vec<DVec3> = points
         .windows(2)
@@ -315,7 +303,7 @@ fn tangents(points: &[DVec3], radii_mm: &[f64]) -> Result<Vec<DVec3>, StalkError
         .windows(2)
         .position(|pair| pair[0].dot(pair[1]) <= 0.0);
     if let Some(before) = kink {
-        return Err(StalkError::Kink { index: before + 1 });
+        return Err(StalkError::Kink(before + 1));
     }
     let last = pieces.len() - 1;
     let between = |i: usize| (pieces[i.saturating_sub(1)] + pieces[i.min(last)]).normalize();
@@ -394,17 +382,11 @@ mod tests {
         };
         assert_eq!(tube(&[o, x], &[1.0]), Some(lists));
         for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let bad = Some(StalkError::BadPoint { index: 1 });
+            let bad = Some(StalkError::BadPoint(1));
             assert_eq!(tube(&[o, x], &[1.0, radius]), bad);
         }
-        assert_eq!(
-            tube(&[o, o], &[1.0; 2]),
-            Some(StalkError::BadPoint { index: 1 })
-        );
-        assert_eq!(
-            tube(&[o, x, o], &[1.0; 3]),
-            Some(StalkError::Kink { index: 1 })
-        );
+        assert_eq!(tube(&[o, o], &[1.0; 2]), Some(StalkError::BadPoint(1)));
+        assert_eq!(tube(&[o, x, o], &[1.0; 3]), Some(StalkError::Kink(1)));
     }
 
     #[test]

@@ -43,7 +43,7 @@ pub(super) fn triangulate(
 ) -> Result<Triangulation, BladeError> {
     let least = outline.area() / (size.longest() * size.longest()) / (2.0 * TRIANGLE_SHARE);
     if least > limit as f64 {
-        return Err(BladeError::TooFine { limit });
+        return Err(BladeError::TooFine(limit));
     }
     let margin = margin_points(outline, SHORTEST_MARGIN_EDGE * size.longest());
     let mut refinement = Refinement::new(&margin, holes, skeleton, outline, size);

@@ -7,6 +7,7 @@ use super::vein_cover::{Covers, Moments, VeinCover};
 use super::vein_profile::{Profile, Surplus, strength};
 use crate::buckets::Buckets;
 use crate::document::ranges::RangeError;
+use crate::plane::{Lattice, bounds};
 use crate::venation::network::VeinSegment;
 
 /// The veins of a leaf in a uniform grid; each cell lists every segment within reach.
@@ -19,10 +20,7 @@ pub struct VeinField {
     full_radius: f64,
     surplus: Surplus,
     segments: Vec<Segment>,
-    origin: DVec2,
-    cell: f64,
-    columns: usize,
-    rows: usize,
+    lattice: Lattice,
     /// Numbers of the segments that reach into each cell.
     entries: Buckets,
 }
@@ -56,6 +54,15 @@ impl Segment {
             radius_growth: vein.radius_to - vein.radius_from,
             reach,
         }
+    }
+
+    /// Lower left and upper right corner of what the segment and its reach fill.
+    fn rectangle(&self) -> [DVec2; 2] {
+        let to = self.from + self.along;
+        [
+            self.from.min(to) - self.reach,
+            self.from.max(to) + self.reach,
+        ]
     }
 
     /// Squared distance to the axis, and where along it the point lies: from 0 to 1 beside it, less
@@ -123,76 +130,37 @@ impl VeinField {
             .iter()
             .map(|vein| Segment::new(vein, profile, surplus))
             .collect();
-        Ok(Self::sort(
-            segments,
-            profile,
-            tissue.full_vein_radius_mm,
-            surplus,
-        ))
-    }
-
-    fn sort(segments: Vec<Segment>, profile: Profile, full_radius: f64, surplus: Surplus) -> Self {
-        let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        for segment in &segments {
-            let (low, high) = bounds(segment);
-            min = min.min(low);
-            max = max.max(high);
-        }
-        if segments.is_empty() {
-            (min, max) = (DVec2::ZERO, DVec2::ZERO);
-        }
-        let size = max - min;
+        let (low, high) = match segments[..] {
+            [] => (DVec2::ZERO, DVec2::ZERO),
+            _ => bounds(segments.iter().flat_map(Segment::rectangle)),
+        };
+        let size = high - low;
         // About one cell per segment, with sides not much smaller than the reach of the finest
         // veins, and at most 4096 cells per side.
         let even = (size.x * size.y / segments.len().max(1) as f64).sqrt();
         let cell = even
             .max(0.5 * (profile.sheath + profile.texel))
             .max(size.max_element() / 4096.0);
-        let mut field = Self {
-            profile,
-            full_radius,
-            surplus,
-            segments,
-            origin: min,
-            cell,
-            columns: (size.x / cell) as usize + 1,
-            rows: (size.y / cell) as usize + 1,
-            entries: Buckets::default(),
-        };
-        let entries = Buckets::new(field.columns * field.rows, field.reached());
-        field.entries = entries;
-        field
-    }
-
-    /// Each cell that comes within a segment's reach, with the segment's number.
-    fn reached(&self) -> impl Iterator<Item = (usize, u32)> + Clone + '_ {
+        let lattice = Lattice::new(low, size, cell);
         // From a cell's centre to its corner, and a little for rounding.
-        let corner = self.cell * std::f64::consts::FRAC_1_SQRT_2 * (1.0 + 1e-9);
-        (0..)
-            .zip(&self.segments)
-            .flat_map(move |(number, segment)| {
-                let (low, high) = bounds(segment);
-                let (first, last) = (self.cell_of(low), self.cell_of(high));
-                let limit = segment.reach + corner;
-                let cells = (first.1..=last.1)
-                    .flat_map(move |row| (first.0..=last.0).map(move |column| (row, column)));
-                cells.filter_map(move |(row, column)| {
-                    let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
-                    let centre = self.origin + self.cell * place;
-                    (segment.nearest(centre).0 <= limit * limit)
-                        .then_some((row * self.columns + column, number))
-                })
-            })
-    }
-
-    /// Column and row of the cell that holds a point; the nearest cell for points outside the grid.
-    fn cell_of(&self, point: DVec2) -> (usize, usize) {
-        // A float below 0 becomes the index 0.
-        let place = (point - self.origin) / self.cell;
-        (
-            (place.x as usize).min(self.columns - 1),
-            (place.y as usize).min(self.rows - 1),
-        )
+        let corner = cell * std::f64::consts::FRAC_1_SQRT_2 * (1.0 + 1e-9);
+        let reached = (0..).zip(&segments).flat_map(|(number, segment)| {
+            let [low, high] = segment.rectangle();
+            let limit = segment.reach + corner;
+            let lattice = &lattice;
+            let cells = lattice
+                .cells_between(low, high)
+                .filter(move |&cell| segment.nearest(lattice.middle(cell)).0 <= limit * limit);
+            cells.map(move |cell| (cell, number))
+        });
+        Ok(Self {
+            profile,
+            full_radius: tissue.full_vein_radius_mm,
+            surplus,
+            entries: Buckets::new(lattice.cells(), reached),
+            segments,
+            lattice,
+        })
     }
 
     /// The cover of veins at a point in millimetres: that of the strongest vein nearby, and where the
@@ -200,23 +168,13 @@ impl VeinField {
     #[must_use]
     pub fn cover(&self, point: DVec2) -> VeinCover {
         // No vein reaches points outside the grid; the segments of the nearest cell give 0 there.
-        let (column, row) = self.cell_of(point);
-        let cell = row * self.columns + column;
+        let cell = self.lattice.cell(point);
         let mut covers = Covers::default();
         for &index in self.entries.list(cell) {
             self.segments[index as usize].add_to(&mut covers, point, self);
         }
         covers.all()
     }
-}
-
-/// The box that a segment and its reach fill.
-fn bounds(segment: &Segment) -> (DVec2, DVec2) {
-    let to = segment.from + segment.along;
-    (
-        segment.from.min(to) - segment.reach,
-        segment.from.max(to) + segment.reach,
-    )
 }
 
 fn check(vein: &VeinSegment) -> Result<(), RangeError> {

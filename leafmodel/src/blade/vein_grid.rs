@@ -5,16 +5,13 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use glam::DVec2;
 
 use crate::buckets::Buckets;
-use crate::plane::segment;
+use crate::plane::{Lattice, bounds, segment};
 use crate::venation::network::VeinSegment;
 
 /// Segments sorted into square cells by how far each of them reaches.
 #[derive(Debug)]
 pub(super) struct VeinGrid {
-    origin: DVec2,
-    cell: f64,
-    columns: usize,
-    rows: usize,
+    lattice: Lattice,
     members: Buckets,
     segments: Vec<VeinSegment>,
 }
@@ -46,50 +43,29 @@ impl VeinGrid {
         reach: impl Fn(&VeinSegment) -> f64,
     ) -> Self {
         let reaches: Vec<f64> = segments.iter().map(reach).collect();
-        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        for (segment, &reach) in segments.iter().zip(&reaches) {
-            low = low.min(segment.from.min(segment.to) - reach);
-            high = high.max(segment.from.max(segment.to) + reach);
-        }
-        if segments.is_empty() {
-            (low, high) = (DVec2::ZERO, DVec2::ZERO);
-        }
+        let rectangles = segments.iter().zip(&reaches).map(|(vein, &reach)| {
+            let (low, high) = (vein.from.min(vein.to), vein.from.max(vein.to));
+            [low - reach, high + reach]
+        });
+        let (low, high) = match segments[..] {
+            [] => (DVec2::ZERO, DVec2::ZERO),
+            _ => bounds(rectangles.clone().flatten()),
+        };
         let mean_reach = reaches.iter().sum::<f64>() / reaches.len().max(1) as f64;
         let extent = (high - low).max_element();
         let cell = (share * mean_reach)
             .max(extent / MOST_CELLS)
             .max(f64::MIN_POSITIVE);
-        let cells = |length: f64| (length / cell).floor() as usize + 1;
-        let mut grid = Self {
-            origin: low,
-            cell,
-            columns: cells(high.x - low.x),
-            rows: cells(high.y - low.y),
-            members: Buckets::default(),
-            segments,
-        };
-        let reached = (0..).zip(&grid.segments).zip(&reaches);
-        let reached = reached.flat_map(|((number, segment), &reach)| {
-            let cells = grid.cells_of(segment, reach);
+        let lattice = Lattice::new(low, high - low, cell);
+        let reached = (0..).zip(rectangles).flat_map(|(number, [low, high])| {
+            let cells = lattice.cells_between(low, high);
             cells.map(move |cell| (cell, number))
         });
-        grid.members = Buckets::new(grid.columns * grid.rows, reached);
-        grid
-    }
-
-    /// The cells that a segment reaches.
-    fn cells_of(
-        &self,
-        segment: &VeinSegment,
-        reach: f64,
-    ) -> impl Iterator<Item = usize> + Clone + use<> {
-        let index = |p: DVec2| ((p - self.origin) / self.cell).floor().max(DVec2::ZERO);
-        let low = index(segment.from.min(segment.to) - reach);
-        let high = index(segment.from.max(segment.to) + reach);
-        let columns = self.columns;
-        let across = low.x as usize..=(high.x as usize).min(columns - 1);
-        (low.y as usize..=(high.y as usize).min(self.rows - 1))
-            .flat_map(move |row| across.clone().map(move |column| row * columns + column))
+        Self {
+            members: Buckets::new(lattice.cells(), reached),
+            lattice,
+            segments,
+        }
     }
 
     /// The nearest points of the veins that may reach a point, in the order of the segments.
@@ -100,25 +76,16 @@ impl VeinGrid {
 
     /// The numbers of the veins that may reach a point, ascending unless they were ordered.
     pub(super) fn members(&self, p: DVec2) -> &[u32] {
-        self.cell(p).map_or(&[], |cell| self.members.list(cell))
-    }
-
-    /// The cell in which a point lies.
-    fn cell(&self, p: DVec2) -> Option<usize> {
-        let place = ((p - self.origin) / self.cell).floor();
-        let inside = place.cmpge(DVec2::ZERO).all()
-            && place.x < self.columns as f64
-            && place.y < self.rows as f64;
-        inside.then(|| place.y as usize * self.columns + place.x as usize)
+        let cell = self.lattice.cell_with(p);
+        cell.map_or(&[], |cell| self.members.list(cell))
     }
 
     /// Orders the members of each cell by a key: that of a vein's number for the cell with this
     /// middle and half diagonal.
     pub(super) fn order_by(self, key: impl Fn(u32, DVec2, f64) -> f64) -> OrderedVeinGrid {
-        let half_diagonal = self.cell * FRAC_1_SQRT_2;
+        let half_diagonal = self.lattice.cell * FRAC_1_SQRT_2;
         let mut members = self.members.map(|cell, number| {
-            let place = DVec2::new((cell % self.columns) as f64, (cell / self.columns) as f64);
-            let middle = self.origin + (place + 0.5) * self.cell;
+            let middle = self.lattice.middle(cell);
             (key(number, middle, half_diagonal), number)
         });
         members.sort_each(|list| {
@@ -153,7 +120,7 @@ pub(super) struct OrderedVeinGrid {
 impl OrderedVeinGrid {
     /// Keys and numbers of the veins that may reach a point, by ascending key.
     pub(super) fn members(&self, p: DVec2) -> &[(f64, u32)] {
-        let cell = self.veins.cell(p);
+        let cell = self.veins.lattice.cell_with(p);
         cell.map_or(&[], |cell| self.members.list(cell))
     }
 

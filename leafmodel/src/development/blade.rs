@@ -2,9 +2,10 @@
 
 use glam::DVec2;
 
-use super::check::DevelopmentError;
+use super::check::{bent, no_margin};
 use super::skeleton::NO_NODE;
 use super::steps::Developing;
+use crate::not_grown::NotGrown;
 use crate::shape::outer_boundary::union_boundary;
 use crate::shape::outline::{Outline, OutlineError};
 
@@ -17,7 +18,7 @@ const SMOOTH: f64 = 0.004;
 impl Developing {
     /// The margin, its midrib from the origin to (0, `length_mm`). Where lobes overlap, it is the
     /// outer boundary of both.
-    pub(super) fn outline(&self, length_mm: f64) -> Result<Outline, DevelopmentError> {
+    pub(super) fn outline(&self, length_mm: f64) -> Result<Outline, NotGrown> {
         let scale = length_mm / self.skeleton.length();
         let apex = DVec2::new(0.0, length_mm);
         let margin: Vec<DVec2> = self.smooth(SMOOTH * self.skeleton.length());
@@ -31,17 +32,19 @@ impl Developing {
         match plain {
             Ok(outline) if lie_on(&outline) => return Ok(outline),
             Ok(_) | Err(OutlineError::SelfCrossing { .. }) => {}
-            Err(error) => return Err(error.into()),
+            Err(error) => return Err(no_margin(error)),
         }
         let strips = self.strips(scale, LEAST_BLADE * length_mm);
         let mut parts: Vec<&[DVec2]> = vec![&margin];
         parts.extend(strips.iter().map(Vec::as_slice));
         let joined = union_boundary(&parts);
-        let joined = Outline::new(joined, DVec2::ZERO, apex)?;
+        let joined = Outline::new(joined, DVec2::ZERO, apex).map_err(no_margin)?;
         if lie_on(&joined) {
             Ok(joined)
         } else {
-            Err(DevelopmentError::BareVein)
+            Err(bent(NotGrown::because(
+                "a vein of the leaf leaves its blade",
+            )))
         }
     }
 

@@ -1,72 +1,28 @@
 //! What a plan may ask for.
 
-use thiserror::Error;
-
 use super::plan::{DevelopmentPlan, Wave};
 use crate::document::declared::Declared;
-use crate::document::ranges::RangeError;
-use crate::shape::outline::OutlineError;
+use crate::not_grown::{NotGrown, not_grown};
 
-/// Why a plan gives no leaf.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum DevelopmentError {
-    /// A number outside the range in which the model holds.
-    #[error(transparent)]
-    Range(#[from] RangeError),
-    /// A wave ends before it begins.
-    #[error("wave {wave} lasts from a length of {from} until {until}; until must be the larger")]
-    NoTime {
-        /// Which wave, from 0.
-        wave: usize,
-        /// When it begins.
-        from: f64,
-        /// When it ends.
-        until: f64,
-    },
-    /// A wave begins when the leaf is full-grown.
-    #[error("wave {wave} starts at a length of {from}, but the full-grown leaf is {growth} long")]
-    TooLate {
-        /// Which wave, from 0.
-        wave: usize,
-        /// When it begins.
-        from: f64,
-        /// Length of the full-grown leaf.
-        growth: f64,
-    },
-    /// A zone without extent.
-    #[error("zone of wave {wave} goes from {from} to {to}; the second must be the larger")]
-    NoZone {
-        /// Which wave, from 0.
-        wave: usize,
-        /// Where it begins.
-        from: f64,
-        /// Where it ends.
-        to: f64,
-    },
-    /// Convergence points without number.
-    #[error("with a spacing of {spacing} wave {wave} brings more than {limit} convergence points")]
-    TooManyVeins {
-        /// Which wave, from 0.
-        wave: usize,
-        /// Its spacing.
-        spacing: f64,
-        /// How many there may be.
-        limit: usize,
-    },
-    /// A margin too long and winding to be followed.
-    #[error("the margin takes {points} points, more than {limit}")]
-    TooLongMargin {
-        /// How many it takes.
-        points: usize,
-        /// How many there may be.
-        limit: usize,
-    },
-    /// A vein that the blade does not follow.
-    #[error("a vein of the leaf leaves its blade")]
-    BareVein,
-    /// The margin is none in the end.
-    #[error("the leaf develops a margin that is none: {0}")]
-    Margin(#[from] OutlineError),
+/// An error of a wave, at one of its keys or at all waves.
+pub(super) fn of_wave(error: NotGrown, wave: usize, key: &str, help: &'static str) -> NotGrown {
+    let error = error.mend(&format!("waves.{wave}.{key}"), help);
+    error.mend("waves", help)
+}
+
+/// The error of a margin that is none.
+pub(super) fn no_margin(error: impl std::fmt::Display) -> NotGrown {
+    bent(not_grown!(
+        "the leaf develops a margin that is none: {error}"
+    ))
+}
+
+/// An error of a blade that bends too much.
+pub(super) fn bent(error: NotGrown) -> NotGrown {
+    error.mend(
+        "waves",
+        "use less splay, rates that differ less, or less hold",
+    )
 }
 
 impl DevelopmentPlan {
@@ -74,8 +30,8 @@ impl DevelopmentPlan {
     ///
     /// # Errors
     ///
-    /// [`DevelopmentError`], naming the parameter and its range.
-    pub fn validate(&self) -> Result<(), DevelopmentError> {
+    /// [`NotGrown`], naming the parameter and its range.
+    pub fn validate(&self) -> Result<(), NotGrown> {
         self.in_range()?;
         for (number, wave) in self.waves.iter().enumerate() {
             wave.validate(number, self.growth)?;
@@ -85,17 +41,32 @@ impl DevelopmentPlan {
 }
 
 impl Wave {
-    fn validate(&self, wave: usize, growth: f64) -> Result<(), DevelopmentError> {
+    fn validate(&self, wave: usize, growth: f64) -> Result<(), NotGrown> {
         let Self { from, until, .. } = *self;
         if from >= until {
-            return Err(DevelopmentError::NoTime { wave, from, until });
+            let error = not_grown!(
+                "wave {wave} lasts from a length of {from} until {until}; until must be the larger"
+            );
+            return Err(of_wave(
+                error,
+                wave,
+                "until",
+                "let the wave end at a larger length",
+            ));
         }
         if from >= growth {
-            return Err(DevelopmentError::TooLate { wave, from, growth });
+            let error = not_grown!(
+                "wave {wave} starts at a length of {from}, but the full-grown leaf is {growth} long"
+            );
+            let help = "let the wave start earlier, or the leaf grow longer";
+            return Err(of_wave(error, wave, "from", help));
         }
         let [from, to] = self.zone;
         if from >= to {
-            return Err(DevelopmentError::NoZone { wave, from, to });
+            let error = not_grown!(
+                "zone of wave {wave} goes from {from} to {to}; the second must be the larger"
+            );
+            return Err(of_wave(error, wave, "zone", "give the lower end first"));
         }
         Ok(())
     }

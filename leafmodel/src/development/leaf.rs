@@ -1,10 +1,10 @@
 //! The developed leaf: what it was grown from, and its margin and main veins at any step.
 
-use super::check::DevelopmentError;
 use super::network::MainVeinStyle;
 use super::plan::DevelopmentPlan;
 use super::steps::Developing;
 use crate::document::declared::Declared;
+use crate::not_grown::NotGrown;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;
 
@@ -36,8 +36,8 @@ impl DevelopmentPlan {
     ///
     /// # Errors
     ///
-    /// [`DevelopmentError`]: a number out of range, or more convergence points than a leaf may have.
-    pub fn develop(&self, seed: u64) -> Result<DevelopedLeaf, DevelopmentError> {
+    /// [`NotGrown`]: a number out of range, or more convergence points than a leaf may have.
+    pub fn develop(&self, seed: u64) -> Result<DevelopedLeaf, NotGrown> {
         self.develop_until(seed, self.steps())
     }
 
@@ -51,7 +51,7 @@ impl DevelopmentPlan {
     /// # Errors
     ///
     /// As [`DevelopmentPlan::develop`].
-    pub fn develop_until(&self, seed: u64, steps: u32) -> Result<DevelopedLeaf, DevelopmentError> {
+    pub fn develop_until(&self, seed: u64, steps: u32) -> Result<DevelopedLeaf, NotGrown> {
         self.validate()?;
         let mut grown = Developing::new(self, seed);
         for _ in 0..steps.min(self.steps()) {
@@ -76,7 +76,7 @@ impl DevelopedLeaf {
     /// # Errors
     ///
     /// As [`DevelopmentPlan::develop`].
-    pub fn at_step(&self, step: u32) -> Result<Self, DevelopmentError> {
+    pub fn at_step(&self, step: u32) -> Result<Self, NotGrown> {
         if step >= self.grown.step {
             return Ok(self.clone());
         }
@@ -92,8 +92,8 @@ impl DevelopedLeaf {
     ///
     /// # Errors
     ///
-    /// [`DevelopmentError::Margin`], [`DevelopmentError::BareVein`].
-    pub fn outline(&self, length_mm: f64) -> Result<Outline, DevelopmentError> {
+    /// [`NotGrown`], [`NotGrown`].
+    pub fn outline(&self, length_mm: f64) -> Result<Outline, NotGrown> {
         self.grown.outline(length_mm)
     }
 
@@ -101,12 +101,12 @@ impl DevelopedLeaf {
     ///
     /// # Errors
     ///
-    /// [`DevelopmentError::Range`] of the style.
+    /// [`NotGrown`] of the style.
     pub fn network(
         &self,
         length_mm: f64,
         style: MainVeinStyle,
-    ) -> Result<VenationNetwork, DevelopmentError> {
+    ) -> Result<VenationNetwork, NotGrown> {
         style.in_range()?;
         Ok(self.grown.network(length_mm, style))
     }

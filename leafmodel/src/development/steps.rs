@@ -1,8 +1,9 @@
 //! The loop: convergence points appear, veins canalise, veins and blade grow.
 
+use super::check::of_wave;
+use crate::not_grown::{NotGrown, not_grown};
 use crate::random::{Use, uniform};
 
-use super::check::DevelopmentError;
 use super::initiation::{canal, place_in};
 use super::margin::{Interval, Margin};
 use super::plan::{DevelopmentPlan, Wave};
@@ -57,7 +58,7 @@ impl Developing {
     }
 
     /// One step.
-    pub(super) fn advance(&mut self, plan: &DevelopmentPlan) -> Result<(), DevelopmentError> {
+    pub(super) fn advance(&mut self, plan: &DevelopmentPlan) -> Result<(), NotGrown> {
         let length = self.skeleton.length();
         for (number, wave) in plan.waves.iter().enumerate() {
             if (wave.from..=wave.until).contains(&length) {
@@ -76,10 +77,12 @@ impl Developing {
         self.margin.resample(self.longest_piece(plan));
         self.step += 1;
         if self.margin.points.len() > MOST_POINTS {
-            return Err(DevelopmentError::TooLongMargin {
-                points: self.margin.points.len(),
-                limit: MOST_POINTS,
-            });
+            let error = not_grown!(
+                "the margin takes {} points, more than {MOST_POINTS}",
+                self.margin.points.len()
+            );
+            let help = "use larger spacings, a lower resolution, or rates nearer to 1";
+            return Err(error.mend("waves", help));
         }
         Ok(())
     }
@@ -96,7 +99,7 @@ impl Developing {
     }
 
     /// New convergence points where there is room.
-    fn initiate(&mut self, plan: &DevelopmentPlan, number: usize) -> Result<(), DevelopmentError> {
+    fn initiate(&mut self, plan: &DevelopmentPlan, number: usize) -> Result<(), NotGrown> {
         let wave = &plan.waves[number];
         let tip = self.skeleton.veins[0].tip;
         let mut skipped = 0;
@@ -121,11 +124,13 @@ impl Developing {
                 return Ok(());
             };
             if self.skeleton.veins.len() > MOST_VEINS {
-                return Err(DevelopmentError::TooManyVeins {
-                    wave: number,
-                    spacing: wave.spacing,
-                    limit: MOST_VEINS,
-                });
+                let error = not_grown!(
+                    "with a spacing of {} wave {number} brings more than {MOST_VEINS} convergence \
+                     points",
+                    wave.spacing
+                );
+                let help = "use a larger spacing, or end the wave earlier";
+                return Err(of_wave(error, number, "spacing", help));
             }
             if !self.converge(plan, number, interval, &distances, at) {
                 skipped += 1;

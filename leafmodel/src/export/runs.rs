@@ -1,6 +1,6 @@
 //! Edges strung together to veins.
 
-use crate::venation::network::VenationNetwork;
+use crate::venation::network::{self, VenationNetwork};
 use crate::venation::topology::Topology;
 
 /// Edges that follow each other from a junction or origin to the next junction or tip, all of one
@@ -14,7 +14,7 @@ pub struct Runs {
 impl Runs {
     /// Strings the edges of a network together. Every edge is in one run.
     pub fn new(network: &VenationNetwork) -> Self {
-        let ends: Vec<[u32; 2]> = network.edges().iter().map(|e| [e.from, e.to]).collect();
+        let ends = network::ends(network.edges());
         let topology = Topology::new(network.nodes().len(), &ends);
         let order = |edge: u32| network.edges()[edge as usize].order;
         // The edge in which another goes on, or from which it comes, at a node where nothing else

@@ -22,17 +22,17 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
         if line.is_empty() || line.starts_with('#') {
             continue;
         }
-        let malformed = || ImportError::Malformed {
-            format: "list of neighbours as NEFI writes it",
-            problem: format!(
-                "line {number} is neither (ROW, COLUMN)|COUNT nor (ROW, COLUMN)|{{'length': …}}"
-            ),
+        let place = &|| format!("line {number}");
+        let malformed = || {
+            let wanted = "is neither (ROW, COLUMN)|COUNT nor (ROW, COLUMN)|{'length': …}";
+            let format = "list of neighbours as NEFI writes it";
+            ImportError::malformed(format, format!("{} {wanted}", place()))
         };
         let (name, rest) = line.split_once('|').ok_or_else(malformed)?;
-        let place = numbers(name)
-            .filter(|place| place.len() == 2)
+        let at = numbers(name)
+            .filter(|at| at.len() == 2)
             .ok_or_else(malformed)?;
-        let here = builder.node_in_rows([place[0], place[1]]);
+        let here = builder.node_in_rows([at[0], at[1]]);
         let Some(from) = node.filter(|_| left > 0) else {
             left = rest.trim().parse::<u64>().map_err(|_| malformed())?;
             node = Some(here);
@@ -45,18 +45,14 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
             .strip_prefix('{')
             .and_then(|rest| rest.strip_suffix('}'));
         for (key, value) in members.ok_or_else(malformed).map(pairs)? {
-            let place = || format!("line {number}");
-            match EdgeField::of(key) {
-                None | Some(EdgeField::End(_) | EdgeField::EndCoordinate(..)) => {
+            match builder.edge_field(key) {
+                Some(EdgeField::End(_) | EdgeField::EndCoordinate(..)) => {
                     builder.ignore("edge", key);
                 }
-                Some(field) => {
-                    let key = || key.to_owned();
-                    builder.edge_text(field, &Text { value, key, place })?;
-                }
+                Some(_) | None => builder.edge_entry(Text { key, value, place })?,
             }
         }
-        builder.edge_is_done(|| format!("line {number}"));
+        builder.edge_is_done(place);
     }
     builder.draft.is_y_down = true;
     Ok(builder.done())

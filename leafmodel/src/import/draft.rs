@@ -14,10 +14,6 @@ pub(super) const ABSENT: u32 = u32::MAX;
 
 /// Nodes, edges and margins in the numbers of a file.
 #[derive(Clone, Debug, Default)]
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "each is a fact of its own about a file"
-)]
 pub struct Draft {
     /// Places of the nodes.
     pub(super) places: Vec<DVec2>,
@@ -38,14 +34,12 @@ pub struct Draft {
     pub(super) is_directed: bool,
     /// Length of a vein segment, mm, if the file says so.
     pub(super) segment_mm: Option<f64>,
-    /// Whether places are in the file's own units, not in millimetres.
-    pub(super) places_lack_unit: bool,
-    /// The same of radii.
-    pub(super) radii_lack_unit: bool,
-    /// Whether places have a unit.
-    pub(super) places_have_unit: bool,
-    /// The same of radii.
-    pub(super) radii_have_unit: bool,
+    /// Whether places have units.
+    pub(super) place_units: Units,
+    /// Whether radii have units.
+    pub(super) radius_units: Units,
+    /// Whether lengths have units; those without one are in that of the places.
+    pub(super) length_units: Units,
     /// The margin that is taken instead of the file's.
     pub(super) given: Option<Outline>,
     /// Whether y points down.
@@ -54,14 +48,35 @@ pub struct Draft {
     pub(super) courses: BTreeMap<u32, Vec<DVec2>>,
     /// Lengths of edges along their courses, by the number of the edge.
     pub(super) lengths: BTreeMap<u32, f64>,
-    /// Whether lengths are in the unit of the places, not in millimetres.
-    pub(super) lengths_lack_unit: bool,
-    /// Whether lengths have a unit.
-    pub(super) lengths_have_unit: bool,
     /// Millimetres of the last unit of a place.
     pub(super) place_mm: Option<f64>,
     /// What reading left out or changed.
     pub(super) remarks: Vec<Fault>,
+}
+
+/// Which lengths of one kind have units.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Units {
+    /// Whether some are in the file's own units.
+    pub(super) some_lack: bool,
+    /// Whether some have a unit.
+    pub(super) some_have: bool,
+}
+
+impl Units {
+    /// A length, millimetres where it has a unit.
+    pub(super) fn millimetres(&mut self, value: f64, unit: Unit) -> f64 {
+        match unit {
+            Unit::Millimetres(factor) => {
+                self.some_have = true;
+                value * factor
+            }
+            Unit::OfTheFile => {
+                self.some_lack = true;
+                value
+            }
+        }
+    }
 }
 
 /// An edge as a file tells it.
@@ -108,44 +123,9 @@ impl Draft {
 
     /// A length of a place, millimetres where it has a unit.
     pub(super) fn place_in(&mut self, value: f64, unit: Unit) -> f64 {
-        match unit {
-            Unit::Millimetres(factor) => {
-                self.places_have_unit = true;
-                self.place_mm = Some(factor);
-                value * factor
-            }
-            Unit::OfTheFile => {
-                self.places_lack_unit = true;
-                value
-            }
+        if let Unit::Millimetres(factor) = unit {
+            self.place_mm = Some(factor);
         }
-    }
-
-    /// A length of an edge, millimetres where it has a unit.
-    pub(super) fn length_in(&mut self, value: f64, unit: Unit) -> f64 {
-        match unit {
-            Unit::Millimetres(factor) => {
-                self.lengths_have_unit = true;
-                value * factor
-            }
-            Unit::OfTheFile => {
-                self.lengths_lack_unit = true;
-                value
-            }
-        }
-    }
-
-    /// A radius, millimetres where it has a unit.
-    pub(super) fn radius_in(&mut self, value: f64, unit: Unit) -> f64 {
-        match unit {
-            Unit::Millimetres(factor) => {
-                self.radii_have_unit = true;
-                value * factor
-            }
-            Unit::OfTheFile => {
-                self.radii_lack_unit = true;
-                value
-            }
-        }
+        self.place_units.millimetres(value, unit)
     }
 }

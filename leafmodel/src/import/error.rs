@@ -18,68 +18,60 @@ pub enum ImportError {
         /// What the parser says, with the line.
         problem: String,
     },
-    /// It holds no veins.
-    #[error("holds no veins: {wanted}")]
-    NoVeins {
-        /// What was looked for.
-        wanted: &'static str,
-    },
-    /// A value cannot be read.
-    #[error("{place}: {key} is {value}; {allowed}")]
-    BadValue {
-        /// Where it stands: a line, a node, a feature.
+    /// It holds no veins (what was looked for).
+    #[error("holds no veins: {0}")]
+    NoVeins(&'static str),
+    /// Something of it cannot be read, or is missing.
+    #[error("{place}: {problem}")]
+    At {
+        /// Where it is or should be: a line, a node, a feature.
         place: String,
-        /// Its name.
-        key: String,
-        /// What stands there.
-        value: String,
-        /// What may stand there.
-        allowed: &'static str,
-    },
-    /// Something that is needed is not there.
-    #[error("{place}: {wanted}")]
-    Missing {
-        /// Where it should stand.
-        place: String,
-        /// What is missing.
-        wanted: String,
-    },
-    /// Two nodes have one name.
-    #[error("{place}: two nodes are called {name}")]
-    NameTwice {
-        /// Where the second stands.
-        place: String,
-        /// The name.
-        name: String,
-    },
-    /// Lengths without a unit, and no scale.
-    #[error(
-        "gives {what} without a unit: say how many millimetres a unit or a pixel is (--mm-per-unit), \
-         or name the unit in the key, as in x_mm or radius_um"
-    )]
-    NoScale {
-        /// Places, radii or the margin.
-        what: &'static str,
-    },
-    /// Lengths of one kind with a unit beside others without one.
-    #[error(
-        "gives some {what} with a unit and some without one: name the unit in all their keys, as in \
-         x_mm or radius_um, or in none"
-    )]
-    MixedUnits {
-        /// Places or radii.
-        what: &'static str,
-    },
-    /// What is wrong makes measuring senseless.
-    #[error("cannot be measured:\n{}", listed(.faults))]
-    Faulty {
-        /// All faults, errors first.
-        faults: Vec<Fault>,
-    },
-    /// The margin is none.
-    #[error("has a margin that cannot be used: {problem}")]
-    BadMargin {
-        /// What is wrong with it.
+        /// What is wrong there.
         problem: String,
     },
+    /// Lengths without a unit, and no scale (places, radii or the margin).
+    #[error(
+        "gives {0} without a unit: say how many millimetres a unit or a pixel is (--mm-per-unit), \
+         or name the unit in the key, as in x_mm or radius_um"
+    )]
+    NoScale(&'static str),
+    /// Lengths of one kind with a unit beside others without one (places or radii).
+    #[error(
+        "gives some {0} with a unit and some without one: name the unit in all their keys, as in \
+         x_mm or radius_um, or in none"
+    )]
+    MixedUnits(&'static str),
+    /// What is wrong makes measuring senseless (all faults, errors first).
+    #[error("cannot be measured:\n{}", listed(.0))]
+    Faulty(Vec<Fault>),
+    /// The margin is none (what is wrong with it).
+    #[error("has a margin that cannot be used: {0}")]
+    BadMargin(String),
+}
+
+impl ImportError {
+    pub(super) fn at(place: impl Into<String>, problem: impl Into<String>) -> Self {
+        let (place, problem) = (place.into(), problem.into());
+        Self::At { place, problem }
+    }
+
+    /// A value that cannot be read, and what may stand there.
+    pub(super) fn bad_value(
+        place: impl Into<String>,
+        key: &str,
+        value: &str,
+        allowed: &str,
+    ) -> Self {
+        Self::at(place, format!("{key} is {value}; {allowed}"))
+    }
+
+    pub(super) fn malformed(format: &'static str, problem: impl Into<String>) -> Self {
+        let problem = problem.into();
+        Self::Malformed { format, problem }
+    }
+
+    pub(super) fn bad_margin(problem: impl Into<String>) -> Self {
+        let problem = problem.into();
+        Self::BadMargin(problem)
+    }
 }

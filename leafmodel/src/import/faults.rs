@@ -62,11 +62,22 @@ pub enum FaultKind {
     ShortLength,
 }
 
+/// How much a fault matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Gravity {
+    /// Nothing can be measured with it.
+    Error,
+    /// Measures may suffer.
+    Warning,
+    /// It is as it should be, and only reported.
+    Note,
+}
+
 impl FaultKind {
-    /// Whether nothing can be measured with it.
-    pub fn is_error(self) -> bool {
+    /// How much it matters.
+    fn gravity(self) -> Gravity {
         match self {
-            Self::LooseEnd | Self::BadPlace | Self::BadRadius => true,
+            Self::LooseEnd | Self::BadPlace | Self::BadRadius => Gravity::Error,
             Self::NoLength
             | Self::TwiceJoined
             | Self::SamePlace
@@ -78,118 +89,126 @@ impl FaultKind {
             | Self::Turned
             | Self::Widening
             | Self::NoRadius
-            | Self::OutsideMargin
-            | Self::Hidden
-            | Self::NoStroke
-            | Self::NoShape
             | Self::Clip
             | Self::StyleRule
             | Self::Uneven
+            | Self::ShortLength => Gravity::Warning,
+            Self::OutsideMargin
+            | Self::Hidden
+            | Self::NoStroke
+            | Self::NoShape
             | Self::Ignored
             | Self::Guess
-            | Self::Bent
-            | Self::ShortLength => false,
+            | Self::Bent => Gravity::Note,
         }
     }
 
-    /// Whether it is as it should be, and only told.
+    /// A word for files, and what it is and what was done about it.
+    fn facts(self) -> (&'static str, &'static str) {
+        match self {
+            Self::LooseEnd => ("loose_end", "edges lead to nodes that do not exist"),
+            Self::BadPlace => (
+                "bad_place",
+                "nodes have a coordinate that is not a finite number within 10⁶ mm of the origin",
+            ),
+            Self::BadRadius => ("bad_radius", "radii are not finite numbers above 0"),
+            Self::NoLength => ("no_length", "edges have no length; they are left out"),
+            Self::TwiceJoined => (
+                "twice_joined",
+                "pairs of nodes are joined twice; the wider edge is kept",
+            ),
+            Self::SamePlace => (
+                "same_place",
+                "nodes lie where another one does; they are made one",
+            ),
+            Self::Crossing => (
+                "crossing",
+                "crossings of veins have no node; the veins are cut there",
+            ),
+            Self::Touch => (
+                "touch",
+                "nodes lie on veins that do not end there; the veins are cut there",
+            ),
+            Self::Apart => (
+                "apart",
+                "parts do not hang together with the part at the petiole",
+            ),
+            Self::Bare => ("bare_node", "nodes have no vein; they are left out"),
+            Self::NoRoot => (
+                "no_root",
+                "nothing says where the petiole is (--root X,Y does), so an end of a vein is taken for it",
+            ),
+            Self::Turned => (
+                "turned",
+                "edges did not lead away from the petiole; all are turned by their distance from it along veins",
+            ),
+            Self::Widening => (
+                "widening",
+                "edges get wider away from the petiole; their mean radius is taken at both ends",
+            ),
+            Self::NoRadius => (
+                "no_radius",
+                "edges have no radius or width, so those of all others are left out; measures of widths, and \
+                 of vein orders that are not in the file, are missing",
+            ),
+            Self::OutsideMargin => (
+                "outside_margin",
+                "nodes lie outside the margin, as those of a petiole do; their edges are left out",
+            ),
+            Self::Hidden => (
+                "hidden",
+                "elements of the drawing are hidden; they are left out",
+            ),
+            Self::NoStroke => (
+                "no_stroke",
+                "shapes of the drawing have no stroke; they are left out",
+            ),
+            Self::NoShape => (
+                "no_shape",
+                "elements of the drawing are neither paths nor basic shapes; they are left out",
+            ),
+            Self::Clip => (
+                "clip",
+                "clip paths and masks of the drawing are not applied; what they hide is read",
+            ),
+            Self::StyleRule => (
+                "style_rule",
+                "parts of style sheets are not understood; they are left out",
+            ),
+            Self::Uneven => (
+                "uneven_stroke",
+                "strokes are scaled unevenly, so that their widths differ by direction; the mean width is taken",
+            ),
+            Self::Ignored => (
+                "ignored",
+                "parts of the file are not known; they are left out",
+            ),
+            Self::Guess => ("guess", "guesses about how tables are written"),
+            Self::Bent => (
+                "bent",
+                "edges are longer than the straight line between their ends; they are drawn as arcs of their \
+                 length, so areas of areoles, angles and distances to veins are approximate",
+            ),
+            Self::ShortLength => (
+                "short_length",
+                "edges are shorter than the straight line between their ends; that line is taken",
+            ),
+        }
+    }
+
+    /// Whether nothing can be measured with it.
+    pub fn is_error(self) -> bool {
+        self.gravity() == Gravity::Error
+    }
+
+    /// Whether it is as it should be, and only reported.
     pub fn is_note(self) -> bool {
-        matches!(
-            self,
-            Self::OutsideMargin
-                | Self::Hidden
-                | Self::NoStroke
-                | Self::NoShape
-                | Self::Ignored
-                | Self::Guess
-                | Self::Bent
-        )
+        self.gravity() == Gravity::Note
     }
 
     /// A word for files.
     pub fn word(self) -> &'static str {
-        match self {
-            Self::LooseEnd => "loose_end",
-            Self::BadPlace => "bad_place",
-            Self::BadRadius => "bad_radius",
-            Self::NoLength => "no_length",
-            Self::TwiceJoined => "twice_joined",
-            Self::SamePlace => "same_place",
-            Self::Crossing => "crossing",
-            Self::Touch => "touch",
-            Self::Apart => "apart",
-            Self::Bare => "bare_node",
-            Self::NoRoot => "no_root",
-            Self::Turned => "turned",
-            Self::Widening => "widening",
-            Self::NoRadius => "no_radius",
-            Self::OutsideMargin => "outside_margin",
-            Self::Hidden => "hidden",
-            Self::NoStroke => "no_stroke",
-            Self::NoShape => "no_shape",
-            Self::Clip => "clip",
-            Self::StyleRule => "style_rule",
-            Self::Uneven => "uneven_stroke",
-            Self::Ignored => "ignored",
-            Self::Guess => "guess",
-            Self::Bent => "bent",
-            Self::ShortLength => "short_length",
-        }
-    }
-
-    /// What it is, and what was done about it.
-    fn sentence(self) -> &'static str {
-        match self {
-            Self::LooseEnd => "edges lead to nodes that do not exist",
-            Self::BadPlace => {
-                "nodes have a coordinate that is not a finite number within 10⁶ mm of the origin"
-            }
-            Self::BadRadius => "radii are not finite numbers above 0",
-            Self::NoLength => "edges have no length; they are left out",
-            Self::TwiceJoined => "pairs of nodes are joined twice; the wider edge is kept",
-            Self::SamePlace => "nodes lie where another one does; they are made one",
-            Self::Crossing => "crossings of veins have no node; the veins are cut there",
-            Self::Touch => "nodes lie on veins that do not end there; the veins are cut there",
-            Self::Apart => "parts do not hang together with the part at the petiole",
-            Self::Bare => "nodes have no vein; they are left out",
-            Self::NoRoot => {
-                "nothing says where the petiole is (--root X,Y does), so an end of a vein is taken for it"
-            }
-            Self::Turned => {
-                "edges did not lead away from the petiole; all are turned by their distance from it along veins"
-            }
-            Self::NoRadius => {
-                "edges have no radius or width, so those of all others are left out; measures of widths, and \
-                 of vein orders that are not in the file, are missing"
-            }
-            Self::Widening => {
-                "edges get wider away from the petiole; their mean radius is taken at both ends"
-            }
-            Self::OutsideMargin => {
-                "nodes lie outside the margin, as those of a petiole do; their edges are left out"
-            }
-            Self::Hidden => "elements of the drawing are hidden; they are left out",
-            Self::NoStroke => "shapes of the drawing have no stroke; they are left out",
-            Self::NoShape => {
-                "elements of the drawing are neither paths nor basic shapes; they are left out"
-            }
-            Self::Clip => {
-                "clip paths and masks of the drawing are not applied; what they hide is read"
-            }
-            Self::Uneven => {
-                "strokes are scaled unevenly, so that their widths differ by direction; the mean width is taken"
-            }
-            Self::Ignored => "parts of the file are not known; they are left out",
-            Self::Guess => "guesses about how tables are written",
-            Self::Bent => {
-                "edges are longer than the straight line between their ends; they are drawn as arcs of their \
-                 length, so areas of areoles, angles and distances to veins are approximate"
-            }
-            Self::ShortLength => {
-                "edges are shorter than the straight line between their ends; that line is taken"
-            }
-            Self::StyleRule => "parts of style sheets are not understood; they are left out",
-        }
+        self.facts().0
     }
 }
 
@@ -230,7 +249,7 @@ impl Fault {
 
     /// One line: what, how many, and where the first ones are.
     pub fn line(&self) -> String {
-        let mut line = format!("{} ({})", self.kind.sentence(), self.count);
+        let mut line = format!("{} ({})", self.kind.facts().1, self.count);
         let mut shown: Vec<String> = self.names.iter().take(SHOWN).cloned().collect();
         if shown.is_empty() {
             let places = self.places.iter().take(SHOWN);

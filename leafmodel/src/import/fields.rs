@@ -81,6 +81,9 @@ fn parted(name: &str) -> (String, Unit) {
     (name, Unit::OfTheFile)
 }
 
+/// What vein orders may be.
+pub(super) const ALLOWED_ORDERS: &str = "orders are whole numbers from 1 (the midrib) to 255";
+
 impl NodeField {
     /// What a name stands for; `None` if it is not known.
     pub(super) fn of(name: &str) -> Option<Self> {

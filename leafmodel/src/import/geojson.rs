@@ -19,19 +19,21 @@ use super::graph::{Builder, Text, shortened};
 pub(super) fn read_value(file: &Value) -> Result<Draft, ImportError> {
     let wanted = "a GeoJSON FeatureCollection with LineStrings";
     let features = file["features"].as_array();
-    let features = features.ok_or(ImportError::NoVeins { wanted })?;
+    let features = features.ok_or(ImportError::NoVeins(wanted))?;
     let unit = match file["coordinate_unit"].as_str() {
         None => Unit::OfTheFile,
         Some("mm") => Unit::Millimetres(1.0),
         Some("um" | "µm") => Unit::Millimetres(1e-3),
         Some("m") => Unit::Millimetres(1e3),
         Some(other) => {
-            return Err(ImportError::BadValue {
-                place: "the collection".to_owned(),
-                key: "coordinate_unit".to_owned(),
-                value: shortened(other),
-                allowed: "it is mm, um or m",
-            });
+            let (key, other) = ("coordinate_unit", shortened(other));
+            let allowed = "it is mm, um or m";
+            return Err(ImportError::bad_value(
+                "the collection",
+                key,
+                &other,
+                allowed,
+            ));
         }
     };
     let mut lines = Lines {
@@ -113,11 +115,13 @@ struct Lines {
 
 impl Lines {
     fn places(&mut self, feature: usize, list: &Value) -> Result<Vec<DVec2>, ImportError> {
-        let bad = |value: &Value| ImportError::BadValue {
-            place: format!("features[{feature}]"),
-            key: "coordinates".to_owned(),
-            value: shortened(&value.to_string()),
-            allowed: "it must be a list of positions, each a list of two numbers or more",
+        let bad = |value: &Value| {
+            let (place, value) = (
+                format!("features[{feature}]"),
+                shortened(&value.to_string()),
+            );
+            let allowed = "it must be a list of positions, each a list of two numbers or more";
+            ImportError::bad_value(place, "coordinates", &value, allowed)
         };
         let positions = list.as_array().ok_or_else(|| bad(list))?;
         let mut places = Vec::with_capacity(positions.len());
@@ -155,7 +159,7 @@ impl Lines {
             }
             return Ok(());
         }
-        let place = || format!("features[{feature}]");
+        let place = &|| format!("features[{feature}]");
         for pair in places.windows(2) {
             let ends = [pair[0], pair[1]].map(|place| self.builder.node_at(place));
             self.builder.edge_between(ends);
@@ -189,12 +193,8 @@ impl Lines {
                 if value.is_null() {
                     continue;
                 }
-                let value = value
-                    .as_str()
-                    .map_or_else(|| value.to_string(), str::to_owned);
-                let key = || key.clone();
-                self.builder
-                    .edge_text(field, &Text::new(&value, key, place))?;
+                let value = &text_of(value);
+                self.builder.edge_text(field, Text { key, value, place })?;
             }
             self.builder.edge_is_done(place);
         }
@@ -206,10 +206,7 @@ impl Lines {
         if self.numbered.is_empty() {
             return Ok(self.builder.done());
         }
-        let missing = |wanted: &str| ImportError::Missing {
-            place: "nodes".to_owned(),
-            wanted: wanted.to_owned(),
-        };
+        let missing = |problem: &str| ImportError::at("nodes", problem);
         if !self.builder.draft.edges.is_empty() {
             return Err(missing("some lines number their nodes and some do not"));
         }
@@ -290,4 +287,14 @@ impl Numbers {
                 .filter(|o| *o > 0),
         })
     }
+}
+
+/// A value as text; nothing for `null`.
+pub(super) fn text_of(value: &Value) -> String {
+    if value.is_null() {
+        return String::new();
+    }
+    value
+        .as_str()
+        .map_or_else(|| value.to_string(), str::to_owned)
 }

@@ -4,7 +4,6 @@ use std::borrow::Cow;
 
 use super::draft::Draft;
 use super::error::ImportError;
-use super::fields::{EdgeField, NodeField};
 use super::graph::{Builder, Text};
 
 /// Greatest depth of lists in lists.
@@ -27,50 +26,30 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
     let directed = graph.iter().find(is_of("directed"));
     let mut builder = Builder::new(directed.is_some_and(|entry| entry.text() == "1"));
     for node in graph.iter().filter(is_of("node")) {
-        let place = || format!("line {}", node.line);
+        let place = &|| format!("line {}", node.line);
         let members = node.list().unwrap_or_default();
         builder.node();
         let id = members.iter().find(is_of("id"));
-        let id = id.ok_or_else(|| ImportError::Missing {
-            place: place(),
-            wanted: "a node has no id".to_owned(),
-        })?;
+        let id = id.ok_or_else(|| ImportError::at(place(), "a node has no id"))?;
         builder.name(id.text());
         // The place may be in a list of its own, as graphics.
         let inner = members.iter().filter(is_of("graphics"));
         let inner = inner.flat_map(|entry| entry.list().unwrap_or_default());
         let own = members.iter().filter(|entry| !entry.is("graphics"));
         for entry in gathered(inner.chain(own)) {
-            match NodeField::of(entry.key) {
-                // The id is the name.
-                Some(NodeField::Name) => {}
-                None => builder.ignore("node", entry.key),
-                Some(field) => {
-                    let value = entry.text();
-                    let key = || entry.key.to_owned();
-                    let value = value.as_str();
-                    builder.node_text(field, &Text { value, key, place })?;
-                }
-            }
+            let (key, value) = (entry.key, &entry.text());
+            builder.node_entry(Text { key, value, place })?;
         }
         builder.node_is_done(place)?;
     }
     builder.nodes_are_done("nodes".to_owned())?;
     for edge in graph.iter().filter(is_of("edge")) {
-        let place = || format!("line {}", edge.line);
+        let place = &|| format!("line {}", edge.line);
         let members = edge.list().unwrap_or_default();
         builder.edge();
         for entry in gathered(members) {
-            match EdgeField::of(entry.key) {
-                Some(EdgeField::EndCoordinate(..)) => {}
-                None => builder.ignore("edge", entry.key),
-                Some(field) => {
-                    let value = entry.text();
-                    let key = || entry.key.to_owned();
-                    let value = value.as_str();
-                    builder.edge_text(field, &Text { value, key, place })?;
-                }
-            }
+            let (key, value) = (entry.key, &entry.text());
+            builder.edge_entry(Text { key, value, place })?;
         }
         builder.edge_is_done(place);
     }
@@ -78,10 +57,7 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
 }
 
 fn malformed(line: u32, problem: &str) -> ImportError {
-    ImportError::Malformed {
-        format: "GML",
-        problem: format!("line {line}: {problem}"),
-    }
+    ImportError::malformed("GML", format!("line {line}: {problem}"))
 }
 
 /// A key with its value.

@@ -9,31 +9,26 @@ use crate::document::source::quoted;
 use super::draft::{ABSENT, Draft, DraftEdge};
 use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
-use super::fields::{EdgeField, NodeField, Unit, numbers, two_numbers};
+use super::fields::{ALLOWED_ORDERS, EdgeField, NodeField, Unit, numbers, two_numbers};
 
 /// Relative difference of radii below which they are one, rounded.
 const SAME_RADIUS: f64 = 0.01;
 
-/// A value as text, with its key and its place in the file, which are only asked for if it cannot
-/// be read.
-pub(super) struct Text<'a, K, P> {
+/// The place of something in a file, which is only asked for if it cannot be read: to find a line
+/// may take long.
+pub(super) type Place<'a> = &'a dyn Fn() -> String;
+
+/// A value as text, with its key and its place in the file.
+#[derive(Clone, Copy)]
+pub(super) struct Text<'a> {
+    pub(super) key: &'a str,
     pub(super) value: &'a str,
-    pub(super) key: K,
-    pub(super) place: P,
+    pub(super) place: Place<'a>,
 }
 
-impl<'a, K: Fn() -> String, P: Fn() -> String> Text<'a, K, P> {
-    pub(super) fn new(value: &'a str, key: K, place: P) -> Self {
-        Self { value, key, place }
-    }
-
-    fn refused(&self, allowed: &'static str) -> ImportError {
-        ImportError::BadValue {
-            place: (self.place)(),
-            key: (self.key)(),
-            value: shortened(self.value),
-            allowed,
-        }
+impl Text<'_> {
+    fn refused(&self, allowed: &str) -> ImportError {
+        ImportError::bad_value((self.place)(), self.key, &shortened(self.value), allowed)
     }
 
     /// A number. NaN and infinity are numbers here, since they are listed later with all others.
@@ -72,6 +67,9 @@ pub(super) struct Builder {
     /// Whether nodes are given by rows and columns.
     is_in_rows: bool,
     ignored: BTreeSet<String>,
+    /// What keys of nodes and edges stand for, each looked up once.
+    node_fields: HashMap<String, Option<NodeField>>,
+    edge_fields: HashMap<String, Option<EdgeField>>,
 }
 
 impl Builder {
@@ -90,6 +88,8 @@ impl Builder {
             by_place: HashMap::new(),
             is_in_rows: false,
             ignored: BTreeSet::new(),
+            node_fields: HashMap::new(),
+            edge_fields: HashMap::new(),
         }
     }
 
@@ -123,11 +123,23 @@ impl Builder {
         self.is_without_name = false;
     }
 
+    /// What a key says of the node that has begun, whose name is known.
+    pub(super) fn node_entry(&mut self, text: Text<'_>) -> Result<(), ImportError> {
+        match looked_up(&mut self.node_fields, text.key, NodeField::of) {
+            Some(NodeField::Name) => Ok(()),
+            Some(field) => self.node_text(field, text),
+            None => {
+                self.ignore("node", text.key);
+                Ok(())
+            }
+        }
+    }
+
     /// A value of the node that has begun.
-    pub(super) fn node_text<K: Fn() -> String, P: Fn() -> String>(
+    pub(super) fn node_text(
         &mut self,
         field: NodeField,
-        text: &Text<'_, K, P>,
+        text: Text<'_>,
     ) -> Result<(), ImportError> {
         let node = self.draft.places.len() - 1;
         match field {
@@ -161,7 +173,7 @@ impl Builder {
     }
 
     /// Ends a node: it must have a place, and a name of its own if nodes are named.
-    pub(super) fn node_is_done(&mut self, place: impl Fn() -> String) -> Result<(), ImportError> {
+    pub(super) fn node_is_done(&mut self, place: Place<'_>) -> Result<(), ImportError> {
         let node = self.draft.places.len() - 1;
         if self.draft.places[node] == DVec2::splat(f64::MAX) {
             // The name may be the place, as in (12, 30).
@@ -178,24 +190,17 @@ impl Builder {
         let at = self.draft.places[node];
         for (axis, name) in [(at.x, "x"), (at.y, "y")] {
             if axis == f64::MAX {
-                let wanted = format!(
-                    "node {} has no {name}; a node needs x and y (x_mm, y_mm), or pos",
-                    self.draft.name(node as u32)
-                );
-                return Err(ImportError::Missing {
-                    place: place(),
-                    wanted,
-                });
+                let node = self.draft.name(node as u32);
+                let problem =
+                    format!("node {node} has no {name}; a node needs x and y (x_mm, y_mm), or pos");
+                return Err(ImportError::at(place(), problem));
             }
         }
         if !self.is_without_name {
             let name = self.draft.names.last().cloned().unwrap_or_default();
             if self.numbers.insert(name.clone(), node as u32).is_some() {
-                let name = quoted(&name);
-                return Err(ImportError::NameTwice {
-                    place: place(),
-                    name,
-                });
+                let problem = format!("two nodes are called {}", quoted(&name));
+                return Err(ImportError::at(place(), problem));
             }
         }
         Ok(())
@@ -205,8 +210,8 @@ impl Builder {
     pub(super) fn nodes_are_done(&mut self, place: String) -> Result<(), ImportError> {
         let (names, nodes) = (self.draft.names.len(), self.draft.places.len());
         if names != 0 && names != nodes {
-            let wanted = "some nodes have a name and some have none".to_owned();
-            return Err(ImportError::Missing { place, wanted });
+            let problem = "some nodes have a name and some have none";
+            return Err(ImportError::at(place, problem));
         }
         if !self.draft.born.is_empty() {
             self.draft.born.resize(nodes, 0);
@@ -231,11 +236,28 @@ impl Builder {
         }
     }
 
+    /// What a key of edges stands for.
+    pub(super) fn edge_field(&mut self, key: &str) -> Option<EdgeField> {
+        looked_up(&mut self.edge_fields, key, EdgeField::of)
+    }
+
+    /// What a key says of the edge that has begun, whose nodes have places.
+    pub(super) fn edge_entry(&mut self, text: Text<'_>) -> Result<(), ImportError> {
+        match self.edge_field(text.key) {
+            Some(EdgeField::EndCoordinate(..)) => Ok(()),
+            Some(field) => self.edge_text(field, text),
+            None => {
+                self.ignore("edge", text.key);
+                Ok(())
+            }
+        }
+    }
+
     /// A value of the edge that has begun.
-    pub(super) fn edge_text<K: Fn() -> String, P: Fn() -> String>(
+    pub(super) fn edge_text(
         &mut self,
         field: EdgeField,
-        text: &Text<'_, K, P>,
+        text: Text<'_>,
     ) -> Result<(), ImportError> {
         let edge = self.draft.edges.len() - 1;
         match field {
@@ -259,7 +281,7 @@ impl Builder {
                     1.0
                 };
                 if let Some(radius) = text.radius(share)? {
-                    let radius = self.draft.radius_in(radius, unit);
+                    let radius = self.draft.radius_units.millimetres(radius, unit);
                     let is_other = |other: f64| (radius - other).abs() > SAME_RADIUS * other.abs();
                     if self.edge_radius.is_some_and(is_other) {
                         return Err(text.refused(
@@ -276,7 +298,7 @@ impl Builder {
             }
             EdgeField::EndRadius(end, unit) => {
                 if let Some(radius) = text.radius(1.0)? {
-                    let radius = self.draft.radius_in(radius, unit);
+                    let radius = self.draft.radius_units.millimetres(radius, unit);
                     self.draft.edges[edge].radii[end] = Some(radius);
                     self.has_end_radius[end] = true;
                 }
@@ -293,21 +315,14 @@ impl Builder {
                 }
                 let order = text.value.trim().parse::<f64>().ok();
                 let order = order.filter(|o| o.fract() == 0.0 && (1.0..=255.0).contains(o));
-                let order = order.ok_or_else(|| {
-                    text.refused("orders are whole numbers from 1 (the midrib) to 255")
-                })?;
+                let order = order.ok_or_else(|| text.refused(ALLOWED_ORDERS))?;
                 self.draft.edges[edge].order = Some(order as u8);
             }
         }
         Ok(())
     }
 
-    fn length<K: Fn() -> String, P: Fn() -> String>(
-        &mut self,
-        edge: usize,
-        unit: Unit,
-        text: &Text<'_, K, P>,
-    ) -> Result<(), ImportError> {
+    fn length(&mut self, edge: usize, unit: Unit, text: Text<'_>) -> Result<(), ImportError> {
         if text.value.trim().is_empty() {
             return Ok(());
         }
@@ -315,17 +330,17 @@ impl Builder {
         if !(length.is_finite() && length >= 0.0) {
             return Err(text.refused("it must be a finite number of at least 0"));
         }
-        let length = self.draft.length_in(length, unit);
+        let length = self.draft.length_units.millimetres(length, unit);
         self.draft.lengths.insert(edge as u32, length);
         Ok(())
     }
 
-    fn course<K: Fn() -> String, P: Fn() -> String>(
+    fn course(
         &mut self,
         edge: usize,
         unit: Unit,
         in_rows: bool,
-        text: &Text<'_, K, P>,
+        text: Text<'_>,
     ) -> Result<(), ImportError> {
         let allowed = "it must be a list of points, each of two finite numbers";
         let all = numbers(text.value).ok_or_else(|| text.refused(allowed))?;
@@ -349,7 +364,7 @@ impl Builder {
     }
 
     /// Ends an edge whose nodes have names or numbers.
-    pub(super) fn edge_is_done(&mut self, place: impl Fn() -> String) {
+    pub(super) fn edge_is_done(&mut self, place: Place<'_>) {
         // A radius at one end alone holds for both.
         if let Some(edge) = self.draft.edges.last_mut() {
             edge.radii = match edge.radii {
@@ -367,15 +382,13 @@ impl Builder {
     pub(super) fn edge_with_places_is_done(
         &mut self,
         names: [Option<&str>; 2],
-        place: impl Fn() -> String,
+        place: Place<'_>,
     ) -> Result<(), ImportError> {
         for (end, name) in names.into_iter().enumerate() {
             let [x, y] = self.ends[end];
             if self.edge_units[end].is_none() {
-                return Err(ImportError::Missing {
-                    place: place(),
-                    wanted: "an edge needs the places of both its ends".to_owned(),
-                });
+                let problem = "an edge needs the places of both its ends";
+                return Err(ImportError::at(place(), problem));
             }
             let known = match name {
                 Some(name) => self.numbers.get(name).copied(),
@@ -386,15 +399,11 @@ impl Builder {
             let there = self.draft.places[node as usize];
             // NaN in the line that makes a node is listed later with all others.
             if bits(there.into()) != bits(here.into()) {
-                return Err(ImportError::Missing {
-                    place: place(),
-                    wanted: format!(
-                        "node {} is at ({x}, {y}) here and at ({}, {}) in an earlier line",
-                        self.draft.name(node),
-                        there.x,
-                        there.y
-                    ),
-                });
+                let (name, DVec2 { x: a, y: b }) = (self.draft.name(node), there);
+                let problem = format!(
+                    "node {name} is at ({x}, {y}) here and at ({a}, {b}) in an earlier line"
+                );
+                return Err(ImportError::at(place(), problem));
             }
             let edge = self.draft.edges.len() - 1;
             self.draft.edges[edge].ends[end] = node;
@@ -444,6 +453,20 @@ impl Builder {
         let number = number.filter(|n| *n < self.draft.places.len() as f64);
         number.map_or(ABSENT, |n| n as u32)
     }
+}
+
+/// What a key stands for, out of what was found before.
+fn looked_up<F: Copy>(
+    known: &mut HashMap<String, Option<F>>,
+    key: &str,
+    of: impl FnOnce(&str) -> Option<F>,
+) -> Option<F> {
+    if let Some(field) = known.get(key) {
+        return *field;
+    }
+    let field = of(key);
+    known.insert(key.to_owned(), field);
+    field
 }
 
 /// The bits of a place, −0 the same as 0.

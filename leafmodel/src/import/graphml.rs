@@ -6,7 +6,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 use super::draft::Draft;
 use super::error::ImportError;
-use super::fields::{EdgeField, NodeField};
+use super::fields::EdgeField;
 use super::graph::{Builder, Text};
 
 /// Reads the first graph of a `GraphML` text.
@@ -32,7 +32,7 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
         })
         .collect();
     let (node_defaults, edge_defaults) = (defaults(root, "node"), defaults(root, "edge"));
-    let name_of = |key: &str| keys.get(key).copied().unwrap_or_default().to_owned();
+    let name_of = |key: &str| keys.get(key).copied().unwrap_or_default();
     let graph = root.children().find(|node| node.has_tag_name_of("graph"));
     let graph = graph.ok_or_else(|| malformed("it has no <graph>".to_owned()))?;
     let line = |node: Node<'_, '_>| {
@@ -40,52 +40,30 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
         format!("line {row}")
     };
     let mut builder = Builder::new(graph.attribute("edgedefault") == Some("directed"));
-    // What keys stand for is looked up once.
-    let mut node_fields: BTreeMap<&str, Option<NodeField>> = BTreeMap::new();
-    let mut edge_fields: BTreeMap<&str, Option<EdgeField>> = BTreeMap::new();
     for node in graph.children().filter(|node| node.has_tag_name_of("node")) {
-        let place = || line(node);
-        let id = node.attribute("id").ok_or_else(|| ImportError::Missing {
-            place: place(),
-            wanted: "a node has no id".to_owned(),
-        })?;
+        let place = &|| line(node);
+        let id = node.attribute("id");
+        let id = id.ok_or_else(|| ImportError::at(place(), "a node has no id"))?;
         builder.node();
         builder.name(id.to_owned());
         for (key, value) in with_defaults(node, &node_defaults) {
-            let field = *node_fields
-                .entry(key)
-                .or_insert_with(|| NodeField::of(&name_of(key)));
-            if field.is_none() {
-                builder.ignore("node", &name_of(key));
-            }
-            // The id is the name.
-            if let Some(field) = field.filter(|field| *field != NodeField::Name) {
-                let text = Text::new(value, || name_of(key), place);
-                builder.node_text(field, &text)?;
-            }
+            let key = name_of(key);
+            builder.node_entry(Text { key, value, place })?;
         }
         builder.node_is_done(place)?;
     }
     builder.nodes_are_done(line(graph))?;
     for edge in graph.children().filter(|node| node.has_tag_name_of("edge")) {
-        let place = || line(edge);
+        let place = &|| line(edge);
         builder.edge();
         for (end, key) in [(0, "source"), (1, "target")] {
             let value = edge.attribute(key).unwrap_or_default();
-            let text = Text::new(value, || key.to_owned(), place);
-            builder.edge_text(EdgeField::End(end), &text)?;
+            builder.edge_text(EdgeField::End(end), Text { key, value, place })?;
         }
         for (key, value) in with_defaults(edge, &edge_defaults) {
-            let field = *edge_fields
-                .entry(key)
-                .or_insert_with(|| EdgeField::of(&name_of(key)));
-            match field {
-                None => builder.ignore("edge", &name_of(key)),
-                Some(EdgeField::End(_) | EdgeField::EndCoordinate(..)) => {}
-                Some(field) => {
-                    let text = Text::new(value, || name_of(key), place);
-                    builder.edge_text(field, &text)?;
-                }
+            let key = name_of(key);
+            if !matches!(builder.edge_field(key), Some(EdgeField::End(_))) {
+                builder.edge_entry(Text { key, value, place })?;
             }
         }
         builder.edge_is_done(place);
@@ -124,10 +102,7 @@ fn left_out(
 }
 
 fn malformed(problem: String) -> ImportError {
-    ImportError::Malformed {
-        format: "GraphML",
-        problem,
-    }
+    ImportError::malformed("GraphML", problem)
 }
 
 fn parsed(text: &str) -> Result<Document<'_>, ImportError> {

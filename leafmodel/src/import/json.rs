@@ -6,9 +6,9 @@ use serde_json::{Map, Value, json};
 use super::draft::{ABSENT, Draft, DraftEdge, DraftMargin};
 use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
-use super::fields::{EdgeField, NodeField};
-use super::geojson;
-use super::graph::{Builder, Text, shortened};
+use super::fields::{ALLOWED_ORDERS, EdgeField};
+use super::geojson::{self, text_of};
+use super::graph::{Builder, Place, Text, shortened};
 
 /// Reads a network in JSON: `nodes` and `edges` as columns, as [`crate::export::json`] writes them;
 /// `nodes` and `links` (or `edges`) as lists of objects; or `GeoJSON`.
@@ -19,7 +19,7 @@ use super::graph::{Builder, Text, shortened};
 pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
     let value = as_map(parsed(text)?);
     let Value::Object(file) = &value else {
-        return Err(ImportError::NoVeins { wanted: WANTED });
+        return Err(ImportError::NoVeins(WANTED));
     };
     if file
         .get("type")
@@ -30,7 +30,7 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
     let mut draft = match (file.get("nodes"), file.get("edges").or(file.get("links"))) {
         (Some(Value::Object(nodes)), Some(Value::Object(edges))) => columns(file, nodes, edges)?,
         (Some(Value::Array(nodes)), Some(Value::Array(edges))) => lists(file, nodes, edges)?,
-        _ => return Err(ImportError::NoVeins { wanted: WANTED }),
+        _ => return Err(ImportError::NoVeins(WANTED)),
     };
     if file.contains_key("edges") && file.contains_key("links") {
         let mut links = Fault::new(FaultKind::Ignored);
@@ -62,10 +62,7 @@ pub(super) fn read_margin(text: &str) -> Result<Draft, ImportError> {
 }
 
 fn parsed(text: &str) -> Result<Value, ImportError> {
-    serde_json::from_str(text).map_err(|error| ImportError::Malformed {
-        format: "JSON",
-        problem: error.to_string(),
-    })
+    serde_json::from_str(text).map_err(|error| ImportError::malformed("JSON", error.to_string()))
 }
 
 /// A `GeoJSON` that is a single feature or geometry as a collection with it; others as they are.
@@ -155,11 +152,9 @@ fn columns(
             let allowed = order.fract() == 0.0 && (1.0..=255.0).contains(&order);
             allowed.then_some(order as u8).ok_or(order)
         });
-        let order = order.transpose().map_err(|order| ImportError::BadValue {
-            place: format!("edge {edge}"),
-            key: "order".to_owned(),
-            value: order.to_string(),
-            allowed: "orders are whole numbers from 1 (the midrib) to 255",
+        let order = order.transpose().map_err(|order| {
+            let (place, order) = (format!("edge {edge}"), order.to_string());
+            ImportError::bad_value(place, "order", &order, ALLOWED_ORDERS)
         })?;
         draft.edges.push(DraftEdge {
             ends: ends_of,
@@ -175,33 +170,26 @@ fn equal(one: (&str, usize), other: (&str, usize)) -> Result<(), ImportError> {
     if one.1 == other.1 {
         return Ok(());
     }
-    Err(ImportError::Missing {
-        place: other.0.to_owned(),
-        wanted: format!(
-            "it has {} numbers, and {} has {}: columns are of equal length",
-            other.1, one.0, one.1
-        ),
-    })
+    let problem = format!(
+        "it has {} numbers, and {} has {}: columns are of equal length",
+        other.1, one.0, one.1
+    );
+    Err(ImportError::at(other.0, problem))
 }
 
 /// A column of numbers; `null` is NaN.
 fn column(of: &Map<String, Value>, name: &str, key: &str) -> Result<Vec<f64>, ImportError> {
     let list = of.get(key).and_then(Value::as_array);
-    let list = list.ok_or_else(|| ImportError::Missing {
-        place: name.to_owned(),
-        wanted: format!("it has no list {key}"),
-    })?;
+    let list = list.ok_or_else(|| ImportError::at(name, format!("it has no list {key}")))?;
     let number = |(index, value): (usize, &Value)| {
         let number = if value.is_null() {
             Some(f64::NAN)
         } else {
             value.as_f64()
         };
-        number.ok_or_else(|| ImportError::BadValue {
-            place: format!("{name} {index}"),
-            key: key.to_owned(),
-            value: shortened(&value.to_string()),
-            allowed: "it must be a number",
+        number.ok_or_else(|| {
+            let (place, value) = (format!("{name} {index}"), shortened(&value.to_string()));
+            ImportError::bad_value(place, key, &value, "it must be a number")
         })
     };
     list.iter().enumerate().map(number).collect()
@@ -212,9 +200,7 @@ fn margin(outline: &Value) -> Result<DraftMargin, ImportError> {
         let pair = value.as_array().filter(|list| list.len() == 2)?;
         Some(DVec2::new(pair[0].as_f64()?, pair[1].as_f64()?))
     };
-    let bad = || ImportError::BadMargin {
-        problem: "outline.points_mm is a list of pairs of numbers".to_owned(),
-    };
+    let bad = || ImportError::bad_margin("outline.points_mm is a list of pairs of numbers");
     let points = outline["points_mm"].as_array().ok_or_else(bad)?;
     let points: Option<Vec<DVec2>> = points.iter().map(pair).collect();
     Ok(DraftMargin {
@@ -232,68 +218,42 @@ fn lists(
 ) -> Result<Draft, ImportError> {
     let is_directed = file.get("directed").and_then(Value::as_bool);
     let mut builder = Builder::new(is_directed.unwrap_or(false));
-    let object = |value: &Value, place: &dyn Fn() -> String| {
-        value
-            .as_object()
-            .cloned()
-            .ok_or_else(|| ImportError::Missing {
-                place: place(),
-                wanted: "it is no object".to_owned(),
-            })
-    };
     for (number, node) in nodes.iter().enumerate() {
-        let place = || format!("nodes[{number}]");
+        let place = &|| format!("nodes[{number}]");
         builder.node();
-        for (key, value) in &object(node, &place)? {
-            let field = NodeField::of(key);
+        for (key, value) in object(node, place)? {
+            let value = &text_of(value);
             // Only `id` names a node: others may have a label beside it.
-            let is_label = field == Some(NodeField::Name) && key != "id";
-            if field.is_none() {
-                builder.ignore("node", key);
-            }
-            if let Some(field) = field.filter(|_| !is_label) {
-                let value = text_of(value);
-                let key = || key.clone();
-                builder.node_text(field, &Text::new(&value, key, place))?;
+            if key == "id" {
+                builder.name(value.trim().to_owned());
+            } else {
+                builder.node_entry(Text { key, value, place })?;
             }
         }
         builder.node_is_done(place)?;
     }
     builder.nodes_are_done("nodes".to_owned())?;
     for (number, edge) in edges.iter().enumerate() {
-        let place = || format!("edges[{number}]");
-        let members = object(edge, &place)?;
+        let place = &|| format!("edges[{number}]");
+        let members = object(edge, place)?;
         builder.edge();
         for (number, end) in ["source", "target"].into_iter().enumerate() {
-            let tells = |key: &String| EdgeField::of(key) == Some(EdgeField::End(number));
-            if !members.keys().any(tells) {
-                return Err(ImportError::Missing {
-                    place: place(),
-                    wanted: format!("an edge needs source and target; it has no {end}"),
-                });
+            let is_end = Some(EdgeField::End(number));
+            if !members.keys().any(|key| builder.edge_field(key) == is_end) {
+                let problem = format!("an edge needs source and target; it has no {end}");
+                return Err(ImportError::at(place(), problem));
             }
         }
-        for (key, value) in &members {
-            match EdgeField::of(key) {
-                None => builder.ignore("edge", key),
-                Some(EdgeField::EndCoordinate(..)) => {}
-                Some(field) => {
-                    let value = text_of(value);
-                    let key = || key.clone();
-                    builder.edge_text(field, &Text::new(&value, key, place))?;
-                }
-            }
+        for (key, value) in members {
+            let value = &text_of(value);
+            builder.edge_entry(Text { key, value, place })?;
         }
         builder.edge_is_done(place);
     }
     Ok(builder.done())
 }
 
-fn text_of(value: &Value) -> String {
-    if value.is_null() {
-        return String::new();
-    }
-    value
-        .as_str()
-        .map_or_else(|| value.to_string(), str::to_owned)
+fn object<'v>(value: &'v Value, place: Place<'_>) -> Result<&'v Map<String, Value>, ImportError> {
+    let object = value.as_object();
+    object.ok_or_else(|| ImportError::at(place(), "it is no object"))
 }

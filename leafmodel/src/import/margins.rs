@@ -7,7 +7,7 @@ use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
 use super::repair::leave_out_bare;
 use crate::plane::polygon;
-use crate::shape::outline::Outline;
+use crate::shape::outline::{Outline, OutlineError};
 
 /// How far outside a margin, as a share of the blade's extent, a node still counts as on it: files
 /// round, and veins end at the margin.
@@ -59,9 +59,7 @@ impl Draft {
             made
         });
         made.collect::<Result<_, _>>()
-            .map_err(|error| ImportError::BadMargin {
-                problem: error.to_string(),
-            })
+            .map_err(|error: OutlineError| ImportError::bad_margin(error.to_string()))
     }
 }
 
@@ -109,21 +107,17 @@ pub(super) fn leave_out_outside(
     }
     let nodes = draft.places.len();
     if outside.count as f64 > MOST_OUTSIDE * nodes as f64 {
-        return Err(ImportError::BadMargin {
-            problem: format!(
-                "{} of the {nodes} nodes lie outside of it; margin and veins must be in one frame and in one scale \
-                 (--mm-per-unit)",
-                outside.count
-            ),
-        });
+        return Err(ImportError::bad_margin(format!(
+            "{} of the {nodes} nodes lie outside of it; margin and veins must be in one frame and in one scale \
+             (--mm-per-unit)",
+            outside.count
+        )));
     }
     draft
         .edges
         .retain(|edge| edge.ends.iter().all(|&end| inside[end as usize]));
     if draft.edges.is_empty() {
-        return Err(ImportError::BadMargin {
-            problem: "no vein lies within it".to_owned(),
-        });
+        return Err(ImportError::bad_margin("no vein lies within it"));
     }
     // Not told again: they went with their edges.
     leave_out_bare(draft, &vec![true; nodes], &mut Vec::new());

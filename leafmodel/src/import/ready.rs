@@ -3,13 +3,14 @@
 use crate::document::source::quoted;
 use glam::DVec2;
 
-use super::draft::{ABSENT, Draft};
+use super::draft::{ABSENT, Draft, Units};
 use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
 use super::{courses, margins, repair, roots};
 use crate::measure::Known;
+use crate::plane::bounds;
 use crate::shape::outline::Outline;
-use crate::venation::network::{FARTHEST_MM, VeinEdge, VeinNode, VenationNetwork};
+use crate::venation::network::{self, FARTHEST_MM, VeinEdge, VeinNode, VenationNetwork};
 use crate::venation::order::{Look, orders};
 use crate::venation::planar::PlaneGraph;
 use crate::venation::topology::Topology;
@@ -44,11 +45,6 @@ pub struct Imported {
 }
 
 impl Draft {
-    /// Whether lengths stand in it without a unit.
-    pub fn lacks_unit(&self) -> bool {
-        self.places_lack_unit || self.radii_lack_unit
-    }
-
     /// The same with this margin instead of the file's own.
     pub fn within(self, outline: Outline) -> Self {
         Self {
@@ -87,19 +83,17 @@ impl Draft {
     /// makes no sense.
     pub fn network(mut self, wanted: &Wanted) -> Result<Imported, ImportError> {
         if self.edges.is_empty() {
-            return Err(ImportError::NoVeins {
-                wanted: "edges between nodes",
-            });
+            return Err(ImportError::NoVeins("edges between nodes"));
         }
         let faults = self.senseless();
         if !faults.is_empty() {
-            return Err(ImportError::Faulty { faults });
+            return Err(ImportError::Faulty(faults));
         }
         self.scale(wanted)?;
         courses::drawn(&mut self);
-        let far = self.far_nodes();
+        let far = self.bad_places(" mm", |place| place.abs().max_element() > FARTHEST_MM);
         if far.count > 0 {
-            return Err(ImportError::Faulty { faults: vec![far] });
+            return Err(ImportError::Faulty(vec![far]));
         }
         let outlines = match self.given.take() {
             Some(outline) => vec![outline],
@@ -120,9 +114,9 @@ impl Draft {
         } else {
             repair::mend(&mut self, &mut faults);
             if self.edges.is_empty() {
-                return Err(ImportError::NoVeins {
-                    wanted: "edges with a length; all join a node to itself or nodes at one place",
-                });
+                return Err(ImportError::NoVeins(
+                    "edges with a length; all join a node to itself or nodes at one place",
+                ));
             }
             let base = wanted.root.or_else(|| outlines.first().map(Outline::base));
             roots::turned(&self, base, segment_mm, &mut faults)?
@@ -160,19 +154,7 @@ impl Draft {
                 }
             }
         }
-        let mut places = Fault::new(FaultKind::BadPlace);
-        for (number, place) in (0..).zip(&self.places) {
-            if !place.is_finite() {
-                places.named(|| {
-                    format!(
-                        "node {} is at ({}, {})",
-                        self.name(number),
-                        place.x,
-                        place.y
-                    )
-                });
-            }
-        }
+        let places = self.bad_places("", |place| !place.is_finite());
         let mut radii = Fault::new(FaultKind::BadRadius);
         for (number, edge) in self.edges.iter().enumerate() {
             if let Some(bad) = edge.bad_radius() {
@@ -206,45 +188,41 @@ impl Draft {
         (fault.count > 0 && fault.count < self.edges.len()).then_some(fault)
     }
 
-    fn far_nodes(&self) -> Fault {
-        let mut far = Fault::new(FaultKind::BadPlace);
-        for (number, place) in (0..).zip(&self.places) {
-            if place.abs().max_element() > FARTHEST_MM {
-                far.named(|| {
-                    format!(
-                        "node {} is at ({}, {}) mm",
-                        self.name(number),
-                        place.x,
-                        place.y
-                    )
-                });
-            }
+    /// Nodes at places that are bad; `unit` is that of the places.
+    fn bad_places(&self, unit: &str, is_bad: impl Fn(DVec2) -> bool) -> Fault {
+        let mut fault = Fault::new(FaultKind::BadPlace);
+        for (number, &place) in (0..).zip(&self.places).filter(|(_, place)| is_bad(**place)) {
+            let DVec2 { x, y } = place;
+            fault.named(|| format!("node {} is at ({x}, {y}){unit}", self.name(number)));
         }
-        far
+        fault
     }
 
     /// Lengths in millimetres, y up.
     fn scale(&mut self, wanted: &Wanted) -> Result<(), ImportError> {
-        let factor = |lacks: bool, has: bool, what| match (lacks, has, wanted.mm_per_unit) {
-            (true, true, _) => Err(ImportError::MixedUnits { what }),
+        let factor = |units: Units, given: Option<f64>, what| match (
+            units.some_lack,
+            units.some_have,
+            given,
+        ) {
+            (true, true, _) => Err(ImportError::MixedUnits(what)),
             (false, ..) => Ok(1.0),
             (true, false, Some(factor)) => Ok(factor),
-            (true, false, None) => Err(ImportError::NoScale { what }),
+            (true, false, None) => Err(ImportError::NoScale(what)),
         };
-        let places = factor(self.places_lack_unit, self.places_have_unit, "places")?;
-        let radii = factor(self.radii_lack_unit, self.radii_have_unit, "radii")?;
+        let places = factor(self.place_units, wanted.mm_per_unit, "places")?;
+        let radii = factor(self.radius_units, wanted.mm_per_unit, "radii")?;
         let turn = if self.is_y_down || wanted.y_down {
             -1.0
         } else {
             1.0
         };
-        let lengths = match (self.lengths_lack_unit, self.lengths_have_unit) {
-            (true, true) => return Err(ImportError::MixedUnits { what: "lengths" }),
-            // Without a unit of their own they have that of the places.
-            (true, false) if self.places_lack_unit => places,
-            (true, false) => self.place_mm.unwrap_or(1.0),
-            (false, _) => 1.0,
+        let of_places = if self.place_units.some_lack {
+            places
+        } else {
+            self.place_mm.unwrap_or(1.0)
         };
+        let lengths = factor(self.length_units, Some(of_places), "lengths")?;
         for length in self.lengths.values_mut() {
             *length *= lengths;
         }
@@ -275,9 +253,7 @@ impl Draft {
     /// Length of a segment where the file gives none, above 0: a fraction of the extent of the veins,
     /// so that it depends neither on how finely they are digitised nor on the margin.
     fn usual_segment(&self) -> f64 {
-        let places = self.places.iter().copied();
-        let low = places.clone().reduce(DVec2::min).unwrap_or_default();
-        let high = places.reduce(DVec2::max).unwrap_or_default();
+        let (low, high) = bounds(self.places.iter().copied());
         let extent = (high - low).max_element();
         if extent > 0.0 { extent / SEGMENTS } else { 1.0 }
     }
@@ -347,11 +323,9 @@ impl Draft {
 
 /// The same network with orders by width and branching.
 fn with_orders(network: &VenationNetwork) -> Result<VenationNetwork, ImportError> {
-    let ends: Vec<[u32; 2]> = network.edges().iter().map(|e| [e.from, e.to]).collect();
+    let ends = network::ends(network.edges());
     let topology = Topology::new(network.nodes().len(), &ends);
-    let broken = |_| ImportError::NoVeins {
-        wanted: "edges without circles",
-    };
+    let broken = |_| ImportError::NoVeins("edges without circles");
     let sorted = topology.base_to_tip().map_err(broken)?;
     let places: Vec<DVec2> = network.nodes().iter().map(|node| node.position).collect();
     let radii: Vec<f64> = network
@@ -366,12 +340,8 @@ fn with_orders(network: &VenationNetwork) -> Result<VenationNetwork, ImportError
     for (edge, order) in edges.iter_mut().zip(found.edges) {
         edge.order = order.max(1);
     }
-    VenationNetwork::from_parts(network.nodes().to_vec(), edges, segment_mm).map_err(|error| {
-        ImportError::Malformed {
-            format: "network",
-            problem: error.to_string(),
-        }
-    })
+    VenationNetwork::from_parts(network.nodes().to_vec(), edges, segment_mm)
+        .map_err(|error| ImportError::malformed("network", error.to_string()))
 }
 
 /// Faults that a valid network can have.
@@ -380,6 +350,7 @@ fn warn_of(network: &VenationNetwork, faults: &mut Vec<Fault>) {
     for (kind, places) in [
         (FaultKind::Crossing, plane.crossing_places()),
         (FaultKind::Touch, plane.touch_places()),
+        (FaultKind::Apart, &roots::parts_without_petiole(network)),
     ] {
         if !places.is_empty() {
             let mut fault = Fault::new(kind);
@@ -389,9 +360,4 @@ fn warn_of(network: &VenationNetwork, faults: &mut Vec<Fault>) {
             faults.push(fault);
         }
     }
-    let mut apart = Fault::new(FaultKind::Apart);
-    for place in roots::parts_without_petiole(network) {
-        apart.at(place);
-    }
-    faults.extend((apart.count > 0).then_some(apart));
 }

@@ -9,7 +9,7 @@ use super::draft::{Draft, DraftEdge};
 use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
 use crate::buckets::Buckets;
-use crate::venation::network::{VeinNode, VenationNetwork};
+use crate::venation::network::{self, VeinNode, VenationNetwork};
 use crate::venation::topology::Topology;
 
 /// Ends of veins at least this wide, as a share of the widest vein, may be the petiole.
@@ -70,17 +70,13 @@ pub(super) fn turned(
         born: draft.born.get(old as usize).copied().unwrap_or(0),
     });
     let edges = turned.vein_edges(segment_mm);
-    VenationNetwork::from_parts(nodes.collect(), edges, segment_mm).map_err(|error| {
-        ImportError::Malformed {
-            format: "network",
-            problem: error.to_string(),
-        }
-    })
+    VenationNetwork::from_parts(nodes.collect(), edges, segment_mm)
+        .map_err(|error| ImportError::malformed("network", error.to_string()))
 }
 
 /// A node of each part of a network in which there is no origin.
 pub(super) fn parts_without_petiole(network: &VenationNetwork) -> Vec<DVec2> {
-    let ends: Vec<[u32; 2]> = network.edges().iter().map(|e| [e.from, e.to]).collect();
+    let ends = network::ends(network.edges());
     let topology = Topology::new(network.nodes().len(), &ends);
     let mut seen = vec![false; network.nodes().len()];
     let mut parts = Vec::new();

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use glam::{DAffine2, DVec2};
 use svgtypes::{PathParser, PathSegment};
 
-use super::draft::{Draft, DraftEdge, DraftMargin};
+use super::draft::{Draft, DraftEdge, DraftMargin, Units};
 use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
 use super::fields::two_numbers;
@@ -56,11 +56,10 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
             continue;
         }
         let width = shape.stroke_width(drawing.mm_per_unit);
-        let width = width.map_err(|value| ImportError::BadValue {
-            place: format!("line {}", line(shape)),
-            key: "stroke-width".to_owned(),
-            value: shortened(&value),
-            allowed: "it must be a number of at least 0, alone or in mm, cm, in, pt, pc or px",
+        let width = width.map_err(|value| {
+            let place = format!("line {}", line(shape));
+            let allowed = "it must be a number of at least 0, alone or in mm, cm, in, pt, pc or px";
+            ImportError::bad_value(place, "stroke-width", &shortened(&value), allowed)
         })?;
         let before = strokes.len();
         let to_mm = DAffine2::from_scale(mm_per_unit(&drawing));
@@ -93,13 +92,11 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
     }
     if strokes.is_empty() {
         let left: usize = drawing.left_out.values().map(|left| left.count).sum();
-        return Err(ImportError::NoVeins {
-            wanted: if bare.count + left > 0 {
-                "paths or basic shapes with a stroke; those that it has are hidden or have no stroke"
-            } else {
-                "paths or basic shapes with a stroke"
-            },
-        });
+        return Err(ImportError::NoVeins(if bare.count + left > 0 {
+            "paths or basic shapes with a stroke; those that it has are hidden or have no stroke"
+        } else {
+            "paths or basic shapes with a stroke"
+        }));
     }
     let found = [bare, uneven].into_iter().filter(|fault| fault.count > 0);
     draft.remarks.extend(found);
@@ -121,9 +118,7 @@ pub(super) fn read_margin(text: &str) -> Result<Draft, ImportError> {
     let shape = called
         .or_else(|| drawing.drawn().find(|shape| shape.is_path()))
         .or_else(|| drawing.drawn().next());
-    let shape = shape.ok_or(ImportError::BadMargin {
-        problem: "there is no path that is drawn".to_owned(),
-    })?;
+    let shape = shape.ok_or_else(|| ImportError::bad_margin("there is no path that is drawn"))?;
     Ok(Draft {
         margins: margins(&drawing, shape).map_err(|error| malformed(error.to_string()))?,
         ..empty(&drawing)
@@ -131,15 +126,15 @@ pub(super) fn read_margin(text: &str) -> Result<Draft, ImportError> {
 }
 
 fn malformed(problem: String) -> ImportError {
-    ImportError::Malformed {
-        format: "SVG",
-        problem,
-    }
+    ImportError::malformed("SVG", problem)
 }
 
 /// A draft with what a drawing says as a whole.
 fn empty(drawing: &Drawing<'_>) -> Draft {
-    let is_without = drawing.mm_per_unit.is_none();
+    let units = Units {
+        some_lack: drawing.mm_per_unit.is_none(),
+        some_have: false,
+    };
     let fault = |(reason, left): (&Reason, &drawing::LeftOut)| Fault {
         kind: match reason {
             Reason::Hidden => FaultKind::Hidden,
@@ -153,8 +148,8 @@ fn empty(drawing: &Drawing<'_>) -> Draft {
     };
     Draft {
         is_y_down: true,
-        places_lack_unit: is_without,
-        radii_lack_unit: is_without,
+        place_units: units,
+        radius_units: units,
         remarks: drawing.left_out.iter().map(fault).collect(),
         ..Draft::default()
     }

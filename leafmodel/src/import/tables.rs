@@ -31,13 +31,9 @@ pub(super) fn read(edges: &str, nodes: Option<&str>, form: Form) -> Result<Draft
         EdgeField::of(name).is_some() || NodeField::of(name).is_some()
     })?;
     if nodes.is_none() && is_of_nodes(&table.header) {
-        return Err(ImportError::Missing {
-            place: "line 1".to_owned(),
-            wanted: format!(
-                "this is a table of nodes: give it by --nodes beside a table of edges; here are: {}",
-                listed(&table.header)
-            ),
-        });
+        return Err(
+            table.refused("this is a table of nodes: give it by --nodes beside a table of edges")
+        );
     }
     let is_of_skan = table.header.iter().any(|name| is_skans(name));
     let fields = edge_fields(&table.header);
@@ -53,26 +49,17 @@ pub(super) fn read(edges: &str, nodes: Option<&str>, form: Form) -> Result<Draft
             .is_some()
     });
     if nodes.is_none() && !tells_places {
-        return Err(ImportError::Missing {
-            place: "line 1".to_owned(),
-            wanted: format!(
-                "a table of edges has the columns from_x_mm, from_y_mm, to_x_mm, to_y_mm, or a table of \
-                 nodes beside it (--nodes FILE.csv) and the columns from and to; here are: {}",
-                listed(&table.header)
-            ),
-        });
+        return Err(table.refused(
+            "a table of edges has the columns from_x_mm, from_y_mm, to_x_mm, to_y_mm, or a table of \
+             nodes beside it (--nodes FILE.csv) and the columns from and to",
+        ));
     }
     if nodes.is_some() && names.contains(&None) {
-        return Err(ImportError::Missing {
-            place: "line 1".to_owned(),
-            wanted: format!(
-                "a table of edges beside one of nodes has the columns from and to; here are: {}",
-                listed(&table.header)
-            ),
-        });
+        let problem = "a table of edges beside one of nodes has the columns from and to";
+        return Err(table.refused(problem));
     }
     while let Some((row, line)) = table.next()? {
-        let place = || format!("line {line}");
+        let place = &|| format!("line {line}");
         builder.edge();
         for ((field, value), name) in fields.iter().zip(&row).zip(&table.header) {
             let Some(field) = *field else { continue };
@@ -87,8 +74,8 @@ pub(super) fn read(edges: &str, nodes: Option<&str>, form: Form) -> Result<Draft
             } else {
                 table.number_text(value)
             };
-            let key = || name.clone();
-            builder.edge_text(field, &Text::new(&value, key, place))?;
+            let (key, value) = (name, &value);
+            builder.edge_text(field, Text { key, value, place })?;
         }
         if nodes.is_some() {
             builder.edge_is_done(place);
@@ -194,39 +181,20 @@ fn read_nodes(
     guesses: &mut Fault,
 ) -> Result<(), ImportError> {
     let of_nodes = |error| match error {
-        ImportError::BadValue {
-            place,
-            key,
-            value,
-            allowed,
-        } => ImportError::BadValue {
-            place: format!("table of nodes, {place}"),
-            key,
-            value,
-            allowed,
-        },
-        ImportError::Missing { place, wanted } => ImportError::Missing {
-            place: format!("table of nodes, {place}"),
-            wanted,
-        },
-        ImportError::NameTwice { place, name } => ImportError::NameTwice {
-            place: format!("table of nodes, {place}"),
-            name,
-        },
+        ImportError::At { place, problem } => {
+            ImportError::at(format!("table of nodes, {place}"), problem)
+        }
         other @ (ImportError::Empty
         | ImportError::Malformed { .. }
-        | ImportError::NoVeins { .. }
-        | ImportError::NoScale { .. }
-        | ImportError::MixedUnits { .. }
-        | ImportError::Faulty { .. }
-        | ImportError::BadMargin { .. }) => other,
+        | ImportError::NoVeins(_)
+        | ImportError::NoScale(_)
+        | ImportError::MixedUnits(_)
+        | ImportError::Faulty(_)
+        | ImportError::BadMargin(_)) => other,
     };
     let mut read = || -> Result<(), ImportError> {
         if is_blank(text) {
-            return Err(ImportError::Missing {
-                place: "the file".to_owned(),
-                wanted: "it is empty".to_owned(),
-            });
+            return Err(ImportError::at("the file", "it is empty"));
         }
         let mut table = Table::open(text, form, "a table of nodes", &|name| {
             NodeField::of(name).is_some()
@@ -247,13 +215,12 @@ fn read_nodes(
             }
         }
         while let Some((row, line)) = table.next()? {
-            let place = || format!("line {line}");
+            let place = &|| format!("line {line}");
             builder.node();
             for ((field, value), name) in fields.iter().zip(&row).zip(&table.header) {
                 let Some(field) = *field else { continue };
-                let value = table.number_text(value);
-                let key = || name.clone();
-                builder.node_text(field, &Text::new(&value, key, place))?;
+                let (key, value) = (name, &table.number_text(value));
+                builder.node_text(field, Text { key, value, place })?;
             }
             builder.node_is_done(place)?;
         }
@@ -295,20 +262,22 @@ impl<'t> Table<'t> {
             .map_err(|ragged| malformed(&ragged))?;
         let names = names.map_or_else(Vec::new, |row| row.fields);
         let header: Vec<String> = names.iter().map(Field::shown).collect();
-        if !header.iter().any(|name| is_known(name)) {
-            return Err(ImportError::Missing {
-                place: "line 1".to_owned(),
-                wanted: format!(
-                    "{what} begins with the names of its columns; here are: {}",
-                    listed(&header)
-                ),
-            });
-        }
-        Ok(Self {
+        let table = Self {
             header,
             rows,
             below,
-        })
+        };
+        if table.header.iter().any(|name| is_known(name)) {
+            Ok(table)
+        } else {
+            Err(table.refused(&format!("{what} begins with the names of its columns")))
+        }
+    }
+
+    /// What is wrong with the columns, with those that there are.
+    fn refused(&self, problem: &str) -> ImportError {
+        let columns = listed(&self.header);
+        ImportError::at("line 1", format!("{problem}; here are: {columns}"))
     }
 
     /// The next row and its line.
@@ -338,8 +307,5 @@ impl<'t> Table<'t> {
 }
 
 fn malformed(ragged: &Ragged) -> ImportError {
-    ImportError::Malformed {
-        format: "table",
-        problem: format!("line {}: {ragged}", ragged.line),
-    }
+    ImportError::malformed("table", format!("line {}: {ragged}", ragged.line))
 }

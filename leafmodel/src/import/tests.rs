@@ -146,7 +146,7 @@ const NETWORKX: &str = r#"<?xml version='1.0' encoding='utf-8'?>
 fn a_graph_of_networkx_in_pixels_is_read_with_a_scale_and_turned_from_its_widest_end() {
     let draft = read(Format::GraphMl, NETWORKX, None).expect("well-formed");
     let none = draft.clone().network(&Wanted::default());
-    assert_eq!(none.err(), Some(ImportError::NoScale { what: "places" }));
+    assert_eq!(none.err(), Some(ImportError::NoScale("places")));
     let wanted = Wanted {
         mm_per_unit: Some(0.01),
         ..Wanted::default()
@@ -182,7 +182,8 @@ fn node_link_lists_and_lines_of_maps_are_read() {
     assert!(
         read(Format::Json, lists, None)
             .expect("well-formed")
-            .lacks_unit()
+            .place_units
+            .some_lack
     );
     let read = imported(Format::Json, &lists.replace("\"pos\": [0, 5], ", ""));
     assert!((read.network.edges()[0].radius_from - 0.04).abs() < 1e-15);
@@ -342,7 +343,7 @@ fn lengths_of_one_kind_have_all_a_unit_or_none() {
         };
         let draft = read(Format::Table, &text, None).expect("well-formed");
         let error = draft.network(&wanted).err();
-        assert_eq!(error, Some(ImportError::MixedUnits { what }));
+        assert_eq!(error, Some(ImportError::MixedUnits(what)));
     }
     // Places in pixels beside radii in micrometres are two quantities.
     let text = "from_x,from_y,to_x,to_y,radius_um\n0,0,0,1000,50\n";

@@ -45,7 +45,7 @@ impl LeafPlan {
     pub(super) fn death_field(&self, lamina: &Lamina) -> Result<Option<DeathField>, LeafError> {
         Ok(match (&lamina.filled, &lamina.cells) {
             (Some(blade), _) => Some(blade.death_field()),
-            (None, Some(leaf)) => Some(leaf.death_field(self.length_mm)?),
+            (None, Some(leaf)) => Some(leaf.death_field(self.length_mm).map_err(LeafError::Cells)?),
             (None, None) => None,
         })
     }

@@ -11,7 +11,7 @@ use crate::leaf::venation_plan::VenationPlan;
 use crate::shape::outline::Outline;
 use crate::transport::{FilledBlade, TransportLeaf};
 use crate::venation::network::VenationNetwork;
-use crate::venation::{self, grow_around, grow_unless};
+use crate::venation::{self, grow_around};
 
 /// A leaf before it is bent. Lengths are millimetres; the base is the origin, the midrib goes along
 /// +y.
@@ -38,7 +38,9 @@ impl LeafPlan {
     ///
     /// [`LeafError::Outline`].
     pub fn grow_outline(&self) -> Result<Outline, LeafError> {
-        Ok(self.outline.grow(self.length_mm, self.seed)?)
+        self.outline
+            .grow(self.length_mm, self.seed)
+            .map_err(LeafError::Outline)
     }
 
     /// Margin and veins.
@@ -56,7 +58,8 @@ impl LeafPlan {
     ///
     /// [`LeafError`] of the outline or the veins.
     pub fn check_lamina(&self) -> Result<(), LeafError> {
-        let (outline, origin) = self.outline.grow_with_origin(self.length_mm, self.seed)?;
+        let grown = self.outline.grow_with_origin(self.length_mm, self.seed);
+        let (outline, origin) = grown.map_err(LeafError::Outline)?;
         match &self.venation {
             VenationPlan::Auxin(plan) => venation::check(&outline, plan)?,
             VenationPlan::Arcuate(plan) => plan.validate()?,
@@ -64,7 +67,7 @@ impl LeafPlan {
                 style.in_range()?;
                 origin.cells().ok_or(LeafError::NoCells)?;
             }
-            VenationPlan::Transport(plan) => plan.check(&outline)?,
+            VenationPlan::Transport(plan) => plan.check(&outline).map_err(LeafError::Cells)?,
             VenationPlan::Development(style) => {
                 style.in_range()?;
                 origin.developed().ok_or(LeafError::NotDeveloped)?;
@@ -83,16 +86,20 @@ impl LeafPlan {
         if let Some(damage) = &self.damage {
             damage.in_range().map_err(LeafError::Damage)?;
         }
-        let (outline, origin) = self.outline.grow_with_origin(self.length_mm, self.seed)?;
+        let grown = self.outline.grow_with_origin(self.length_mm, self.seed);
+        let (outline, origin) = grown.map_err(LeafError::Outline)?;
         let mut filled = None;
         let network = match &self.venation {
-            VenationPlan::Auxin(plan) => match origin.developed() {
-                Some(leaf) => {
-                    let main = leaf.network(self.length_mm, MainVeinStyle::default())?;
-                    grow_around(&outline, plan, &main, self.seed, is_stopped)?
-                }
-                None => grow_unless(&outline, plan, self.seed, is_stopped)?,
-            },
+            VenationPlan::Auxin(plan) => {
+                let of_leaf =
+                    |leaf: &DevelopedLeaf| leaf.network(self.length_mm, MainVeinStyle::default());
+                let main = origin
+                    .developed()
+                    .map(of_leaf)
+                    .transpose()
+                    .map_err(LeafError::Cells)?;
+                grow_around(&outline, plan, main.as_ref(), self.seed, is_stopped)?
+            }
             VenationPlan::Arcuate(plan) => match self.outline.plain_cubic() {
                 Some(margin) => plan.network_within(margin, self.length_mm)?,
                 None => plan.network(&outline)?,
@@ -101,17 +108,22 @@ impl LeafPlan {
                 let Origin::Cells(cells) = &origin else {
                     return Err(LeafError::NoCells);
                 };
-                cells.network(self.length_mm, *style)?
+                cells
+                    .network(self.length_mm, *style)
+                    .map_err(LeafError::Cells)?
             }
             VenationPlan::Transport(plan) => {
-                let blade = plan.fill(&outline)?;
-                let network = blade.network(&outline, plan.style)?;
+                let blade = plan.fill(&outline).map_err(LeafError::Cells)?;
+                let network = blade
+                    .network(&outline, plan.style)
+                    .map_err(LeafError::Cells)?;
                 filled = Some(blade);
                 network
             }
             VenationPlan::Development(style) => {
                 let leaf = origin.developed().ok_or(LeafError::NotDeveloped)?;
-                leaf.network(self.length_mm, *style)?
+                leaf.network(self.length_mm, *style)
+                    .map_err(LeafError::Cells)?
             }
         };
         let mut lamina = Lamina {

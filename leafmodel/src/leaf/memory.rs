@@ -66,7 +66,7 @@ impl LeafPlan {
         let faces = if self.form.closed { 2.0 } else { 1.0 };
         let mut mosaic = 0.0;
         if let Some(pattern) = &self.mosaic {
-            pattern.validate()?;
+            pattern.validate().map_err(LeafError::Mosaic)?;
             mosaic = pattern.plan.memory_bytes();
         }
         Ok(LeafMemory {

@@ -1,27 +1,29 @@
 //! What an outline is made from: one of several kinds of contour, and teeth on it.
 
-use thiserror::Error;
-
-use crate::development::{DevelopedLeaf, DevelopmentError, DevelopmentPlan};
-use crate::shape::contour_curve::{ContourCurve, ContourCurveError};
-use crate::shape::cubic_margin::{CubicMargin, CubicMarginError};
-use crate::shape::growth_form::{GrowthForm, GrowthFormError};
+use crate::development::{DevelopedLeaf, DevelopmentPlan};
+use crate::document::declared::{Declared, Kinds};
+use crate::document::keys::{Keys, Variant};
+use crate::not_grown::{NotGrown, not_grown};
+use crate::shape::contour_curve::ContourCurve;
+use crate::shape::cubic_margin::CubicMargin;
+use crate::shape::growth_form::{GrowthForm, GrowthFormError, GrowthFormProblem, Side};
 use crate::shape::outline::{Outline, OutlineError};
-use crate::shape::specimen::{Specimen, SpecimenError};
+use crate::shape::specimen::Specimen;
 use crate::shape::svg_path::SvgContour;
 use crate::shape::teeth::{TeethError, ToothWave, toothed};
-use crate::transport::{TransportError, TransportLeaf, TransportPlan};
+use crate::transport::{TransportLeaf, TransportPlan};
 
-/// Where the smooth contour comes from.
-#[derive(Clone, Debug, PartialEq)]
+/// What the margin is made from.
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub enum Contour {
     /// Local growth rates bring it forth.
     GrowthAlgorithm(GrowthForm),
-    /// A smooth curve through control points.
+    /// A smooth curve through points.
+    #[key(default = ContourCurve { points: Vec::new(), mirrored: true })]
     Curve(ContourCurve),
     /// A path of an SVG file.
     Svg(SvgContour),
-    /// Two cubic splines by their angles and lengths.
+    /// Two cubic splines.
     Cubic(CubicMargin),
     /// A leaf that grows as the cheapest transport network.
     Transport(TransportPlan),
@@ -29,77 +31,33 @@ pub enum Contour {
     Development(DevelopmentPlan),
 }
 
-/// Everything that decides an outline.
-#[derive(Clone, Debug, PartialEq)]
+/// A contour, teeth on it, and how it is bent.
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct OutlinePlan {
-    /// The contour without teeth.
-    pub contour: Contour,
-    /// Waves of teeth along it, at most 20; none is an entire margin.
+    /// Waves of teeth along the margin.
+    #[key(
+        "teeth",
+        list(
+            most = 20,
+            wanted = "a list of at most 20 waves, such as { per_side = 20, height = 0.02 }"
+        )
+    )]
     pub teeth: Vec<ToothWave>,
-    /// How the contour of a specimen departs from it: base, apex, unlike sides.
+    /// What makes the contour that of a specimen.
+    #[key(with = unbent)]
+    #[key(flat)]
     pub specimen: Specimen,
+    /// The smooth contour.
+    #[key(flat)]
+    pub contour: Contour,
 }
 
-/// Why a plan gives no outline.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum OutlinePlanError {
-    /// A length that no leaf has.
-    #[error("length_mm is {value}, outside 0.001 to 100000 (millimetres)")]
-    Length {
-        /// What it was.
-        value: f64,
-    },
-    /// The growth algorithm.
-    #[error(transparent)]
-    GrowthAlgorithm(#[from] GrowthFormError),
-    /// Control points.
-    #[error(transparent)]
-    Curve(#[from] ContourCurveError),
-    /// The path of an SVG file.
-    #[error("\"{file}\" holds a path that is no margin: {problem}")]
-    Svg {
-        /// The file's name.
-        file: String,
-        /// What is wrong with the path.
-        problem: OutlineError,
-    },
-    /// An end of the midrib lies off the path.
-    #[error("the {end} ({x}, {y}) lies neither on the path of \"{file}\" nor inside it")]
-    SvgEnd {
-        /// The file's name.
-        file: String,
-        /// `base` or `apex`.
-        end: &'static str,
-        /// Where it lies in the coordinates of the file.
-        x: f64,
-        /// Likewise, downwards.
-        y: f64,
-    },
-    /// Cubic splines.
-    #[error(transparent)]
-    Cubic(#[from] CubicMarginError),
-    /// The transport leaf.
-    #[error(transparent)]
-    Transport(#[from] TransportError),
-    /// The leaf that develops from its margin.
-    #[error(transparent)]
-    Development(#[from] DevelopmentError),
-    /// Base, apex or asymmetry.
-    #[error(transparent)]
-    Specimen(#[from] SpecimenError),
-    /// Veins or cells have come with the contour and would not follow it.
-    #[error(
-        "the margin of a leaf that {grows} comes with what is inside it and cannot be bent: {key} is for other contours"
-    )]
-    GrownInside {
-        /// `develops` or `grows as a transport network`.
-        grows: &'static str,
-        /// The first key that would bend it.
-        key: &'static str,
-    },
-    /// Teeth.
-    #[error(transparent)]
-    Teeth(#[from] TeethError),
+/// Lets a contour of another kind than the preset's not be bent as that was.
+fn unbent(plan: &mut OutlinePlan, keys: &mut Keys<'_>) {
+    let is_other = |kind: &Variant<Contour>| keys.has(kind.name) && !(kind.is)(&plan.contour);
+    if Contour::KINDS.iter().any(is_other) {
+        plan.specimen = Specimen::default();
+    }
 }
 
 /// What an outline is the margin of.
@@ -174,7 +132,7 @@ impl OutlinePlan {
     }
 
     /// Refuses to bend a contour that has brought forth what is inside it.
-    fn check_inside(&self) -> Result<(), OutlinePlanError> {
+    fn check_inside(&self) -> Result<(), NotGrown> {
         let grows = match &self.contour {
             Contour::Transport(_) => "grows as a transport network",
             Contour::Development(_) => "develops",
@@ -202,7 +160,14 @@ impl OutlinePlan {
         } else {
             "apex"
         };
-        Err(OutlinePlanError::GrownInside { grows, key })
+        let error = not_grown!(
+            "the margin of a leaf that {grows} comes with what is inside it and cannot be bent: \
+             {key} is for other contours"
+        );
+        Err(error.mend(
+            &format!("outline.{key}"),
+            "leave it out, or take another contour, such as [leaves.NAME.outline.curve]",
+        ))
     }
 
     /// The outline of a leaf whose midrib goes from the origin to (0, `length_mm`). `seed` matters
@@ -211,8 +176,8 @@ impl OutlinePlan {
     ///
     /// # Errors
     ///
-    /// [`OutlinePlanError`], naming what is out of range or why the curve is no margin.
-    pub fn grow(&self, length_mm: f64, seed: u64) -> Result<Outline, OutlinePlanError> {
+    /// [`NotGrown`], naming what is out of range or why the curve is no margin.
+    pub fn grow(&self, length_mm: f64, seed: u64) -> Result<Outline, NotGrown> {
         Ok(self.grow_with_origin(length_mm, seed)?.0)
     }
 
@@ -221,48 +186,134 @@ impl OutlinePlan {
         &self,
         length_mm: f64,
         seed: u64,
-    ) -> Result<(Outline, Origin), OutlinePlanError> {
+    ) -> Result<(Outline, Origin), NotGrown> {
         if !(1e-3..=1e5).contains(&length_mm) {
-            return Err(OutlinePlanError::Length { value: length_mm });
+            let error =
+                not_grown!("length_mm is {length_mm}, outside 0.001 to 100000 (millimetres)");
+            return Err(error.mend("length_mm", "use the length of a leaf"));
         }
         self.check_inside()?;
         let mut origin = Origin::Curve;
         let smooth = match &self.contour {
-            Contour::GrowthAlgorithm(form) => form.grow(length_mm)?,
-            Contour::Curve(curve) => curve.grow(length_mm)?,
+            Contour::GrowthAlgorithm(form) => form
+                .grow(length_mm)
+                .map_err(|error| not_grown_form(&error))?,
+            Contour::Curve(curve) => curve.grow(length_mm).map_err(|error| {
+                let help = "give the points in order, so that the curve goes around the blade once";
+                NotGrown::because(error).mend("outline.curve.points", help)
+            })?,
             Contour::Svg(contour) => contour
                 .grow(length_mm)
-                .map_err(|problem| refused(contour, problem))?,
-            Contour::Cubic(margin) => margin.grow(length_mm)?,
+                .map_err(|problem| refused(contour, &problem))?,
+            Contour::Cubic(margin) => margin.grow(length_mm).map_err(|error| {
+                let help = "use shorter handles, or angles that lead away from the midrib";
+                NotGrown::because(error).mend("outline.cubic.angle1_deg", help)
+            })?,
             Contour::Transport(plan) => {
-                let leaf = plan.grow(seed)?;
-                let outline = leaf.outline(length_mm)?;
+                let of = |error: NotGrown| error.within("outline.transport");
+                let leaf = plan.grow(seed).map_err(of)?;
+                let outline = leaf.outline(length_mm).map_err(of)?;
                 origin = Origin::Cells(leaf);
                 outline
             }
             Contour::Development(plan) => {
-                let leaf = plan.develop(seed)?;
-                let outline = leaf.outline(length_mm)?;
+                let of = |error: NotGrown| error.within("outline.development");
+                let leaf = plan.develop(seed).map_err(of)?;
+                let outline = leaf.outline(length_mm).map_err(of)?;
                 origin = Origin::Developed(leaf);
                 outline
             }
         };
-        let bent = self.specimen.applied(smooth, seed)?;
+        let bent = self.specimen.applied(smooth, seed);
+        let bent = bent.map_err(|error| error.within("outline"))?;
         let tips = self.specimen.tips();
-        Ok((toothed(&bent, &self.teeth, tips, seed)?, origin))
+        let toothed = toothed(&bent, &self.teeth, tips, seed).map_err(|error| {
+            let help = match error {
+                TeethError::NotNested { .. } => {
+                    "let per_side be a multiple of that of the wave before, or leave `nested` out"
+                }
+                TeethError::Range { .. }
+                | TeethError::TooManyWaves { .. }
+                | TeethError::NoSides
+                | TeethError::NoMargin(_) => "make the teeth lower, or fewer",
+            };
+            NotGrown::because(error).mend("outline.teeth", help)
+        })?;
+        Ok((toothed, origin))
     }
 }
 
-/// An error in the words of the file that the contour comes from.
-fn refused(contour: &SvgContour, problem: OutlineError) -> OutlinePlanError {
-    let file = contour.file.clone();
-    let OutlineError::OffBlade { end, .. } = problem else {
-        return OutlinePlanError::Svg { file, problem };
-    };
-    let [x, y] = if end == "base" {
-        contour.base
+/// The error of a path that is no margin.
+fn refused(contour: &SvgContour, problem: &OutlineError) -> NotGrown {
+    let file = &contour.file;
+    if let OutlineError::OffBlade { end, .. } = problem {
+        let [x, y] = if *end == "base" {
+            contour.base
+        } else {
+            contour.apex
+        };
+        let error =
+            not_grown!("the {end} ({x}, {y}) lies neither on the path of \"{file}\" nor inside it");
+        let help = "name a point of the contour by its coordinates in the file, y down";
+        return error.mend(&format!("outline.svg.{end}"), help);
+    }
+    let (path, help) = if *problem == OutlineError::NoMidrib {
+        (
+            "outline.svg.apex",
+            "name two different points, the foot of the midrib and its tip",
+        )
     } else {
-        contour.apex
+        (
+            "outline.svg.path",
+            "draw one closed curve that does not cross itself",
+        )
     };
-    OutlinePlanError::SvgEnd { file, end, x, y }
+    not_grown!("\"{file}\" holds a path that is no margin: {problem}").mend(path, help)
+}
+
+/// The error of a form that each of its numbers allows and that grows to no leaf all the same.
+fn not_grown_form(error: &GrowthFormError) -> NotGrown {
+    let (candidates, help): (&[&str], _) = match &error.problem {
+        GrowthFormProblem::VeinOrder { .. } => (
+            &["veins", "vein_count"],
+            "put the veins farther apart, or use more `rows`",
+        ),
+        GrowthFormProblem::VeinsCross { .. } => (
+            &["veins"],
+            "change the slope as far as that, or put the veins farther apart",
+        ),
+        GrowthFormProblem::TooWide { .. } => (
+            &["lateral_rates", "rate_ratio"],
+            "use lower lateral rates, or a larger `rate_ratio`",
+        ),
+        GrowthFormProblem::Apart => (
+            &["position"],
+            "place the axis nearer to the middle of the blade, or widen its base",
+        ),
+        GrowthFormProblem::Range(_) => (&["axes"], "use fewer axes"),
+        GrowthFormProblem::NoMargin(OutlineError::ShortMidrib { .. }) => (
+            &["axes", "lateral_rates", "rate_ratio"],
+            "use shorter axes, or lower lateral rates",
+        ),
+        GrowthFormProblem::NoMargin(_) => (
+            &["veins", "axes"],
+            "put the veins farther apart, with slopes that differ less",
+        ),
+    };
+    let mut part = "outline.growth_algorithm".to_owned();
+    for number in &error.part.axes {
+        part += &format!(".axes.{number}");
+    }
+    let mut halves = vec![part.clone()];
+    if error.part.side == Side::Left {
+        // What the left half does not have is written beside it.
+        halves.insert(0, format!("{part}.left"));
+    }
+    let mut refused = NotGrown::because(error);
+    for half in &halves {
+        for key in candidates {
+            refused = refused.mend(&format!("{half}.{key}"), help);
+        }
+    }
+    refused.mend(&format!("{part}.{}", candidates[0]), help)
 }

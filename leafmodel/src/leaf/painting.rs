@@ -26,8 +26,7 @@ impl LeafPlan {
     ///
     /// # Errors
     ///
-    /// [`LeafError::Mosaic`], [`LeafError::Tissue`], [`LeafError::NoRevenue`];
-    /// [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped) when `is_stopped` says so.
+    /// [`LeafError::Tissue`], [`LeafError::NoRevenue`], [`LeafError::Mosaic`], the last when `is_stopped` says so too.
     pub fn paint(
         &self,
         lamina: &Lamina,
@@ -43,8 +42,7 @@ impl LeafPlan {
     ///
     /// # Errors
     ///
-    /// [`LeafError::Mosaic`]; [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped) when
-    /// `is_stopped` says so.
+    /// [`LeafError::Mosaic`], also when `is_stopped` says so.
     pub fn grow_pattern(
         &self,
         lamina: &Lamina,
@@ -53,7 +51,7 @@ impl LeafPlan {
         let pattern = self.mosaic.as_ref();
         let pattern =
             pattern.map(|pattern| pattern.on_lamina(lamina.intact(), self.seed, is_stopped));
-        Ok(pattern.transpose()?)
+        pattern.transpose().map_err(LeafError::Mosaic)
     }
 
     /// As [`LeafPlan::paint`], with the mosaic that [`LeafPlan::grow_pattern`] gave for this

@@ -10,7 +10,7 @@ use crate::shape::outline::Outline;
 use crate::transport::{FilledBlade, Ladder, TransportLeaf, VeinStyle};
 use crate::venation::network::VenationNetwork;
 use crate::venation::plan::{AuxinPlan, Growth};
-use crate::venation::{Stage, grow_stages, grow_stages_around};
+use crate::venation::{Stage, grow_stages};
 
 /// Margin and veins at one time of growth, true to the size they have then, mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,7 +60,7 @@ impl LeafPlan {
         };
         Ok(match self.growing(lamina)? {
             Growing::Auxin(plan) => {
-                let stages = grow_stages(outline, plan, self.seed, steps)?;
+                let stages = grow_stages(outline, plan, None, self.seed, steps)?;
                 let stages = stages.into_iter();
                 let stage = |stage: Stage| LeafStage {
                     outline: stage.outline,
@@ -74,11 +74,16 @@ impl LeafPlan {
             }
             Growing::Cells(leaf, style) => {
                 let stages: Vec<usize> = steps.iter().map(|&step| leaf.stage_of(step)).collect();
-                all(leaf.at_scale(self.length_mm, style, &stages)?).collect()
+                all(leaf
+                    .at_scale(self.length_mm, style, &stages)
+                    .map_err(LeafError::Cells)?)
+                .collect()
             }
             Growing::Filled(blade, style) => {
                 let stages: Vec<usize> = steps.iter().map(|&step| step as usize).collect();
-                let networks = blade.networks_at(outline, style, &stages)?;
+                let networks = blade
+                    .networks_at(outline, style, &stages)
+                    .map_err(LeafError::Cells)?;
                 let stages = networks.into_iter();
                 all(stages.map(|network| (outline.clone(), network)).collect()).collect()
             }
@@ -95,12 +100,14 @@ impl LeafPlan {
         steps: &[u32],
     ) -> Result<Vec<LeafStage>, LeafError> {
         let outline = &lamina.outline;
-        let main = leaf.network(self.length_mm, MainVeinStyle::default())?;
+        let main = leaf
+            .network(self.length_mm, MainVeinStyle::default())
+            .map_err(LeafError::Cells)?;
         let later = steps
             .iter()
             .filter_map(|&step| step.checked_sub(leaf.step()));
         let later: Vec<u32> = std::iter::once(0).chain(later).collect();
-        let finer = grow_stages_around(outline, plan, &main, self.seed, &later)?;
+        let finer = grow_stages(outline, plan, Some(&main), self.seed, &later)?;
         let mut finer = finer.into_iter();
         // Main veins are as wide at the end of the development as at the start of the net.
         let first = finer
@@ -203,15 +210,17 @@ impl DevelopedLeaf {
         steps: &[u32],
     ) -> Result<Vec<LeafStage>, LeafError> {
         let stage = |&step: &u32| {
-            let young = self.at_step(step)?;
+            let young = self.at_step(step).map_err(LeafError::Cells)?;
             let share = young.length() / self.length();
             let style = MainVeinStyle {
                 base_radius_mm: (style.base_radius_mm * share).max(1e-4),
                 ..style
             };
             Ok(LeafStage {
-                outline: young.outline(length_mm * share)?,
-                network: young.network(length_mm * share, style)?,
+                outline: young.outline(length_mm * share).map_err(LeafError::Cells)?,
+                network: young
+                    .network(length_mm * share, style)
+                    .map_err(LeafError::Cells)?,
                 sources: Vec::new(),
             })
         };

@@ -1,9 +1,12 @@
 //! What veins are made from: one of several kinds of venation.
 
 use crate::development::MainVeinStyle;
+use crate::document::declared::{Declared, Kinds};
+use crate::document::keys::{Keys, Variant};
 use crate::transport::{FilledPlan, VeinStyle};
 use crate::venation::arcuate::ArcuatePlan;
-use crate::venation::plan::AuxinPlan;
+use crate::venation::plan::{AuxinPlan, Pattern};
+use document::variant;
 
 /// How the veins of a leaf come to be. Each kind goes with every contour, but that
 /// [`VenationPlan::Cells`] needs the cells of a transport leaf, and
@@ -24,6 +27,77 @@ pub enum VenationPlan {
     Transport(FilledPlan),
     /// They are the main veins with which the contour developed.
     Development(MainVeinStyle),
+}
+
+impl Kinds for VenationPlan {
+    const KINDS: &'static [Variant<Self>] = &[
+        Variant {
+            new: || AuxinPlan::default().into(),
+            is: |plan| {
+                let plan = plan.auxin();
+                plan.is_some_and(|plan| matches!(plan.pattern, Pattern::Closed(_)))
+            },
+            ..variant!(
+                "closed",
+                Self::Auxin,
+                Declared::declare,
+                "Veins grow towards auxin and meet."
+            )
+        },
+        Variant {
+            new: || {
+                let pattern = Pattern::Open;
+                Self::Auxin(AuxinPlan {
+                    pattern,
+                    ..AuxinPlan::default()
+                })
+            },
+            is: |plan| {
+                let plan = plan.auxin();
+                plan.is_some_and(|plan| plan.pattern == Pattern::Open)
+            },
+            ..variant!(
+                "open",
+                Self::Auxin,
+                Declared::declare,
+                "Veins grow towards auxin and never meet."
+            )
+        },
+        variant!(
+            "arcuate",
+            Self::Arcuate,
+            Declared::declare,
+            "Veins are splines."
+        ),
+        variant!(
+            "cells",
+            Self::Cells,
+            Declared::declare,
+            "The network that the outline of a transport leaf was grown with."
+        ),
+        variant!(
+            "transport",
+            Self::Transport,
+            Declared::declare,
+            "The cheapest transport network that supplies the blade."
+        ),
+        variant!(
+            "development",
+            Self::Development,
+            Declared::declare,
+            "The main veins alone of a leaf that develops from its margin."
+        ),
+    ];
+}
+
+impl Declared for VenationPlan {
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        keys.kind(self, Self::KINDS);
+    }
+
+    fn kinds() -> Vec<&'static str> {
+        Self::KINDS.iter().map(|kind| kind.name).collect()
+    }
 }
 
 impl From<FilledPlan> for VenationPlan {

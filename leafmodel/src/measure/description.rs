@@ -31,7 +31,7 @@ use crate::venation::architecture::{
     Agrophic, Attachment, PrimaryPattern, SecondaryEnding, SecondarySpacing,
 };
 use crate::venation::areole::areoles;
-use crate::venation::network::VenationNetwork;
+use crate::venation::network::{self, VenationNetwork};
 
 /// A vein that ends so near to the margin ends there, share of the leaf's length.
 const AT_MARGIN: f64 = 0.025;
@@ -58,7 +58,7 @@ const MANY: usize = 6;
 const UNEVEN: f64 = 1.3;
 
 /// What is found on a grown leaf.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Description {
     /// How the primaries run; none without veins.
     pub primaries: Option<PrimaryPattern>,
@@ -102,7 +102,7 @@ pub struct Description {
 
 /// Describes a leaf.
 pub fn describe(outline: &Outline, network: &VenationNetwork) -> Description {
-    let edges = tracing::ends(network);
+    let edges = network::ends(network.edges());
     let tracer = Tracer::new(outline, network, &edges);
     let length = outline.length();
     let primaries = tracer.primaries();
@@ -199,25 +199,10 @@ impl Description {
         let found = areoles(network);
         let accompanied_margin = marginal::accompanied(margin, outline, network);
         Self {
-            primaries: None,
-            lateral_primaries: 0,
-            part_at: None,
-            midrib_over_chord: None,
-            secondaries: [0, 0],
-            angles_deg: [None; 3],
-            ending: None,
-            in_teeth: None,
-            are_straight: None,
-            spacing: None,
-            spacing_cv: None,
-            intersecondaries: None,
-            attachment: None,
-            agrophic: Agrophic::Absent,
-            tertiaries: Percurrence::default(),
-            quaternaries: Percurrence::default(),
             net: Net::new(outline, &found),
             accompanied_margin,
             marginal: marginal::venation(accompanied_margin, outline, &found),
+            ..Self::default()
         }
     }
 

@@ -2,8 +2,10 @@
 
 use glam::DVec2;
 
+use super::definitions::unit;
 use super::skeleton::{Skeleton, angle_deg};
 use super::{Known, Subject};
+use crate::venation::network;
 
 /// One value of one kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +24,18 @@ pub struct Sample {
     pub place: DVec2,
 }
 
+/// Makes values of a kind, of an order and at a place.
+fn of_kind(kind: &'static str) -> impl Fn(Option<u8>, f64, DVec2) -> Sample {
+    let unit = unit(kind);
+    move |order, value, place| Sample {
+        kind,
+        order,
+        value,
+        unit,
+        place,
+    }
+}
+
 impl Subject<'_> {
     /// All values of all kinds: areoles by number, veins from junction to junction, branches,
     /// freely ending veinlets in areoles, and points of the blade with their distance to the nearest
@@ -32,49 +46,35 @@ impl Subject<'_> {
     /// the straightest.
     pub fn distributions(&self) -> Vec<Sample> {
         let mut samples = Vec::new();
+        let kinds = ["areole_area", "areole_elongation", "areole_circularity"];
+        let [area, elongation, circularity] = kinds.map(of_kind);
         for areole in self.found.iter() {
-            let mut add = |kind, value, unit| {
-                samples.push(Sample {
-                    kind,
-                    order: None,
-                    value,
-                    unit,
-                    place: areole.centroid,
-                });
-            };
-            add("areole_area", areole.area_mm2, "mm²");
-            add("areole_elongation", areole.elongation, "");
-            add("areole_circularity", areole.circularity(), "");
+            let place = areole.centroid;
+            samples.extend([
+                area(None, areole.area_mm2, place),
+                elongation(None, areole.elongation, place),
+                circularity(None, areole.circularity(), place),
+            ]);
         }
         self.add_veins(&mut samples);
         self.add_branches(&mut samples);
+        let [length, distance] = ["free_ending_length", "vein_distance"].map(of_kind);
         for ending in self
             .found
             .free_endings()
             .filter(|ending| ending.areole.is_some())
         {
-            samples.push(Sample {
-                kind: "free_ending_length",
-                order: None,
-                value: ending.length_mm,
-                unit: "mm",
-                place: ending.tip,
-            });
+            samples.push(length(None, ending.length_mm, ending.tip));
         }
         for (place, value) in self.distances() {
-            samples.push(Sample {
-                kind: "vein_distance",
-                order: None,
-                value,
-                unit: "mm",
-                place,
-            });
+            samples.push(distance(None, value, place));
         }
         samples
     }
 
     fn add_veins(&self, samples: &mut Vec<Sample>) {
         let (chains, graph) = (self.found.chains(), self.found.graph());
+        let [length, width] = ["vein_length", "vein_width"].map(of_kind);
         for chain in 0..chains.len() as u32 {
             let orders = chains
                 .edges(chain)
@@ -82,26 +82,19 @@ impl Subject<'_> {
                 .map(|&edge| graph.edges()[edge as usize].order);
             let order = orders.min().filter(|_| self.known.orders);
             let points = chains.points(chain);
-            let mut add = |kind, value| {
-                samples.push(Sample {
-                    kind,
-                    order,
-                    value,
-                    unit: "mm",
-                    place: points[points.len() / 2],
-                });
-            };
-            add("vein_length", chains.lengths[chain as usize]);
+            let place = points[points.len() / 2];
+            samples.push(length(order, chains.lengths[chain as usize], place));
             if self.known.radii {
-                add("vein_width", 2.0 * chains.radii[chain as usize]);
+                samples.push(width(order, 2.0 * chains.radii[chain as usize], place));
             }
         }
     }
 
     fn add_branches(&self, samples: &mut Vec<Sample>) {
         let graph = self.found.graph();
-        let edges: Vec<[u32; 2]> = graph.edges().iter().map(|e| [e.from, e.to]).collect();
+        let edges = network::ends(graph.edges());
         let skeleton = Skeleton::new(graph, &edges, self.network.segment_mm());
+        let angle = of_kind("branch_angle");
         for node in skeleton.nodes() {
             let out = skeleton.topology.leaving(node);
             let &[parent] = skeleton.topology.entering(node) else {
@@ -124,13 +117,8 @@ impl Subject<'_> {
                     Known { orders: false, .. } => Some(edge) != straightest,
                 };
                 if is_branch {
-                    samples.push(Sample {
-                        kind: "branch_angle",
-                        order: Some(order).filter(|_| self.known.orders),
-                        value: turn(edge),
-                        unit: "°",
-                        place: skeleton.place(node),
-                    });
+                    let order = Some(order).filter(|_| self.known.orders);
+                    samples.push(angle(order, turn(edge), skeleton.place(node)));
                 }
             }
         }

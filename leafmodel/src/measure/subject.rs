@@ -14,7 +14,7 @@ use super::{List, Measures, spanning};
 use crate::random::{Use, uniform};
 use crate::shape::outline::Outline;
 use crate::venation::areole::{Areoles, areoles};
-use crate::venation::network::VenationNetwork;
+use crate::venation::network::{self, VenationNetwork};
 
 /// Number of points of the blade at which the distance to the nearest vein is measured.
 pub(super) const PROBES: usize = 1 << 14;
@@ -102,19 +102,14 @@ impl<'a> Subject<'a> {
     /// All measures; those that need what is not known are missing.
     pub fn measures(&self, murray_exponent: f64) -> Measures {
         let (found, known, outline) = (&self.found, self.known, self.blade.outline());
-        let edges: Vec<[u32; 2]> = found
-            .graph()
-            .edges()
-            .iter()
-            .map(|e| [e.from, e.to])
-            .collect();
+        let edges = network::ends(found.graph().edges());
         let skeleton = Skeleton::new(found.graph(), &edges, self.network.segment_mm());
         let mut list = List::new(self.blade.area());
         list.shape(outline);
         list.count("crossing_count", found.graph().crossings());
-        list.number("blade_area_mm2", "mm²", self.blade.area());
+        list.number("blade_area_mm2", self.blade.area());
         list.veins(&skeleton, known);
-        list.number("spanning_tree_ratio", "", spanning::ratio(found.chains()));
+        list.number("spanning_tree_ratio", spanning::ratio(found.chains()));
         let distances: Vec<f64> = self.distances().into_iter().map(|probe| probe.1).collect();
         list.distances(&distances);
         list.areoles(found);
@@ -144,30 +139,27 @@ impl<'a> Subject<'a> {
             self.known.radii.then_some(sum)
         };
         let volume = sum(|row| row.volume_mm3);
-        list.number("vein_surface_mm2", "mm²", sum(|row| row.surface_mm2));
-        list.number("vein_volume_mm3", "mm³", volume);
+        list.number("vein_surface_mm2", sum(|row| row.surface_mm2));
+        list.number("vein_volume_mm3", volume);
         let per_area = volume
             .zip(self.blade.area())
             .map(|(volume, area)| volume / area);
-        list.number("vein_volume_per_area_mm", "mm", per_area);
+        list.number("vein_volume_per_area_mm", per_area);
         let tree = self.known.radii.then(|| nesting::nesting(&self.found));
         list.number(
             "loop_tree_asymmetry",
-            "",
             tree.as_ref().and_then(|tree| tree.asymmetry),
         );
         list.count_or_none("loop_tree_depth", tree.map(|tree| tree.depth as usize));
         list.count_or_none("centroid_count", structure.map(|found| found.count));
         list.number(
             "structure_factor_low",
-            "",
             structure.and_then(|found| found.low),
         );
         let exponent = structure.and_then(|found| found.exponent);
-        list.number("hyperuniformity_exponent", "", exponent.map(|pair| pair.0));
+        list.number("hyperuniformity_exponent", exponent.map(|pair| pair.0));
         list.number(
             "hyperuniformity_exponent_error",
-            "",
             exponent.map(|pair| pair.1),
         );
         list.supply(supply);

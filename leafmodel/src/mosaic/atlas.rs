@@ -15,10 +15,10 @@ mod chart;
 mod texels;
 
 use glam::DVec2;
-use thiserror::Error;
 
 use self::chart::{Chart, charts};
 use super::surface::{Surface, SurfacePoint};
+use crate::not_grown::{NotGrown, not_grown};
 
 /// Least gutter: a bilinear look-up reaches √2 texels beyond a chart.
 const LEAST_GUTTER: u32 = 2;
@@ -26,29 +26,6 @@ const LEAST_GUTTER: u32 = 2;
 const AGREE: f64 = 0.766;
 /// Number of bisection steps in the search for the scale.
 const SCALE_STEPS: u32 = 40;
-
-/// Why there is no atlas.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-pub enum AtlasError {
-    /// The number of texels is out of range.
-    #[error("an atlas of {texels} texels a side is not possible, it must be 16 to 16384")]
-    Texels {
-        /// Number of texels per side asked for.
-        texels: u32,
-    },
-    /// The charts with their gutters do not fit into the texels.
-    #[error(
-        "{charts} charts with gutters of {gutter} texels do not fit into {texels}² texels: raise the number of texels"
-    )]
-    TooManyCharts {
-        /// How many charts there are.
-        charts: usize,
-        /// The gutter, texels.
-        gutter: u32,
-        /// Texels per side.
-        texels: u32,
-    },
-}
 
 /// The place that a texel shows; face `u32::MAX` means none.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,22 +66,26 @@ impl Atlas {
     ///
     /// # Errors
     ///
-    /// [`AtlasError`].
-    pub fn new(surface: &Surface, texels: u32, gutter: u32) -> Result<Self, AtlasError> {
+    /// [`NotGrown`].
+    pub fn new(surface: &Surface, texels: u32, gutter: u32) -> Result<Self, NotGrown> {
         if !(16..=16384).contains(&texels) {
-            return Err(AtlasError::Texels { texels });
+            return Err(not_grown!(
+                "an atlas of {texels} texels a side is not possible, it must be 16 to 16384"
+            ));
         }
         let gutter = gutter.max(LEAST_GUTTER);
         let side = f64::from(texels);
         let finest = side / surface.total_area().sqrt();
         let charts = charts(surface, AGREE, finest);
-        let too_many = AtlasError::TooManyCharts {
-            charts: charts.len(),
-            gutter,
-            texels,
+        let too_many = || {
+            not_grown!(
+                "{} charts with gutters of {gutter} texels do not fit into {texels}² texels: raise \
+                 the number of texels",
+                charts.len()
+            )
         };
         // Even charts of size 0 need their gutters: if these do not fit, no scale does.
-        let mut places = shelves(&charts, 0.0, texels, gutter).ok_or(too_many)?;
+        let mut places = shelves(&charts, 0.0, texels, gutter).ok_or_else(too_many)?;
         let (mut low, mut high) = (0.0, 2.0 * finest);
         for _ in 0..SCALE_STEPS {
             let scale = 0.5 * (low + high);
@@ -116,7 +97,7 @@ impl Atlas {
             }
         }
         if low == 0.0 {
-            return Err(too_many);
+            return Err(too_many());
         }
         let mut in_texels = vec![[DVec2::ZERO; 3]; surface.faces().len()];
         for (chart, place) in charts.iter().zip(&places) {

@@ -7,10 +7,18 @@ mod tests;
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use thiserror::Error;
 
-pub use self::image::ControlImage;
+pub use self::image::{ControlImage, Pixels};
+use crate::document::declared::{Declared, Words};
+use crate::document::keys::Keys;
+use crate::document::limits::Limits;
 use crate::document::ranges::RangeError;
+use crate::document::sections::Names;
+use crate::document::value_kind::{Number, Text, Word};
+use crate::document::values::text_at;
+use crate::not_grown::{NotGrown, not_grown};
+
+const FACTOR: Number = Number(Limits::closed(0.0, 1000.0));
 
 /// A cylinder around the surface or a part of it, the image wrapped around it, and what the image
 /// controls. It has no effect outside the cylinder.
@@ -19,18 +27,44 @@ use crate::document::ranges::RangeError;
 /// anticlockwise seen against the axis) and its height (0 at `from`, 1 at `to`). Angle 0 lies
 /// towards +x; if the axis runs along x, towards +y. If the surface grows, a point's place on the
 /// full-grown surface is used.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct CylinderControl {
-    /// Where the axis starts, mm.
+    /// Where the axis starts.
+    #[key("from_mm", required, -1e6..=1e6)]
     pub from: DVec3,
-    /// Where the axis ends, mm.
+    /// Where the axis ends.
+    #[key("to_mm", required, -1e6..=1e6)]
+    #[key(with = axis)]
     pub to: DVec3,
-    /// Radius, mm; `None` means unlimited between the two ends.
+    /// Radius of the cylinder; left out, all between its ends.
+    #[key("radius_mm", above(0.0, 1e6))]
     pub radius_mm: Option<f64>,
     /// The image.
+    #[key(flat, with = image::image)]
     pub image: ControlImage,
     /// What it controls.
     pub steers: Steered,
+}
+
+impl Default for CylinderControl {
+    fn default() -> Self {
+        Self {
+            from: DVec3::ZERO,
+            to: DVec3::ZERO,
+            radius_mm: None,
+            image: ControlImage::Constant(0.0),
+            steers: Steered::Blocked,
+        }
+    }
+}
+
+/// Reports an axis without a length.
+fn axis(control: &mut CylinderControl, keys: &mut Keys<'_>) {
+    if keys.is_sound() && control.from == control.to {
+        let problem = "the axis has no length: it ends where it starts";
+        let help = "let the axis run through the body from end to end";
+        keys.refuse(&["to_mm"], problem.to_owned(), help);
+    }
 }
 
 /// What the grey values of an image (0 to 1) control. Cell types are numbered from 0.
@@ -62,83 +96,126 @@ pub enum Steered {
     Blocked,
 }
 
-/// Why a control is refused.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum ControlError {
-    /// The axis has no direction.
-    #[error("the axis runs from {from} mm to {to} mm; it needs two places, finite and apart")]
-    Axis {
-        /// Its start.
-        from: DVec3,
-        /// Its end.
-        to: DVec3,
-    },
-    /// A cell type does not exist.
-    #[error("it steers type {kind}, but there are {types} types (from 0)")]
-    NoSuchType {
-        /// Which one.
-        kind: u16,
-        /// How many there are.
-        types: usize,
-    },
-    /// A number is out of its range.
-    #[error("its {0}")]
-    Range(#[from] RangeError),
-    /// A picture does not have one value per pixel.
-    #[error("its picture of {width} × {height} pixels has {values} values")]
-    PictureSize {
-        /// Pixels across.
-        width: usize,
-        /// Pixels down.
-        height: usize,
-        /// How many values there are.
-        values: usize,
-    },
+/// What a control steers, as a file says it.
+#[derive(Clone, Copy, PartialEq, Words)]
+enum What {
+    InitialType,
+    DivisionRate,
+    Adhesion,
+    Blocked,
+}
+
+fn steered(steers: &mut Steered, keys: &mut Keys<'_>, types: &[String]) {
+    let (mut what, [mut kind, mut other], [mut low, mut high]) = match *steers {
+        Steered::InitialType(kind) => (What::InitialType, [Some(kind), None], [0.0, 1.0]),
+        Steered::DivisionRate { kind, low, high } => {
+            (What::DivisionRate, [kind, None], [low, high])
+        }
+        Steered::Adhesion { pair, low, high } => (What::Adhesion, pair.map(Some), [low, high]),
+        Steered::Blocked => (What::Blocked, [None; 2], [0.0, 1.0]),
+    };
+    let errors = keys.reader().map(|block| block.cx.error_count());
+    let about = "What its grey values steer.";
+    keys.required("steers", &mut what, Word(Words::WORDS), about);
+    if keys.reader().is_some_and(|block| {
+        Some(block.cx.error_count()) != errors || block.table.get("steers").is_none()
+    }) {
+        // Which keys belong here cannot be said.
+        keys.leave(&["type", "other_type", "low", "high"]);
+        return;
+    }
+    let all = keys.is_description();
+    let named = matches!(what, What::InitialType | What::Adhesion);
+    if all || what != What::Blocked {
+        let about = "The type of cell; for `division_rate` left out, all.";
+        type_of(&mut kind, keys, "type", types, named, about);
+    }
+    if all || what == What::Adhesion {
+        let about = "The other type of cell, for `adhesion`.";
+        type_of(&mut other, keys, "other_type", types, true, about);
+    }
+    if all || matches!(what, What::DivisionRate | What::Adhesion) {
+        keys.key("low", &mut low, FACTOR, "Factor where the image is black.");
+        keys.key("high", &mut high, FACTOR, "Factor where it is white.");
+    }
+    let kind_or_first = kind.unwrap_or_default();
+    *steers = match what {
+        What::InitialType => Steered::InitialType(kind_or_first),
+        What::DivisionRate => Steered::DivisionRate { kind, low, high },
+        What::Adhesion => Steered::Adhesion {
+            pair: [kind_or_first, other.unwrap_or_default()],
+            low,
+            high,
+        },
+        What::Blocked => Steered::Blocked,
+    };
+}
+
+/// The number of a type of cell by its name.
+fn type_of(
+    kind: &mut Option<u16>,
+    keys: &mut Keys<'_>,
+    key: &'static str,
+    types: &[String],
+    required: bool,
+    about: &'static str,
+) {
+    const NAME: Text = Text("the name of a type");
+    let mut name = kind.and_then(|kind| types.get(usize::from(kind)).cloned());
+    if required && !keys.is_description() {
+        let mut text = name.take().unwrap_or_default();
+        keys.required(key, &mut text, NAME, about);
+    } else {
+        keys.optional(key, &mut name, NAME, about);
+    }
+    let Some(block) = keys.reader() else {
+        return;
+    };
+    if let Some(entry) = block.table.get(key) {
+        let names = Names::of_list("type of cell", types.iter().map(String::as_str));
+        let written = text_at(block.cx, &entry.node, key);
+        let found = written.and_then(|written| names.find(block.cx, written));
+        *kind = found.map(|index| index as u16);
+    }
 }
 
 impl CylinderControl {
+    /// Its keys; `types` are the names of the cell types.
+    pub(super) fn keys(&mut self, keys: &mut Keys<'_>, types: &[String]) {
+        self.declare(keys);
+        steered(&mut self.steers, keys, types);
+    }
+
     /// Checks the axis, the image and the types named.
     ///
     /// # Errors
     ///
-    /// [`ControlError`] for the first error found.
-    pub fn validate(&self, types: usize) -> Result<(), ControlError> {
-        let length = self.from.distance(self.to);
-        if !length.is_finite() || length <= 0.0 {
-            return Err(ControlError::Axis {
-                from: self.from,
-                to: self.to,
-            });
+    /// [`NotGrown`] for the first error found.
+    pub fn validate(&self, types: usize) -> Result<(), NotGrown> {
+        self.in_range()?;
+        if self.from == self.to {
+            let (from, to) = (self.from, self.to);
+            return Err(not_grown!(
+                "the axis runs from {from} mm to {to} mm; it needs two places, finite and apart"
+            ));
         }
-        if let Some(radius) = self.radius_mm {
-            let good = radius > 0.0 && radius.is_finite();
-            check("radius_mm", radius, good, "the positive numbers")?;
+        let (kinds, factors) = match self.steers {
+            Steered::InitialType(kind) => ([Some(kind), None], [0.0; 2]),
+            Steered::DivisionRate { kind, low, high } => ([kind, None], [low, high]),
+            Steered::Adhesion { pair, low, high } => (pair.map(Some), [low, high]),
+            Steered::Blocked => ([None; 2], [0.0; 2]),
+        };
+        if let Some(kind) = kinds
+            .into_iter()
+            .flatten()
+            .find(|kind| usize::from(*kind) >= types)
+        {
+            return Err(not_grown!(
+                "it steers type {kind}, but there are {types} types (from 0)"
+            ));
         }
-        let known = |kind: u16| {
-            let missing = ControlError::NoSuchType { kind, types };
-            if usize::from(kind) < types {
-                Ok(())
-            } else {
-                Err(missing)
-            }
-        };
-        let factors = |low: f64, high: f64| {
-            let range = 0.0..=1000.0;
-            check("factor for black", low, range.contains(&low), "0 to 1000")?;
-            check("factor for white", high, range.contains(&high), "0 to 1000")
-        };
-        match self.steers {
-            Steered::InitialType(kind) => known(kind)?,
-            Steered::DivisionRate { kind, low, high } => {
-                kind.map_or(Ok(()), known)?;
-                factors(low, high)?;
-            }
-            Steered::Adhesion { pair, low, high } => {
-                known(pair[0])?;
-                known(pair[1])?;
-                factors(low, high)?;
-            }
-            Steered::Blocked => {}
+        for (path, factor) in ["low", "high"].into_iter().zip(factors) {
+            RangeError::unless((0.0..=1000.0).contains(&factor), path, factor, "0 to 1000")?;
         }
         self.image.validate()
     }
@@ -165,15 +242,6 @@ impl CylinderControl {
         let turn = if angle < 0.0 { angle + 1.0 } else { angle };
         Some(self.image.value(turn.min(1.0), height))
     }
-}
-
-pub(super) fn check(
-    field: &'static str,
-    value: f64,
-    good: bool,
-    range: &'static str,
-) -> Result<(), ControlError> {
-    Ok(RangeError::unless(good, field, value, range)?)
 }
 
 /// All controls of a plan.

@@ -24,11 +24,11 @@ use rayon::prelude::*;
 
 pub use self::sheet::SheetField;
 use super::control::{Controls, CylinderControl};
-use super::error::MosaicError;
 use super::patch::PatchFinder;
 use super::simulation::Mosaic;
 use super::surface::{Surface, SurfacePoint};
 use super::voronoi::{FACE_EDGE, Voronoi};
+use crate::not_grown::{NotGrown, not_grown};
 use crate::numeric::smooth_step;
 use crate::optics::{Contents, PerConstituent};
 use crate::plane::segment::Line;
@@ -102,22 +102,25 @@ impl TypeField {
     ///
     /// # Errors
     ///
-    /// [`MosaicError::WideBlend`] if it takes minutes to find the borders that every face feels.
+    /// [`NotGrown`] if it takes minutes to find the borders that every face feels.
     ///
     /// # Panics
     ///
     /// If a cell's type is not below `types`.
-    pub fn of_mosaic(mosaic: &Mosaic, types: usize, blend_mm: f64) -> Result<Self, MosaicError> {
+    pub fn of_mosaic(mosaic: &Mosaic, types: usize, blend_mm: f64) -> Result<Self, NotGrown> {
         let sites: Vec<SurfacePoint> = mosaic.cells.iter().map(|cell| cell.at).collect();
         let kinds: Vec<u16> = mosaic.cells.iter().map(|cell| cell.kind).collect();
         let surface = &*mosaic.surface;
         let voronoi = Voronoi::new(surface, &sites);
-        Self::limited(surface, voronoi, &kinds, types, blend_mm, MOST_LAID_OUT).ok_or(
-            MosaicError::WideBlend {
-                blend_mm,
-                faces: surface.faces().len(),
-            },
-        )
+        let field = Self::limited(surface, voronoi, &kinds, types, blend_mm, MOST_LAID_OUT);
+        field.ok_or_else(|| {
+            not_grown!(
+                "types blend over {blend_mm} mm on a surface of {} faces, which takes more than \
+                 two minutes: make `blend_mm` (of what is raised, `over_mm`) smaller, or the cells \
+                 fewer",
+                surface.faces().len()
+            )
+        })
     }
 
     /// The same from an existing tessellation.

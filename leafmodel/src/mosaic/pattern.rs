@@ -2,31 +2,68 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
-use thiserror::Error;
-
 use super::control::Controls;
 use super::paint::{SheetField, TypeField};
-use super::shapes::{ShapeError, sheet};
-use super::{Mosaic, MosaicError, MosaicPlan, Surface, SurfaceError};
-use crate::document::declared::Words;
+use super::shapes::sheet;
+use super::types::types;
+use super::{CylinderControl, Mosaic, MosaicPlan, Surface};
+use crate::document::declared::{Declared, Words};
+use crate::document::keys::{Keys, NamedList};
+use crate::not_grown::{NotGrown, not_grown};
 use crate::optics::Contents;
 use crate::shape::outline::Outline;
+use glam::DVec2;
 
 /// Edge of a mosaic's triangles over the distance between cells at the start.
 const EDGE_OVER_SPACING: f64 = 1.0;
 
 /// A mosaic whose cells hold pigments.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct MosaicPattern {
-    /// The plan of its cells.
+    /// How cells grow.
+    #[key(flat)]
     pub plan: MosaicPlan,
-    /// Contents of tissue of each type, in the order of the types.
+    /// What cells of each type hold.
     pub contents: Vec<Contents>,
-    /// Width over which cells of different types blend, mm, 0 to 100.
+    /// Width over which unlike cells blend.
+    #[key("blend_mm", 0.0..=100.0)]
     pub blend_mm: f64,
-    /// On a leaf, the faces on which cells live.
+    /// Whether the pattern goes through the blade, or each face has cells of its own, joined at the
+    /// margin; the leaf then holds the mean of the two.
+    #[key("faces", word)]
     pub faces: LeafFaces,
+}
+
+impl Default for MosaicPattern {
+    fn default() -> Self {
+        Self {
+            plan: MosaicPlan {
+                types: Vec::new(),
+                ..MosaicPlan::default()
+            },
+            contents: Vec::new(),
+            blend_mm: 0.2,
+            faces: LeafFaces::Through,
+        }
+    }
+}
+
+fn controls(controls: &mut Vec<CylinderControl>, keys: &mut Keys<'_>, types: &[String]) {
+    let mut named: Vec<(String, CylinderControl)> = std::mem::take(controls)
+        .into_iter()
+        .zip(1..)
+        .map(|(control, number)| (format!("control-{number}"), control))
+        .collect();
+    let list = NamedList {
+        required: false,
+        new: &|name: &str| (name.to_owned(), CylinderControl::default()),
+        name_of: |(name, _): &(String, CylinderControl)| name,
+    };
+    let about = "Images round cylinders that steer cells.";
+    keys.named("controls", &mut named, &list, about, |(_, one), keys| {
+        one.keys(keys, types);
+    });
+    *controls = named.into_iter().map(|(_, control)| control).collect();
 }
 
 /// The faces of a leaf on which cells live.
@@ -40,48 +77,6 @@ pub enum LeafFaces {
     Both,
 }
 
-/// Why there is no pattern.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum PatternError {
-    /// The cells.
-    #[error(transparent)]
-    Mosaic(#[from] MosaicError),
-    /// The surface on which they live.
-    #[error(transparent)]
-    Surface(#[from] SurfaceError),
-    /// The sheet or body as triangles.
-    #[error(transparent)]
-    Shape(#[from] ShapeError),
-    /// The number of contents differs from that of types.
-    #[error("there are {types} cell types and contents for {contents}")]
-    Contents {
-        /// How many types there are.
-        types: usize,
-        /// For how many there are contents.
-        contents: usize,
-    },
-    /// Cells spread over so many triangles that it would take minutes to find those near each.
-    #[error(
-        "the surface has {faces} triangles for {cells} cells, so that each triangle would be \
-         compared with {} others, {:.0e} times in all, more than {MOST_VISITS:.0e}: make the body \
-         less slender, or its mesh coarser",
-        (visits(*faces, *cells) / *faces as f64).round(),
-        visits(*faces, *cells)
-    )]
-    TooFine {
-        /// How many triangles there are.
-        faces: usize,
-        /// How many cells.
-        cells: usize,
-    },
-    /// The width of the blend is out of range.
-    #[error("blend_mm is {blend_mm}, it must be from 0 to 100")]
-    Blend {
-        /// Its width, mm.
-        blend_mm: f64,
-    },
-}
-
 /// Most triangles that are visited to find the cells near each: some 20 ns each.
 const MOST_VISITS: f64 = 3e9;
 
@@ -92,30 +87,45 @@ fn visits(faces: usize, cells: usize) -> f64 {
 }
 
 /// Refuses a surface of too many triangles for so few cells.
-fn check_fineness(faces: usize, cells: usize) -> Result<(), PatternError> {
+fn check_fineness(faces: usize, cells: usize) -> Result<(), NotGrown> {
     if visits(faces, cells) > MOST_VISITS {
-        return Err(PatternError::TooFine { faces, cells });
+        return Err(not_grown!(
+            "the surface has {faces} triangles for {cells} cells, so that each triangle would be \
+             compared with {} others, {:.0e} times in all, more than {MOST_VISITS:.0e}: make the \
+             body less slender, or its mesh coarser",
+            (visits(faces, cells) / faces as f64).round(),
+            visits(faces, cells)
+        ));
     }
     Ok(())
 }
 
 impl MosaicPattern {
-    /// Checks every number.
+    /// The keys of `mosaic`. `base` is what cells hold where they say nothing else.
+    pub(crate) fn keys(&mut self, keys: &mut Keys<'_>, base: Contents) {
+        self.declare(keys);
+        let names = types((&mut self.plan.types, &mut self.contents), keys, base);
+        controls(&mut self.plan.controls, keys, &names);
+        let about = "`start = [x, y, z]`, 0.01 to 10: size at the start over the final size; \
+            `middle` (0 to 1) and `steepness` (1 to 100) make it logistic. Cells then divide as \
+            fast as the surface makes room.";
+        let growth = &mut self.plan.growth;
+        keys.optional_block("growth", growth, Default::default, about, Declared::declare);
+    }
+
+    /// Checks plan, contents and blend.
     ///
     /// # Errors
     ///
-    /// [`PatternError`] for the first that is out of range.
-    pub fn validate(&self) -> Result<(), PatternError> {
+    /// [`NotGrown`] for the first that is wrong.
+    pub fn validate(&self) -> Result<(), NotGrown> {
+        self.in_range()?;
         self.plan.validate()?;
-        if self.contents.len() != self.plan.types.len() {
-            return Err(PatternError::Contents {
-                types: self.plan.types.len(),
-                contents: self.contents.len(),
-            });
-        }
-        if !(0.0..=100.0).contains(&self.blend_mm) {
-            let blend_mm = self.blend_mm;
-            return Err(PatternError::Blend { blend_mm });
+        let (types, contents) = (self.plan.types.len(), self.contents.len());
+        if contents != types {
+            return Err(not_grown!(
+                "there are {types} cell types and contents for {contents}"
+            ));
         }
         Ok(())
     }
@@ -135,13 +145,13 @@ impl MosaicPattern {
     ///
     /// # Errors
     ///
-    /// [`PatternError`]; [`MosaicError::Stopped`] when `is_stopped` returns true.
+    /// [`NotGrown`]; [`NotGrown`] when `is_stopped` returns true.
     pub fn grow(
         &self,
         surface: &Surface,
         seed: u64,
         is_stopped: &dyn Fn() -> bool,
-    ) -> Result<(Mosaic, TypeField), PatternError> {
+    ) -> Result<(Mosaic, TypeField), NotGrown> {
         self.validate()?;
         let days = [self.plan.days];
         let faces = surface.faces().len();
@@ -156,8 +166,8 @@ impl MosaicPattern {
     ///
     /// # Errors
     ///
-    /// [`MosaicError::WideBlend`].
-    pub fn field(&self, mosaic: &Mosaic, blend_mm: f64) -> Result<TypeField, PatternError> {
+    /// [`NotGrown`].
+    pub fn field(&self, mosaic: &Mosaic, blend_mm: f64) -> Result<TypeField, NotGrown> {
         let field = TypeField::of_mosaic(mosaic, self.plan.types.len(), blend_mm)?;
         Ok(field.heeding(Arc::clone(&mosaic.surface), &self.plan.controls))
     }
@@ -172,11 +182,11 @@ impl MosaicPattern {
         outline: &Outline,
         seed: u64,
         is_stopped: &dyn Fn() -> bool,
-    ) -> Result<LaminaPattern, PatternError> {
+    ) -> Result<LaminaPattern, NotGrown> {
         self.validate()?;
         let both = self.faces == LeafFaces::Both;
         let area = outline.area() * if both { 2.0 } else { 1.0 };
-        let shape = sheet(outline, self.edge_mm(area))?;
+        let shape = sheet(outline, self.edge_mm(area)).map_err(NotGrown::because)?;
         let one = Surface::new(shape.positions, shape.faces)?;
         let surface = if both {
             Surface::both_faces(&one)?

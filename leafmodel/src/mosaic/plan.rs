@@ -1,7 +1,8 @@
 //! The plan of a clonal mosaic.
 
 use super::control::{CylinderControl, Steered};
-use super::error::MosaicError;
+use crate::not_grown::{NotGrown, not_grown};
+
 use super::growth::SurfaceGrowth;
 use crate::document::declared::{Declared, Words};
 use crate::document::ranges::RangeError;
@@ -94,7 +95,9 @@ pub struct MosaicPlan {
     /// acts on the result of the one before.
     pub controls: Vec<CylinderControl>,
     /// Growth of the surface.
-    pub growth: SurfaceGrowth,
+    ///
+    /// Without it, the surface has its final size from the start, and cells crowd.
+    pub growth: Option<SurfaceGrowth>,
 }
 
 impl Default for MosaicPlan {
@@ -111,7 +114,7 @@ impl Default for MosaicPlan {
             radius: RadiusRule::Initial,
             types: Self::two_types([10.0, 10.0], [0.5, 0.8], 0.1, 0.0),
             controls: Vec::new(),
-            growth: SurfaceGrowth::None,
+            growth: None,
         }
     }
 }
@@ -151,50 +154,56 @@ impl MosaicPlan {
     ///
     /// # Errors
     ///
-    /// [`MosaicError`] for the first that is wrong.
-    pub fn validate(&self) -> Result<(), MosaicError> {
+    /// [`NotGrown`] for the first that is wrong.
+    pub fn validate(&self) -> Result<(), NotGrown> {
         self.in_range()?;
         let count = self.types.len();
         if !(1..=1000).contains(&count) {
-            return Err(MosaicError::Types { count });
+            return Err(not_grown!(
+                "there are {count} cell types; a mosaic has 1 to 1000"
+            ));
         }
         for kind in &self.types {
             kind.validate(count)?;
         }
         let initial = self.types.iter().map(|kind| kind.initial_probability);
-        sums_to_one(
-            "the initial probabilities of the types".into(),
-            initial.sum(),
-        )?;
+        sums_to_one("the initial probabilities of the types", initial.sum())?;
         self.adhesion_is_symmetric()?;
-        self.growth.validate()?;
+        if let Some(growth) = &self.growth {
+            growth.in_range()?;
+        }
         for (number, control) in self.controls.iter().enumerate() {
+            let part = format!("control {number} (from 0)");
             let checked = control.validate(count);
-            checked.map_err(|error| MosaicError::Control { number, error })?;
+            checked.map_err(|error| NotGrown::of(&part, error))?;
         }
         self.has_room()
     }
 
-    /// Refuses plans that are bound to end in [`MosaicError::TooManyCells`], which may take
-    /// minutes, or to take hours. The effect of controls and of the growth of the surface is not
+    /// Refuses plans that are bound to end in too many cells, which may take minutes, or to take hours. The effect of controls and of the growth of the surface is not
     /// known beforehand.
-    fn has_room(&self) -> Result<(), MosaicError> {
+    fn has_room(&self) -> Result<(), NotGrown> {
         if self.is_steered() {
             return Ok(());
         }
         for (number, kind) in self.types.iter().enumerate() {
             if self.cells_of(number, self.days) > OVERCROWDED * MOST_CELLS as f64 {
-                return Err(MosaicError::Overcrowded {
-                    name: kind.name.clone(),
-                    division_days: kind.division_days,
-                    days: self.days,
-                    most: MOST_CELLS,
-                });
+                return Err(not_grown!(
+                    "cells of type \"{}\" divide every {} days: after {} days there would be \
+                     more than {MOST_CELLS}; make the days fewer or the divisions rarer",
+                    kind.name,
+                    kind.division_days,
+                    self.days
+                ));
             }
         }
         let pairs = self.pairs();
         if pairs > MOST_PAIRS {
-            return Err(MosaicError::TooManyPairs { pairs });
+            return Err(not_grown!(
+                "cells would push each other apart {pairs:.1e} times, at most 1e10 are allowed, \
+                 which takes an hour; make the days fewer, the divisions rarer, or let `radius = \
+                 \"daily\"` shrink their reach as they divide"
+            ));
         }
         Ok(())
     }
@@ -205,7 +214,7 @@ impl MosaicPlan {
             Steered::DivisionRate { .. } | Steered::InitialType(_) => true,
             Steered::Adhesion { .. } | Steered::Blocked => false,
         });
-        steered || self.growth != SurfaceGrowth::None
+        steered || self.growth.is_some()
     }
 
     /// A lower estimate of the number of cells of a type after some days: only descendants of the
@@ -221,7 +230,7 @@ impl MosaicPlan {
     /// More cells than there will be: all divide as the fastest type does where controls let it
     /// divide most.
     pub(super) fn most_cells(&self) -> usize {
-        if self.growth != SurfaceGrowth::None {
+        if self.growth.is_some() {
             return MOST_CELLS;
         }
         let factors = self.controls.iter().map(|control| match control.steers {
@@ -262,17 +271,17 @@ impl MosaicPlan {
         self.initial_cells as f64 * OF_A_FIRST_CELL + cells * OF_A_CELL
     }
 
-    fn adhesion_is_symmetric(&self) -> Result<(), MosaicError> {
+    fn adhesion_is_symmetric(&self) -> Result<(), NotGrown> {
         for (i, first) in self.types.iter().enumerate() {
             for (j, second) in self.types.iter().enumerate().skip(i + 1) {
                 let (there, back) = (first.adhesion[j], second.adhesion[i]);
                 if there != back {
-                    return Err(MosaicError::Asymmetric {
-                        first: first.name.clone(),
-                        second: second.name.clone(),
-                        there,
-                        back,
-                    });
+                    return Err(not_grown!(
+                        "adhesion of \"{first}\" to \"{second}\" is {there}, of \"{second}\" to \
+                         \"{first}\" {back}; the two have to be equal",
+                        first = first.name,
+                        second = second.name
+                    ));
                 }
             }
         }
@@ -281,7 +290,7 @@ impl MosaicPlan {
 }
 
 impl CellType {
-    fn validate(&self, types: usize) -> Result<(), MosaicError> {
+    fn validate(&self, types: usize) -> Result<(), NotGrown> {
         let name = &self.name;
         let in_range = |key: &str, value: f64, valid: bool, limits| {
             RangeError::unless(valid, &format!("{key} of type \"{name}\""), value, limits)
@@ -294,12 +303,11 @@ impl CellType {
         in_range("initial_probability", share, good, "0 to 1")?;
         for (field, row) in [("switching", &self.switching), ("adhesion", &self.adhesion)] {
             if row.len() != types {
-                return Err(MosaicError::RowLength {
-                    field,
-                    name: name.clone(),
-                    length: row.len(),
-                    types,
-                });
+                return Err(not_grown!(
+                    "{field} of type \"{name}\" has {length} numbers; there are {types} types",
+                    name = name,
+                    length = row.len()
+                ));
             }
             for &value in row {
                 in_range(field, value, (0.0..=1.0).contains(&value), "0 to 1")?;
@@ -307,15 +315,18 @@ impl CellType {
         }
         let sum = self.switching.iter().sum();
         sums_to_one(
-            format!("the switching probabilities of type \"{name}\""),
+            &format!("the switching probabilities of type \"{name}\""),
             sum,
         )
     }
 }
 
-fn sums_to_one(field: String, sum: f64) -> Result<(), MosaicError> {
+fn sums_to_one(field: &str, sum: f64) -> Result<(), NotGrown> {
     if (sum - 1.0).abs() <= TOLERANCE {
         return Ok(());
     }
-    Err(MosaicError::NotOne { field, sum })
+    Err(not_grown!(
+        "{field} sum to {}, not to 1",
+        (1e9 * sum).round() / 1e9
+    ))
 }

@@ -25,7 +25,7 @@ const MOST_TRIANGLES: f64 = 4e6;
 const ICOSAHEDRON_EDGE: f64 = 1.051_462_224 / 0.794_654_472;
 
 /// A body or sheet as triangles.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shape {
     /// Points, mm.
     pub positions: Vec<DVec3>,

@@ -11,12 +11,12 @@ use glam::DVec3;
 use self::regions::Regions;
 use super::control::Controls;
 use super::division::{child_id, chosen, days_to_division, kind_of_child, place_of_child};
-use super::error::MosaicError;
 use super::live::Live;
 use super::plan::{MOST_CELLS, MosaicPlan, RadiusRule};
 use super::relaxation::{Bonds, Relaxation, free_walk};
 use super::surface::{Ancestry, Surface, SurfacePoint};
 use crate::document::ranges::RangeError;
+use crate::not_grown::{NotGrown, not_grown};
 use crate::random::{Use, bits, uniform};
 
 /// Number of attempts to place an initial cell before the surface counts as blocked.
@@ -63,8 +63,8 @@ impl Mosaic {
     ///
     /// # Errors
     ///
-    /// [`MosaicError`], if the plan is not valid or there are too many cells.
-    pub fn grow(surface: &Surface, plan: &MosaicPlan, seed: u64) -> Result<Self, MosaicError> {
+    /// [`NotGrown`], if the plan is not valid or there are too many cells.
+    pub fn grow(surface: &Surface, plan: &MosaicPlan, seed: u64) -> Result<Self, NotGrown> {
         let mut mosaics = Self::grow_until(surface, plan, seed, &[plan.days], &|| false)?;
         Ok(mosaics.remove(0))
     }
@@ -78,15 +78,15 @@ impl Mosaic {
     ///
     /// # Errors
     ///
-    /// As [`Mosaic::grow`]; [`MosaicError::Range`] for a day outside the plan's;
-    /// [`MosaicError::Stopped`].
+    /// As [`Mosaic::grow`]; [`NotGrown`] for a day outside the plan's;
+    /// [`NotGrown`].
     pub fn grow_until(
         surface: &Surface,
         plan: &MosaicPlan,
         seed: u64,
         days: &[f64],
         is_stopped: &dyn Fn() -> bool,
-    ) -> Result<Vec<Self>, MosaicError> {
+    ) -> Result<Vec<Self>, NotGrown> {
         Self::grow_to(surface, plan, seed, days, MOST_CELLS, is_stopped)
     }
 
@@ -98,7 +98,7 @@ impl Mosaic {
         days: &[f64],
         most_cells: usize,
         is_stopped: &dyn Fn() -> bool,
-    ) -> Result<Vec<Self>, MosaicError> {
+    ) -> Result<Vec<Self>, NotGrown> {
         plan.validate()?;
         for &day in days {
             let good = (0.0..=plan.days).contains(&day);
@@ -112,7 +112,7 @@ impl Mosaic {
         for stage in order {
             while run.event < event(days[stage]) {
                 if is_stopped() {
-                    return Err(MosaicError::Stopped);
+                    return Err(NotGrown::because("stopped"));
                 }
                 run.next_event(most_cells)?;
             }
@@ -157,8 +157,8 @@ impl<'a> Run<'a> {
         plan: &'a MosaicPlan,
         seed: u64,
         is_stopped: &dyn Fn() -> bool,
-    ) -> Result<Self, MosaicError> {
-        let size = plan.growth.size(0.0);
+    ) -> Result<Self, NotGrown> {
+        let size = plan.growth.map(|growth| growth.size(0.0));
         let at_start = size.map(|size| scaled(given, size)).transpose()?;
         let area = at_start.as_ref().unwrap_or(given).total_area();
         let cell_area = area / plan.initial_cells as f64;
@@ -189,7 +189,7 @@ impl<'a> Run<'a> {
         let uniform = vec![vec![0.0; plan.types.len()]; plan.types.len()];
         for _ in 0..plan.initial_relaxations {
             if is_stopped() {
-                return Err(MosaicError::Stopped);
+                return Err(NotGrown::because("stopped"));
             }
             // Without adhesion its controls have no effect, but blocked areas stay blocked.
             run.relax(&uniform, plan.initial_step);
@@ -202,7 +202,7 @@ impl<'a> Run<'a> {
     }
 
     /// Places the initial cells.
-    fn throw_cells(&mut self, seed: u64) -> Result<(), MosaicError> {
+    fn throw_cells(&mut self, seed: u64) -> Result<(), NotGrown> {
         let mut probabilities = Vec::new();
         for number in 0..self.plan.initial_cells {
             let id = bits(seed, Use::MosaicKind, number as u64);
@@ -214,7 +214,9 @@ impl<'a> Run<'a> {
             let free =
                 |point: &SurfacePoint| !self.controls.is_blocked(self.mature.position(point));
             let point = (0..THROWS).map(throw).find(free);
-            let point = point.ok_or(MosaicError::AllBlocked { tries: THROWS })?;
+            let point = point.ok_or_else(|| {
+                not_grown!("the blocked areas leave no room for cells: {THROWS} throws found none")
+            })?;
             probabilities.clear();
             probabilities.extend(self.plan.types.iter().map(|kind| kind.initial_probability));
             self.controls
@@ -261,7 +263,7 @@ impl<'a> Run<'a> {
     }
 
     /// Divides the cells that are due and relaxes.
-    fn next_event(&mut self, most_cells: usize) -> Result<(), MosaicError> {
+    fn next_event(&mut self, most_cells: usize) -> Result<(), NotGrown> {
         self.event += 1;
         let per_day = u64::from(self.plan.relaxations_per_day);
         if self.grown.is_some() && (self.event - 1).is_multiple_of(per_day) {
@@ -292,10 +294,11 @@ impl<'a> Run<'a> {
             self.divide(number);
         }
         if self.cells.len() > most_cells {
-            return Err(MosaicError::TooManyCells {
-                day: self.event as f64 / per_day as f64,
-                most: most_cells,
-            });
+            return Err(not_grown!(
+                "on day {} there are more than {most_cells} cells; make the days fewer or the \
+                 divisions rarer",
+                self.event as f64 / per_day as f64
+            ));
         }
         if self.plan.radius == RadiusRule::Daily && self.event.is_multiple_of(per_day) {
             let area = self.surface().total_area() / self.cells.len() as f64;
@@ -357,7 +360,7 @@ impl<'a> Run<'a> {
     }
 
     /// Grows the surface by one day; cells keep their places in the tissue.
-    fn grow_surface(&mut self) -> Result<(), MosaicError> {
+    fn grow_surface(&mut self) -> Result<(), NotGrown> {
         let per_day = f64::from(self.plan.relaxations_per_day);
         let day = (self.event - 1) as f64 / per_day + 1.0;
         let share = if self.plan.days > 0.0 {
@@ -365,7 +368,10 @@ impl<'a> Run<'a> {
         } else {
             1.0
         };
-        let (Some(size), Some(old)) = (self.plan.growth.size(share), &self.grown) else {
+        let (Some(size), Some(old)) = (
+            self.plan.growth.map(|growth| growth.size(share)),
+            &self.grown,
+        ) else {
             return Ok(());
         };
         let new = scaled(&self.mature, size)?;
@@ -381,13 +387,13 @@ impl<'a> Run<'a> {
     }
 
     /// The present state as a mosaic.
-    fn mosaic(&self, day: f64) -> Result<Mosaic, MosaicError> {
+    fn mosaic(&self, day: f64) -> Result<Mosaic, NotGrown> {
         let share = if self.plan.days > 0.0 {
             day / self.plan.days
         } else {
             1.0
         };
-        let size = self.plan.growth.size(share);
+        let size = self.plan.growth.map(|growth| growth.size(share));
         let surface =
             size.map_or_else(|| Ok(self.given.clone()), |size| scaled(self.given, size))?;
         let cell = |cell: &Live| Cell {
@@ -408,7 +414,7 @@ impl<'a> Run<'a> {
 }
 
 /// A surface at another size, from the origin.
-fn scaled(surface: &Surface, size: DVec3) -> Result<Surface, MosaicError> {
+fn scaled(surface: &Surface, size: DVec3) -> Result<Surface, NotGrown> {
     let positions = surface.positions().iter().map(|at| *at * size).collect();
-    Ok(surface.moved(positions)?)
+    surface.moved(positions)
 }

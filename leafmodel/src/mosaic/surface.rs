@@ -13,9 +13,9 @@ mod subdivide;
 #[cfg(test)]
 mod tests;
 
+use crate::not_grown::{NotGrown, not_grown};
 use crate::random::{Use, uniform};
 use glam::{DVec2, DVec3};
-use thiserror::Error;
 
 pub use self::subdivide::Ancestry;
 
@@ -25,99 +25,6 @@ const NONE: u32 = u32::MAX;
 /// Least area of a face as a share of the square of its longest edge; smaller faces have no
 /// well-defined plane.
 const LEAST_SHARE: f64 = 1e-12;
-
-/// Why a mesh is not a valid surface. Points are in millimetres; faces are numbered from 0.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum SurfaceError {
-    /// The mesh has no faces.
-    #[error("the mesh has no faces")]
-    Empty,
-    /// There are more faces or vertices than indices can number.
-    #[error("the mesh has {count} faces or vertices, more than 2³⁰")]
-    TooLarge {
-        /// Their number.
-        count: usize,
-    },
-    /// Subdivision would give too many faces.
-    #[error(
-        "to cut the mesh until no edge is longer than {max_edge_mm} mm takes more than {most} faces"
-    )]
-    TooManyFaces {
-        /// The greatest number of faces.
-        most: usize,
-        /// The longest edge wanted, mm.
-        max_edge_mm: f64,
-    },
-    /// A face refers to a vertex that does not exist.
-    #[error("face {face} names vertex {vertex}, but there are {vertices} (from 0)")]
-    NoSuchVertex {
-        /// The face.
-        face: usize,
-        /// The number of the missing vertex.
-        vertex: u32,
-        /// How many vertices there are.
-        vertices: usize,
-    },
-    /// A coordinate of a vertex is not finite.
-    #[error("vertex {vertex} is at {at}, which is not finite")]
-    NotFinite {
-        /// The vertex.
-        vertex: usize,
-        /// Its position.
-        at: DVec3,
-    },
-    /// The corners of a face lie on a line or coincide.
-    #[error("face {face} has no area; its corners are {} mm, {} mm and {} mm", corners[0], corners[1], corners[2])]
-    NoArea {
-        /// The face.
-        face: usize,
-        /// Its corners, mm.
-        corners: [DVec3; 3],
-    },
-    /// The surface branches at an edge.
-    #[error("not a manifold: the edge from {from} mm to {to} mm has {} faces ({})", faces.len(), list(faces))]
-    NotManifold {
-        /// One end of the edge, mm.
-        from: DVec3,
-        /// The other end, mm.
-        to: DVec3,
-        /// The faces at the edge.
-        faces: Vec<u32>,
-    },
-    /// Parts of the surface meet in a point without a common edge there.
-    #[error("not a manifold: parts of the mesh touch at {at} mm in a point only")]
-    Pinched {
-        /// The point, mm.
-        at: DVec3,
-    },
-    /// Two neighbouring faces have opposite orientation.
-    #[error(
-        "faces {} and {} are of opposite orientation: both run along their edge from {from} mm to {to} mm",
-        faces[0], faces[1]
-    )]
-    OppositeOrientation {
-        /// Where both start along the edge, mm.
-        from: DVec3,
-        /// Where both end along the edge, mm.
-        to: DVec3,
-        /// The two faces.
-        faces: [u32; 2],
-    },
-    /// A length is not positive.
-    #[error("{name} is {value} mm; it has to be positive and finite")]
-    NotALength {
-        /// What it is.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
-}
-
-fn list(faces: &[u32]) -> String {
-    let shown: Vec<String> = faces.iter().take(6).map(u32::to_string).collect();
-    let more = if faces.len() > 6 { ", …" } else { "" };
-    shown.join(", ") + more
-}
 
 /// A rigid motion of the plane, from one face's frame to another's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -197,8 +104,8 @@ impl Surface {
     ///
     /// # Errors
     ///
-    /// Every [`SurfaceError`] but [`SurfaceError::Pinched`] and the last; the first defect found.
-    pub fn new(positions: Vec<DVec3>, faces: Vec<[u32; 3]>) -> Result<Self, SurfaceError> {
+    /// Every [`NotGrown`] but [`NotGrown`] and the last; the first defect found.
+    pub fn new(positions: Vec<DVec3>, faces: Vec<[u32; 3]>) -> Result<Self, NotGrown> {
         let (positions, faces) = adjacency::welded(positions, faces)?;
         let keys = adjacency::keys_of_vertices(&faces);
         let (neighbours, neighbour_edges) = adjacency::pair(&positions, &faces, &keys)?;
@@ -210,7 +117,7 @@ impl Surface {
         faces: Vec<[u32; 3]>,
         neighbours: Vec<[u32; 3]>,
         neighbour_edges: Vec<[u8; 3]>,
-    ) -> Result<Self, SurfaceError> {
+    ) -> Result<Self, NotGrown> {
         let mut surface = Self {
             corners: Vec::new(),
             unfolds: Vec::new(),
@@ -229,8 +136,8 @@ impl Surface {
     ///
     /// # Errors
     ///
-    /// [`SurfaceError::Pinched`] for the first vertex with more than one fan.
-    pub fn check_vertices(&self) -> Result<(), SurfaceError> {
+    /// [`NotGrown`] for the first vertex with more than one fan.
+    pub fn check_vertices(&self) -> Result<(), NotGrown> {
         let mut walked = vec![[false; 3]; self.faces.len()];
         let mut met = vec![false; self.positions.len()];
         for face in 0..self.faces.len() {
@@ -241,7 +148,9 @@ impl Surface {
                 let vertex = self.faces[face][corner];
                 if std::mem::replace(&mut met[vertex as usize], true) {
                     let at = self.positions[vertex as usize];
-                    return Err(SurfaceError::Pinched { at });
+                    return Err(not_grown!(
+                        "not a manifold: parts of the mesh touch at {at} mm in a point only"
+                    ));
                 }
                 // In both directions around the vertex, across the edges that start and end there.
                 for side in [0, 2] {
@@ -273,12 +182,12 @@ impl Surface {
     ///
     /// # Errors
     ///
-    /// [`SurfaceError::NotFinite`], [`SurfaceError::NoArea`].
+    /// [`NotGrown`], [`NotGrown`].
     ///
     /// # Panics
     ///
     /// If the number of `positions` differs from that of the vertices.
-    pub fn moved(&self, positions: Vec<DVec3>) -> Result<Self, SurfaceError> {
+    pub fn moved(&self, positions: Vec<DVec3>) -> Result<Self, NotGrown> {
         assert_eq!(
             positions.len(),
             self.positions.len(),
@@ -294,7 +203,7 @@ impl Surface {
     }
 
     /// Computes frames, areas and unfoldings from the positions.
-    fn flatten(&mut self) -> Result<(), SurfaceError> {
+    fn flatten(&mut self) -> Result<(), NotGrown> {
         let mut total = 0.0;
         for (face, ids) in self.faces.iter().enumerate() {
             let [a, b, c] = ids.map(|id| self.positions[id as usize]);
@@ -304,10 +213,9 @@ impl Surface {
             let longest = along.length_squared().max(up.length_squared());
             let longest = longest.max(b.distance_squared(c));
             if area <= LEAST_SHARE * longest || !area.is_finite() {
-                return Err(SurfaceError::NoArea {
-                    face,
-                    corners: [a, b, c],
-                });
+                return Err(not_grown!(
+                    "face {face} has no area; its corners are {a} mm, {b} mm and {c} mm"
+                ));
             }
             let length = along.length();
             let x = along / length;

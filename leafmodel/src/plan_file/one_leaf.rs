@@ -180,7 +180,7 @@ fn known_keys(opened: &Opened, name: &str) -> Vec<KnownKey> {
     if let Some(table) = leaf.and_then(|entry| entry.node.table()) {
         let table: &Table = table;
         let block = Block::new(&cx, table, format!("leaves.{name}"), at);
-        let mut plan = super::usual_leaf(100.0);
+        let mut plan = LeafPlan::of_length(100.0);
         Keys::read(block, None, |keys| whole_leaf(&mut plan, keys));
     }
     let mut keys = cx.survey.take().unwrap_or_default();

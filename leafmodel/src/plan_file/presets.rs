@@ -1,6 +1,6 @@
 //! `preset`: the name of a leaf, or of a colour, whose numbers hold where a file says nothing else.
 
-use super::leaf::{leaf_of_preset, usual_leaf};
+use super::leaf::leaf_of_preset;
 use crate::document::context::{Context, QUOTED};
 use crate::document::error::DocumentError;
 use crate::document::keys::Keys;
@@ -18,7 +18,7 @@ impl Preset {
     /// The whole plan of the leaf.
     pub fn plan(&self) -> LeafPlan {
         let plan = self.plan.get_or_init(|| {
-            let mut plan = usual_leaf(100.0);
+            let mut plan = LeafPlan::of_length(100.0);
             species::read(self.opened(), |keys| {
                 let about = "The plan.";
                 keys.required_block("leaf", about, &[], |keys| leaf_of_preset(&mut plan, keys));

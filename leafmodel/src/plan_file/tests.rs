@@ -97,7 +97,7 @@ proptest! {
         layers in layers_by_chance(), mosaic in mosaic_by_chance(), pigments in pigments(), damage in damage(),
         (stance, surface, hairs, unevenness) in (bodies::stance(), surface(), hairs(), bodies::unevenness()),
     ) {
-        let outline = OutlinePlan { contour, teeth, specimen };
+        let outline = OutlinePlan { teeth, specimen, contour };
         let (petiole, compound) = stalks;
         let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, unevenness, layers, mosaic, senescence, form, stance, surface, hairs, petiole, compound, pigments, map_size, damage };
         // Only cells that earn anything die when they do not.

@@ -108,7 +108,8 @@ fn read_corner(cx: &Context, node: &Node, key: &str) -> Option<bool> {
 /// A contour through control points.
 #[derive(Clone, Debug, Declared, PartialEq)]
 pub struct ContourCurve {
-    /// The points are the right side, from the base `[0, 0]` to the apex `[0, 1]`, and the left side
+    /// The points are the right side, from the base `[0, 0]` to the apex `[0, 1]`, and the left
+    /// side
     /// is its mirror image. If false, they go all round.
     #[key("mirrored")]
     pub mirrored: bool,
@@ -124,12 +125,10 @@ pub enum ContourCurveError {
     /// Too few points or too many, or one that lies far outside the leaf.
     #[error("control points: {0}")]
     Range(#[from] RangeError),
-    /// A point coincides with the point before it. The point before the first is the last.
-    #[error("control point {index} lies where the one before it does")]
-    Coincident {
-        /// Which point, from 0.
-        index: usize,
-    },
+    /// A point coincides with the point before it. The point before the first is the last (which
+    /// point, from 0).
+    #[error("control point {0} lies where the one before it does")]
+    Coincident(usize),
     /// A mirrored contour does not go from base to apex.
     #[error("the {order} control point of a mirrored contour is ({x}, {y}), it must be the {end}")]
     BadEnd {
@@ -212,7 +211,7 @@ impl ContourCurve {
         for (index, point) in self.points.iter().enumerate() {
             let before = self.points[(index + points - 1) % points].place;
             if point.place == before {
-                return Err(ContourCurveError::Coincident { index });
+                return Err(ContourCurveError::Coincident(index));
             }
         }
         if self.mirrored {
@@ -359,7 +358,7 @@ mod tests {
         ));
         assert_eq!(
             spoiled(|c| c.points[2] = c.points[1]),
-            ContourCurveError::Coincident { index: 2 }
+            ContourCurveError::Coincident(2)
         );
         assert!(matches!(
             spoiled(|c| c.points[0].place[1] = 0.1),

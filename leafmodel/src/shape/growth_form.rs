@@ -31,6 +31,7 @@ mod vein_crossing;
 use glam::DVec2;
 
 pub use self::error::{FormPart, GrowthFormError, GrowthFormProblem, Side, SlopeRange};
+use self::row_curve::RowCurve;
 use self::rows::Rows;
 use super::growth::RateCurve;
 use super::outline::Outline;
@@ -150,6 +151,13 @@ impl VeinRow {
             position,
             slope,
             bend: 0.0,
+        }
+    }
+
+    fn curve(&self) -> RowCurve {
+        RowCurve {
+            slope: self.slope,
+            bend: self.bend,
         }
     }
 }

@@ -40,18 +40,12 @@ pub struct Outline {
 /// Why a polygon is not a valid margin.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum OutlineError {
-    /// Fewer than three points.
-    #[error("an outline needs at least 3 different points, it has {points}")]
-    TooFewPoints {
-        /// How many there are.
-        points: usize,
-    },
-    /// A coordinate is NaN or infinite.
-    #[error("point {index} of the outline is not finite")]
-    NotFinite {
-        /// Which point.
-        index: usize,
-    },
+    /// Fewer than three points (how many there are).
+    #[error("an outline needs at least 3 different points, it has {0}")]
+    TooFewPoints(usize),
+    /// A coordinate is NaN or infinite (which point).
+    #[error("point {0} of the outline is not finite")]
+    NotFinite(usize),
     /// Two edges cross or touch.
     #[error("edges {first} and {second} of the outline cross")]
     SelfCrossing {
@@ -99,7 +93,7 @@ impl Outline {
     /// at corner `i`, with coinciding neighbours left out).
     pub fn new(points: Vec<DVec2>, base: DVec2, apex: DVec2) -> Result<Self, OutlineError> {
         if let Some(index) = points.iter().position(|p| !p.is_finite()) {
-            return Err(OutlineError::NotFinite { index });
+            return Err(OutlineError::NotFinite(index));
         }
         let mut points = points;
         points.dedup();
@@ -107,9 +101,7 @@ impl Outline {
             points.pop();
         }
         if points.len() < 3 {
-            return Err(OutlineError::TooFewPoints {
-                points: points.len(),
-            });
+            return Err(OutlineError::TooFewPoints(points.len()));
         }
         let slabs = Slabs::new(&points);
         let (area, perimeter) = (polygon::signed_area(&points), polygon::perimeter(&points));
@@ -349,10 +341,10 @@ mod tests {
         ));
         let mut nan = square();
         nan[2].y = f64::NAN;
-        assert_eq!(outline(nan), Err(OutlineError::NotFinite { index: 2 }));
+        assert_eq!(outline(nan), Err(OutlineError::NotFinite(2)));
         assert_eq!(
             outline(square()[..2].to_vec()),
-            Err(OutlineError::TooFewPoints { points: 2 })
+            Err(OutlineError::TooFewPoints(2))
         );
         assert!(matches!(
             Outline::new(square(), DVec2::new(0.0, -1.0), DVec2::new(0.0, 2.0)),

@@ -86,16 +86,11 @@ impl Kind for Rates {
 
 /// The two values of a list of two.
 fn pair_of(node: &Node) -> Option<[&Node; 2]> {
-    match &node.value {
-        Value::List(nodes) => match nodes.as_slice() {
-            [first, second] => Some([first, second]),
-            _ => None,
-        },
-        Value::Text(_)
-        | Value::Integer(_)
-        | Value::Number(_)
-        | Value::Flag(_)
-        | Value::Other(..)
-        | Value::Table(_) => None,
+    let Value::List(nodes) = &node.value else {
+        return None;
+    };
+    match nodes.as_slice() {
+        [first, second] => Some([first, second]),
+        _ => None,
     }
 }

@@ -14,15 +14,14 @@ mod ends;
 mod tests;
 
 use glam::DVec2;
-use thiserror::Error;
 
 pub use self::asymmetry::Asymmetry;
 pub use self::ends::{ApexShape, BaseShape};
-use super::outline::{Outline, OutlineError};
+use super::outline::Outline;
 use super::teeth::LobeTips;
 use super::tips::Tip;
 use crate::document::declared::Declared;
-use crate::document::ranges::RangeError;
+use crate::not_grown::{NotGrown, not_grown};
 use crate::plane::polygon;
 
 /// Longest edge of a margin that is to be bent, as a share of the midrib's length.
@@ -65,37 +64,6 @@ impl Default for Specimen {
     }
 }
 
-/// Why a contour cannot have this base or apex.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum SpecimenError {
-    /// A number out of range.
-    #[error(transparent)]
-    Range(#[from] RangeError),
-    /// A sinus that is there already.
-    #[error(
-        "a cordate base of depth {depth} needs a contour that reaches less far below the petiole: this one goes {there:.3} below it"
-    )]
-    DeeperAlready {
-        /// The depth asked for.
-        depth: f64,
-        /// The contour's.
-        there: f64,
-    },
-    /// A contour that is too pointed for a sinus or a notch.
-    #[error("{what} of depth {depth} does not fit this contour, whose {end} is too pointed")]
-    TooPointed {
-        /// `a cordate base`, `an emarginate apex` or `a retuse apex`.
-        what: &'static str,
-        /// The depth asked for.
-        depth: f64,
-        /// `base` or `apex`.
-        end: &'static str,
-    },
-    /// The margin crosses itself.
-    #[error("the margin of the specimen is none: {0}")]
-    NoMargin(#[from] OutlineError),
-}
-
 impl Specimen {
     /// Whether the contour stays as it is but for tips.
     pub fn keeps_contour(&self) -> bool {
@@ -128,8 +96,8 @@ impl Specimen {
     ///
     /// # Errors
     ///
-    /// [`SpecimenError`].
-    pub fn applied(&self, outline: Outline, seed: u64) -> Result<Outline, SpecimenError> {
+    /// [`NotGrown`].
+    pub fn applied(&self, outline: Outline, seed: u64) -> Result<Outline, NotGrown> {
         self.in_range()?;
         if self.keeps_contour() {
             return Ok(outline);
@@ -154,7 +122,10 @@ impl Specimen {
         for p in &mut points {
             *p *= length;
         }
-        Ok(Outline::new(points, outline.base(), outline.apex())?)
+        Outline::new(points, outline.base(), outline.apex()).map_err(|error| {
+            let error = not_grown!("the margin of the specimen is none: {error}");
+            error.mend("asymmetry", "ask for smaller differences")
+        })
     }
 }
 

@@ -10,18 +10,30 @@
 //! In SVG y points down: the base is the lowest point of the contour as one sees it, the apex the
 //! highest, unless both are given.
 
+use std::fs;
+
 use glam::DVec2;
-use thiserror::Error;
 
 use super::cubic::FLATNESS;
 use super::drawing::{self, BadAttribute, Drawing, Shape};
 use super::outline::{Outline, OutlineError};
+use crate::document::context::{Context, QUOTED};
+use crate::document::declared::Declared;
+use crate::document::encoding::decoded;
+use crate::document::keys::Keys;
+use crate::document::limits::Limits;
+use crate::document::named_asset::bad_file;
+use crate::document::path::{Wanted, resolve};
+use crate::document::source::{Place, escaped};
+use crate::document::value_kind::{Numbers, Text};
+use crate::document::values::text_at;
+use crate::not_grown::{NotGrown, not_grown};
 
 /// Greatest number of corners of a polygon.
 const MOST_POINTS: usize = 1_000_000;
 
 /// A contour from an SVG file.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct SvgContour {
     /// Name of the file, as the plan gives it.
     pub file: String,
@@ -50,44 +62,106 @@ pub struct SvgReading {
     pub left_out: Vec<String>,
 }
 
-/// Why a file gives no contour.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum SvgError {
-    /// The file is not XML.
-    #[error("is no SVG file: {problem}")]
-    NotXml {
-        /// What the parser says.
-        problem: String,
-    },
-    /// There is no path.
-    #[error("has no path or basic shape that is drawn")]
-    NoPath,
-    /// No path has that `id`.
-    #[error("has no path with the id \"{id}\"")]
-    NoSuchPath {
-        /// The name.
-        id: String,
-    },
-    /// Path data, a length or a transform cannot be read.
-    #[error("has an attribute `{attribute}` that cannot be read: {problem}")]
-    BadAttribute {
-        /// `d`, `transform`, `style`, or a length of a basic shape.
-        attribute: &'static str,
-        /// What is wrong.
-        problem: String,
-    },
-    /// The path has holes or several pieces.
-    #[error("has a path of {parts} parts; an outline is one closed curve without holes")]
-    SeveralParts {
-        /// How many.
-        parts: usize,
-    },
-    /// A coordinate is not finite, or there are more than a million corners.
-    #[error("has a path that is too large: {problem}")]
-    TooLarge {
-        /// In what sense.
-        problem: &'static str,
-    },
+impl Declared for SvgContour {
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        let contour = self;
+        // Coordinates of the file.
+        let place = || Numbers(Limits::closed(-1e9, 1e9));
+        let before = contour.clone();
+        let path = Text("the path of an SVG file");
+        keys.required("path", &mut contour.file, path, "The file.");
+        let about = "`id` of the path.";
+        keys.optional("id", &mut contour.id, Text("the `id` of a path"), about);
+        if keys.is_sound() && (contour.file != before.file || contour.id != before.id) {
+            *contour = read_svg(contour, keys).unwrap_or(before);
+        }
+        let [base, apex] = if contour.points.is_empty() {
+            [[0.0; 2]; 2]
+        } else {
+            SvgContour::ends_of(&contour.points)
+        };
+        for (key, end, usual, about) in [
+            (
+                "base",
+                &mut contour.base,
+                base,
+                "Where the petiole is attached, `[x, y]` in the coordinates of the file (y down).",
+            ),
+            ("apex", &mut contour.apex, apex, "Where the midrib ends."),
+        ] {
+            let mut given = (*end != usual).then_some(*end);
+            keys.optional(key, &mut given, place(), about);
+            *end = given.unwrap_or(usual);
+        }
+    }
+}
+
+fn read_svg(named: &SvgContour, keys: &Keys<'_>) -> Option<SvgContour> {
+    const WANTED: Wanted = Wanted {
+        endings: &["svg"],
+        most_bytes: 16 << 20,
+    };
+    let block = keys.reader()?;
+    let (path, at) = text_at(block.cx, block.node("path")?, "path")?;
+    let file = resolve(block.cx, path, at, WANTED)?;
+    let text = fs::read(file)
+        .map_err(|error| format!("cannot be read: {error}"))
+        .and_then(|bytes| {
+            let decoded = decoded(&bytes).map_err(|error| error.to_string())?;
+            Ok(decoded.text.into_owned())
+        })
+        .map_err(|problem| {
+            (
+                problem,
+                "make it a readable text file, in UTF-8 for example",
+            )
+        });
+    let parsed = text.and_then(|text| {
+        let reading = SvgContour::read(path, &text, named.id.as_deref());
+        reading.map_err(|error| (error.to_string(), error.help()))
+    });
+    match parsed {
+        Ok(reading) => {
+            warn_of_guesses(block.cx, at, &reading);
+            Some(reading.contour)
+        }
+        Err((problem, help)) => {
+            bad_file(block.cx, at, path, &problem, help);
+            None
+        }
+    }
+}
+
+/// Least gap between the ends of a path, as a share of its extent, that is no rounding.
+const GAP: f64 = 1e-3;
+
+/// Tells what was done to a drawing to have a contour.
+fn warn_of_guesses(cx: &Context, at: &Place, reading: &SvgReading) {
+    let path = escaped(&reading.contour.file, 2 * QUOTED);
+    if reading.passed_over > 0 {
+        let message = format!(
+            "\"{path}\" has {} paths that are drawn, of which the first is taken",
+            reading.passed_over + 1
+        );
+        let help = "name the margin's path by its `id`";
+        cx.warn(at, "scene::first_path", message, help);
+    }
+    if !reading.left_out.is_empty() {
+        let message = format!(
+            "of \"{path}\" the following is left out: {}",
+            escaped(&reading.left_out.join("; "), 8 * QUOTED)
+        );
+        let help = "name the margin's path by its `id` if another one is meant";
+        cx.warn(at, "scene::left_out_of_drawing", message, help);
+    }
+    if reading.gap > GAP {
+        let message = format!(
+            "the path in \"{path}\" is open; a straight line over {:.2} of its extent closes it",
+            reading.gap
+        );
+        let help = "close the path in the drawing program if the margin goes on there";
+        cx.warn(at, "scene::open_path", message, help);
+    }
 }
 
 impl SvgContour {
@@ -96,12 +170,12 @@ impl SvgContour {
     ///
     /// # Errors
     ///
-    /// [`SvgError`]; its messages are written to follow the name of the file.
+    /// [`NotGrown`]; its messages are written to follow the name of the file.
     ///
     /// # Source
     ///
     /// \[svg2\], chapters 8.5 (transforms) and 9.3 (path data).
-    pub fn parse(file: &str, text: &str, id: Option<&str>) -> Result<Self, SvgError> {
+    pub fn parse(file: &str, text: &str, id: Option<&str>) -> Result<Self, NotGrown> {
         Ok(Self::read(file, text, id)?.contour)
     }
 
@@ -109,12 +183,11 @@ impl SvgContour {
     ///
     /// # Errors
     ///
-    /// [`SvgError`]; its messages are written to follow the name of the file.
-    pub fn read(file: &str, text: &str, id: Option<&str>) -> Result<SvgReading, SvgError> {
-        let document = drawing::parse(text).map_err(|problem| SvgError::NotXml { problem })?;
+    /// [`NotGrown`]; its messages are written to follow the name of the file.
+    pub fn read(file: &str, text: &str, id: Option<&str>) -> Result<SvgReading, NotGrown> {
+        let document = drawing::parse(text).map_err(no_xml)?;
         let css = drawing::style_sheets(&document);
-        let drawing =
-            Drawing::read(&document, &css).map_err(|problem| SvgError::NotXml { problem })?;
+        let drawing = Drawing::read(&document, &css).map_err(no_xml)?;
         let shape = find(&drawing, id)?;
         let others = drawing
             .drawn()
@@ -122,13 +195,22 @@ impl SvgContour {
         let passed_over = id.map_or_else(|| others.count(), |_| 0);
         let parts = shape
             .parts()
-            .map_err(
-                |BadAttribute { attribute, problem }| SvgError::BadAttribute { attribute, problem },
-            )?;
+            .map_err(|BadAttribute { attribute, problem }| {
+                let error =
+                    not_grown!("has an attribute `{attribute}` that cannot be read: {problem}");
+                let help = "mend the attribute, or save the file anew from a drawing program";
+                error.mend("path", help)
+            })?;
         let [part] = parts.as_slice() else {
             return Err(match parts.len() {
-                0 => SvgError::NoPath,
-                parts => SvgError::SeveralParts { parts },
+                0 => no_path(),
+                parts => not_grown!(
+                    "has a path of {parts} parts; an outline is one closed curve without holes"
+                )
+                .mend(
+                    "path",
+                    "keep one closed curve, or name another path by its `id`",
+                ),
             });
         };
         // Drawn taller or wider than its coordinates say.
@@ -139,8 +221,7 @@ impl SvgContour {
             cubic.0 = cubic.0.map(|p| p * stretch);
             for p in cubic.0 {
                 if !p.is_finite() {
-                    let problem = "a coordinate is not finite";
-                    return Err(SvgError::TooLarge { problem });
+                    return Err(too_large("a coordinate is not finite"));
                 }
                 (low, high) = (low.min(p), high.max(p));
             }
@@ -151,8 +232,7 @@ impl SvgContour {
         for cubic in &cubics {
             cubic.flatten(tolerance, &mut points);
             if points.len() > MOST_POINTS {
-                let problem = "it has more than a million corners";
-                return Err(SvgError::TooLarge { problem });
+                return Err(too_large("it has more than a million corners"));
             }
         }
         let apart = points[0].distance(points[points.len() - 1]);
@@ -218,19 +298,39 @@ impl SvgContour {
     }
 }
 
+fn no_xml(problem: impl std::fmt::Display) -> NotGrown {
+    not_grown!("is no SVG file: {problem}").mend("path", "save it as plain SVG")
+}
+
+fn no_path() -> NotGrown {
+    let error = NotGrown::because("has no path or basic shape that is drawn");
+    error.mend(
+        "path",
+        "draw the margin as one `<path>`, outside of `<defs>`",
+    )
+}
+
+fn too_large(problem: &str) -> NotGrown {
+    not_grown!("has a path that is too large: {problem}").mend("path", "simplify the path")
+}
+
 /// The path or basic shape of that `id`, drawn if there is one, or else the first path that is drawn,
 /// or else the first shape.
-fn find<'a, 'd>(drawing: &'a Drawing<'d>, id: Option<&str>) -> Result<&'a Shape<'d>, SvgError> {
+fn find<'a, 'd>(drawing: &'a Drawing<'d>, id: Option<&str>) -> Result<&'a Shape<'d>, NotGrown> {
     let Some(id) = id else {
         let mut paths = drawing.drawn().filter(|shape| shape.is_path());
         let first = paths.next().or_else(|| drawing.drawn().next());
-        return first.ok_or(SvgError::NoPath);
+        return first.ok_or_else(no_path);
     };
     let called = |shape: &&Shape| shape.node.attribute("id") == Some(id);
     let drawn = drawing.drawn().find(called);
     drawn
         .or_else(|| drawing.shapes.iter().find(called))
-        .ok_or_else(|| SvgError::NoSuchPath { id: id.to_owned() })
+        .ok_or_else(|| {
+            let error = not_grown!("has no path with the id \"{id}\"");
+            let help = "look the path's `id` up in the file, or leave `id` out for the first path";
+            error.mend("path", help)
+        })
 }
 
 /// What is left out of a drawing besides other shapes of the same kind.

@@ -24,6 +24,7 @@ use super::tips::{Tip, lobe_corners, with_tips};
 use crate::document::declared::Declared;
 use crate::document::ranges::RangeError;
 use crate::plane::polygon::{self, Place};
+use crate::plane::polyline;
 
 /// Greatest number of waves of a margin.
 const MOST_WAVES: usize = 20;
@@ -156,11 +157,7 @@ pub fn toothed(
     let found: Vec<(usize, Tip)> = found
         .filter_map(|(i, (_, tip))| Some((i, (*tip)?)))
         .collect();
-    let (points, knobs) = if found.is_empty() {
-        (points, Vec::new())
-    } else {
-        with_tips(&points, &found, outline.length())
-    };
+    let (points, knobs) = with_tips(&points, &found, outline.length());
     Ok(Outline::new(points, outline.base(), outline.apex())?.with_knobs(knobs))
 }
 
@@ -199,12 +196,8 @@ struct Side {
 impl Side {
     /// A side through these points; `None` if all coincide.
     fn new(points: Vec<DVec2>) -> Option<Self> {
-        let mut length = 0.0;
-        let mut shares = vec![0.0];
-        for edge in points.windows(2) {
-            length += (edge[1] - edge[0]).length();
-            shares.push(length);
-        }
+        let mut shares = polyline::lengths(&points);
+        let length = shares[shares.len() - 1];
         if length <= 0.0 {
             return None;
         }

@@ -7,46 +7,88 @@
 //! - **Left out**: overhangs. Points move along the normal alone.
 
 use glam::DVec3;
-use thiserror::Error;
 
+use crate::document::declared::Declared;
+use crate::document::keys::Keys;
+use crate::document::limits::Limits;
+use crate::document::value_kind::{MapOf, Number};
 use crate::mosaic::paint::TypeField;
-use crate::mosaic::{Ancestry, Surface, SurfaceError, SurfacePoint};
+use crate::mosaic::{Ancestry, Surface, SurfacePoint};
+use crate::not_grown::{NotGrown, not_grown};
 
 /// Edges of the surface's triangles over the width of the slope.
 const EDGE_OVER_SLOPE: f64 = 1.0 / 3.0;
 
 /// Types of cells whose tissue stands out from the surface.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub struct Raised {
     /// How high tissue of each type stands, mm, in the order of the types; furrows are below 0.
     pub heights_mm: Vec<f64>,
-    /// Width over which it rises, from the border inwards, mm, above 0.
+    /// Width over which it rises, from the border of the tissue inwards.
+    #[key("over_mm", above(0.0, MOST_MM))]
     pub over_mm: f64,
 }
 
 /// Greatest height and greatest depth, mm.
 const MOST_MM: f64 = 1000.0;
 
+impl Default for Raised {
+    fn default() -> Self {
+        Self {
+            heights_mm: Vec::new(),
+            over_mm: 1.0,
+        }
+    }
+}
+
 impl Raised {
-    /// Checks the numbers, for a mosaic of so many types.
+    /// Its keys; `types` are the names of the cell types.
+    pub(super) fn keys(&mut self, keys: &mut Keys<'_>, types: &[String]) {
+        let of_types = types.iter().cloned().zip(self.heights_mm.iter().copied());
+        let mut heights: Vec<(String, f64)> = of_types.filter(|(_, mm)| *mm != 0.0).collect();
+        let limits = Number(Limits::closed(-MOST_MM, MOST_MM));
+        let about = "A table from types of cells to how high their tissue stands; others have 0.";
+        keys.required("heights_mm", &mut heights, MapOf(limits), about);
+        self.declare(keys);
+        self.heights_mm = vec![0.0; types.len()];
+        for (name, mm) in heights {
+            if let Some(kind) = types.iter().position(|one| *one == name) {
+                self.heights_mm[kind] = mm;
+                continue;
+            }
+            let problem = format!("`{name}` is no type of cell of the mosaic");
+            let help = if types.is_empty() {
+                "give the body a `mosaic`".to_owned()
+            } else {
+                format!("write one of {}", types.join(", "))
+            };
+            keys.refuse(&["heights_mm", &name], problem, &help);
+        }
+    }
+
+    /// Checks the numbers, for a mosaic of so many types, if there is one.
     ///
     /// # Errors
     ///
-    /// [`RaisedError`] for the first that is out of range.
-    pub(super) fn validate(&self, types: usize) -> Result<(), RaisedError> {
-        if self.heights_mm.len() != types {
-            let given = self.heights_mm.len();
-            return Err(RaisedError::Heights { types, given });
+    /// [`NotGrown`] for the first that is out of range.
+    pub(super) fn validate(&self, types: Option<usize>) -> Result<(), NotGrown> {
+        let Some(types) = types else {
+            let problem = "the body has no mosaic, whose cells could stand out";
+            return Err(NotGrown::because(problem));
+        };
+        let given = self.heights_mm.len();
+        if given != types {
+            return Err(not_grown!(
+                "there are {types} cell types and heights for {given}"
+            ));
         }
         let high = |height: &&f64| !(-MOST_MM..=MOST_MM).contains(*height);
-        if let Some(&height_mm) = self.heights_mm.iter().find(high) {
-            return Err(RaisedError::Height { height_mm });
+        if let Some(height_mm) = self.heights_mm.iter().find(high) {
+            return Err(not_grown!(
+                "a height is {height_mm} mm, it must be from -1000 to 1000"
+            ));
         }
-        if !(self.over_mm > 0.0 && self.over_mm <= MOST_MM) {
-            let over_mm = self.over_mm;
-            return Err(RaisedError::Slope { over_mm });
-        }
-        Ok(())
+        Ok(self.in_range()?)
     }
 
     /// Longest edge of the triangles that show it, mm.
@@ -66,34 +108,6 @@ impl Raised {
         let rise = |(height, weight): (&f64, &f64)| height * (2.0 * weight - 1.0).max(0.0);
         self.heights_mm.iter().zip(&*weights).map(rise).sum()
     }
-}
-
-/// Why tissue cannot be raised.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum RaisedError {
-    /// There is no mosaic whose cells it could be.
-    #[error("the body has no mosaic, whose cells could stand out")]
-    NoMosaic,
-    /// The number of heights differs from that of types.
-    #[error("there are {types} cell types and heights for {given}")]
-    Heights {
-        /// How many types there are.
-        types: usize,
-        /// For how many there are heights.
-        given: usize,
-    },
-    /// A height is out of range.
-    #[error("a height is {height_mm} mm, it must be from -1000 to 1000")]
-    Height {
-        /// The height, mm.
-        height_mm: f64,
-    },
-    /// The width of the slope is out of range.
-    #[error("over_mm is {over_mm}, it must be above 0 and at most 1000")]
-    Slope {
-        /// The width, mm.
-        over_mm: f64,
-    },
 }
 
 /// A surface whose points have moved along their normals.
@@ -163,7 +177,7 @@ impl Relief {
 pub(super) fn fine(
     surface: &Surface,
     raised: Option<&Raised>,
-) -> Result<(Surface, Ancestry), SurfaceError> {
+) -> Result<(Surface, Ancestry), NotGrown> {
     let whole = 2.0 * surface.longest_edge();
     surface.subdivided(raised.map_or(whole, Raised::edge_mm))
 }

@@ -5,33 +5,57 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use crate::buckets::Buckets;
+use crate::document::assets::Triangles;
+use crate::document::declared::Declared;
+use crate::document::keys::Keys;
+use crate::document::limits::Limits;
+use crate::document::named_asset::decoded;
+use crate::document::value_kind::{ListOf, Number, Numbers, Text};
+use crate::mosaic::Surface;
 use crate::mosaic::shapes::{
     Shape, ShapeError, ellipsoid, ellipsoid_triangles, lathe, rounded_cube,
 };
 
-/// The shape of a body, mm.
-#[derive(Clone, Debug, PartialEq)]
+/// The shape of a body.
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub enum SolidShape {
-    /// An ellipsoid around the origin; a sphere if its semi-axes are equal.
+    /// About the origin.
+    Sphere {
+        /// Its radius.
+        #[key("radius_mm", required, within(EXTENTS_MM), default = 1.0)]
+        radius_mm: f64,
+    },
+    /// About the origin.
     Ellipsoid {
-        /// Half the extents along x, y and z.
+        /// Half its extents along x, y and z.
+        #[key("semi_axes_mm", required, within(EXTENTS_MM), default = DVec3::ONE)]
         semi_axes_mm: DVec3,
     },
-    /// A cube around the origin with rounded edges.
+    /// About the origin.
+    ///
+    /// It is a cube with rounded edges.
     RoundedCube {
-        /// Length of a side.
+        /// Its side.
+        #[key("side_mm", required, within(EXTENTS_MM), default = 2e5)]
         side_mm: f64,
-        /// Radius of its edges, up to half the side.
+        /// Radius of the edges, half a side at most.
+        #[key("corner_radius_mm", required, above(0.0, 0.5 * *side_mm), default = 1.0)]
         corner_radius_mm: f64,
     },
-    /// A solid of revolution: a smooth profile around the z axis.
+    /// Turned about the z axis.
+    #[key(last = turned)]
     Lathe {
         /// Points (distance from the axis, height), mm, from the lowest part of the profile on.
+        #[key(flat, with = profile)]
         profile_mm: Vec<DVec2>,
     },
-    /// An imported mesh.
+    /// A file.
+    #[key(with = mesh)]
     Mesh(Arc<SolidMesh>),
 }
+
+/// Extents of bodies.
+const EXTENTS_MM: Limits = Limits::closed(0.01, 1e5);
 
 /// An imported mesh and its file.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +68,88 @@ pub struct SolidMesh {
     pub shape: Shape,
 }
 
+impl Default for SolidMesh {
+    fn default() -> Self {
+        Self {
+            file: String::new(),
+            scale_mm: 1.0,
+            shape: Shape::default(),
+        }
+    }
+}
+
+fn profile(profile_mm: &mut Vec<DVec2>, keys: &mut Keys<'_>) {
+    let mut points: Vec<[f64; 2]> = profile_mm.iter().map(DVec2::to_array).collect();
+    let list = ListOf {
+        of: Numbers::<2>(Limits::closed(-1e5, 1e5)),
+        least: 2,
+        most: 1000,
+        wanted: "a list of 2 to 1000 points, [distance from the axis, height]",
+    };
+    let about = "Points from below, [distance from the axis, height].";
+    keys.required("profile_mm", &mut points, list, about);
+    *profile_mm = points.into_iter().map(DVec2::from_array).collect();
+}
+
+/// Reports points that make no body once they are turned about the axis.
+fn turned(shape: &mut SolidShape, keys: &mut Keys<'_>) {
+    if keys.is_sound()
+        && let Err(error) = shape.area()
+    {
+        let help = "let the profile run from below, on one side of the axis";
+        keys.refuse(&["profile_mm"], error.to_string(), help);
+    }
+}
+
+fn mesh(mesh: &mut Arc<SolidMesh>, keys: &mut Keys<'_>) {
+    let (mut file, mut scale_mm) = (mesh.file.clone(), mesh.scale_mm);
+    let path = Text("the path of a PLY or OBJ file");
+    keys.required("path", &mut file, path, "The file.");
+    let limits = Number(Limits::above(0.0, 1e6));
+    keys.key("scale_mm", &mut scale_mm, limits, "The file's unit.");
+    let shape = decoded(keys, "path", &["ply", "obj"], |assets, path| {
+        let read = assets.mesh(path, scale_mm)?;
+        if let (Some(dropped), Some(block)) = (&read.dropped, keys.reader())
+            && let Some(node) = block.node("path")
+        {
+            let code = "scene::faces_left_out";
+            let help = "mend the mesh: each face has an area and corners of its own";
+            block.cx.warn(&node.at, code, dropped.clone(), help);
+        }
+        shape_of(read)
+    });
+    if let Some(shape) = shape {
+        *mesh = Arc::new(SolidMesh {
+            file,
+            scale_mm,
+            shape,
+        });
+    }
+}
+
+/// A mesh on which cells can live, with normals of length 1.
+fn shape_of(read: Triangles) -> Result<Shape, (String, &'static str)> {
+    const MEND: &str = "mend the mesh: each edge has at most two faces, both turned the same way, and the faces around a point hang together";
+    let Triangles {
+        positions, faces, ..
+    } = read;
+    Surface::new(positions.clone(), faces.clone())
+        .and_then(|surface| surface.check_vertices())
+        .map_err(|error| (error.to_string(), MEND))?;
+    let Some(normals) = read.normals else {
+        return Ok(creased(&positions, &faces));
+    };
+    // Those that have none are the mean of the faces around.
+    let smooth = smooth_normals(&positions, &faces);
+    let both = normals.iter().zip(smooth);
+    let normals = both.map(|(normal, smooth)| normal.try_normalize().unwrap_or(smooth));
+    Ok(Shape {
+        normals: normals.collect(),
+        positions,
+        faces,
+    })
+}
+
 impl SolidShape {
     /// Area, mm², to within a tenth, computed from few triangles.
     ///
@@ -52,6 +158,7 @@ impl SolidShape {
     /// [`ShapeError`] if there is no such shape.
     pub fn area(&self) -> Result<f64, ShapeError> {
         let size = match self {
+            Self::Sphere { radius_mm } => *radius_mm,
             Self::Ellipsoid { semi_axes_mm } => semi_axes_mm.max_element(),
             Self::RoundedCube { side_mm, .. } => *side_mm,
             // The height of the profile above the origin does not matter.
@@ -78,6 +185,9 @@ impl SolidShape {
         area: f64,
     ) -> Result<f64, ShapeError> {
         match self {
+            Self::Sphere { radius_mm } => {
+                ellipsoid_triangles(DVec3::splat(*radius_mm), max_edge_mm)
+            }
             Self::Ellipsoid { semi_axes_mm } => ellipsoid_triangles(*semi_axes_mm, max_edge_mm),
             // Even ones, half as large as those whose edges are all as long as they may be.
             Self::RoundedCube { .. } | Self::Lathe { .. } => {
@@ -94,6 +204,7 @@ impl SolidShape {
     /// [`ShapeError`] if there is no such shape.
     pub fn triangles(&self, max_edge_mm: f64) -> Result<Shape, ShapeError> {
         match self {
+            Self::Sphere { radius_mm } => ellipsoid(DVec3::splat(*radius_mm), max_edge_mm),
             Self::Ellipsoid { semi_axes_mm } => ellipsoid(*semi_axes_mm, max_edge_mm),
             Self::RoundedCube {
                 side_mm,

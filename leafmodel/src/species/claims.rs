@@ -89,7 +89,7 @@ impl Grown {
     }
 
     fn stages(&self, steps: &[u32]) -> Vec<Stage> {
-        grow_stages(&self.outline, self.auxin(), self.plan.seed, steps).expect("a good plan")
+        grow_stages(&self.outline, self.auxin(), None, self.plan.seed, steps).expect("a good plan")
     }
 }
 

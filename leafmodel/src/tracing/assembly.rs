@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::Frame;
 use crate::buckets::Buckets;
 use crate::plane::polyline;
-use crate::venation::network::{NetworkError, VeinEdge, VeinNode, VenationNetwork};
+use crate::venation::network::{self, NetworkError, VeinEdge, VeinNode, VenationNetwork};
 use crate::venation::order::{Look, orders};
 use crate::venation::topology::Topology;
 
@@ -185,7 +185,7 @@ pub(super) fn network(
 /// Gives edges their orders: those that hang together with the base by width and branching, as in
 /// networks that are grown; those that do not have the order whose mean radius is the nearest.
 fn give_orders(nodes: &[VeinNode], edges: &mut [VeinEdge], roots: usize, segment_mm: f64) {
-    let pairs: Vec<[u32; 2]> = edges.iter().map(|e| [e.from, e.to]).collect();
+    let pairs = network::ends(edges);
     let topology = Topology::new(nodes.len(), &pairs);
     let Ok(base_to_tip) = topology.base_to_tip() else {
         return; // The network refuses a circle, with its place.

@@ -5,7 +5,7 @@
 //! is cut into even pieces, and further wherever the smooth line is more than a bound off them
 //! (\[douglas1973\]).
 
-use crate::plane::segment;
+use crate::plane::{polyline, segment};
 use glam::DVec2;
 
 /// Standard deviation of the Gaussian along lines, points.
@@ -14,40 +14,29 @@ const DEVIATION: f64 = 2.0;
 /// Points on either side that the Gaussian takes in.
 const REACH: usize = 6;
 
-fn weights() -> [f64; REACH + 1] {
-    std::array::from_fn(|i| {
-        let off = i as f64 / DEVIATION;
-        libm::exp(-0.5 * off * off)
-    })
-}
-
 /// The line without its steps. Both ends stay; towards them the Gaussian takes in fewer points, as
 /// many on both sides.
 pub(super) fn smooth(points: &[DVec2]) -> Vec<DVec2> {
-    let weights = weights();
-    let last = points.len() - 1;
-    (0..points.len())
-        .map(|i| {
-            let half = REACH.min(i).min(last - i);
-            let (mut sum, mut total) = (points[i] * weights[0], weights[0]);
-            for (k, weight) in weights.iter().enumerate().take(half + 1).skip(1) {
-                sum += (points[i - k] + points[i + k]) * *weight;
-                total += 2.0 * weight;
-            }
-            sum / total
-        })
-        .collect()
+    smoothed(points, |i| REACH.min(i).min(points.len() - 1 - i))
 }
 
 /// The same for a closed line.
 pub(super) fn smooth_ring(points: &[DVec2]) -> Vec<DVec2> {
-    let weights = weights();
+    let half = REACH.min((points.len().max(1) - 1) / 2);
+    smoothed(points, |_| half)
+}
+
+/// The points of a ring after a Gaussian that takes in `half(i)` points on either side of point `i`.
+fn smoothed(points: &[DVec2], half: impl Fn(usize) -> usize) -> Vec<DVec2> {
+    let weights: [f64; REACH + 1] = std::array::from_fn(|i| {
+        let off = i as f64 / DEVIATION;
+        libm::exp(-0.5 * off * off)
+    });
     let count = points.len();
-    let half = REACH.min((count.max(1) - 1) / 2);
     (0..count)
         .map(|i| {
             let (mut sum, mut total) = (points[i] * weights[0], weights[0]);
-            for (k, weight) in weights.iter().enumerate().take(half + 1).skip(1) {
+            for (k, weight) in weights.iter().enumerate().take(half(i) + 1).skip(1) {
                 sum += (points[(i + count - k) % count] + points[(i + k) % count]) * *weight;
                 total += 2.0 * weight;
             }
@@ -59,10 +48,7 @@ pub(super) fn smooth_ring(points: &[DVec2]) -> Vec<DVec2> {
 /// Points of a line, by number, that cut it into even pieces of about `piece`, and so that no point
 /// of it is farther than `bound` from the pieces.
 pub(super) fn cut(points: &[DVec2], piece: f64, bound: f64) -> Vec<usize> {
-    let mut passed = vec![0.0; points.len()];
-    for i in 1..points.len() {
-        passed[i] = passed[i - 1] + points[i].distance(points[i - 1]);
-    }
+    let passed = polyline::lengths(points);
     let length = passed[points.len() - 1];
     let pieces = (length / piece).round().max(1.0);
     let mut kept = vec![0];

@@ -67,6 +67,16 @@ pub struct Finding {
     pub place_px: Option<DVec2>,
 }
 
+impl Finding {
+    /// What was found at a place.
+    pub(super) fn at(place_px: DVec2, kind: FindingKind) -> Self {
+        Self {
+            kind,
+            place_px: Some(place_px),
+        }
+    }
+}
+
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let at = match self.place_px {
@@ -131,9 +141,8 @@ pub(super) fn clean(veins: &mut Mask, most: usize, findings: &mut Vec<Finding>) 
         ),
         (&holes, FindingKind::Holes { count: holes.len() }),
     ] {
-        if let Some((first, _)) = parts.first() {
-            let place_px = Some(veins.centre(*first as usize));
-            findings.push(Finding { kind, place_px });
+        if let Some(&(first, _)) = parts.first() {
+            findings.push(Finding::at(veins.centre(first as usize), kind));
         }
     }
 }

@@ -8,7 +8,7 @@ use super::grid::Mask;
 use super::lines::{BOUND, Lines};
 use super::margin::{boundary, simplified};
 use super::{Blade, Settings, TraceError, Traced};
-use crate::plane::{polygon, segment};
+use crate::plane::{polygon, polyline, segment};
 use crate::shape::outline::{Outline, OutlineError};
 
 /// A vein reaches the margin if it comes nearer than this many of its radii.
@@ -79,12 +79,7 @@ pub(super) fn in_millimetres(
     };
     let wanted = settings.base_px.or_else(|| {
         let place_px = blade.centre(joint?);
-        let kind = FindingKind::Petiole;
-        let place = Some(place_px);
-        findings.push(Finding {
-            kind,
-            place_px: place,
-        });
+        findings.push(Finding::at(place_px, FindingKind::Petiole));
         Some(place_px)
     });
     let wanted = wanted.unwrap_or_else(|| {
@@ -96,12 +91,7 @@ pub(super) fn in_millimetres(
             let place = widest_at_margin(&lines.veins, &margin);
             (place, "where the widest vein meets the margin")
         };
-        let kind = FindingKind::BaseGuessed { by };
-        let place = Some(place_px);
-        findings.push(Finding {
-            kind,
-            place_px: place,
-        });
+        findings.push(Finding::at(place_px, FindingKind::BaseGuessed { by }));
         place_px
     });
     let base = polygon::nearest(&margin, wanted).at;
@@ -110,14 +100,12 @@ pub(super) fn in_millimetres(
         let Some(given) = given else { continue };
         let off = polygon::nearest(&margin, given).at.distance(given);
         if off > FAR_OFF * extent {
-            findings.push(Finding {
-                kind: FindingKind::Moved {
-                    end,
-                    by_mm: off * settings.mm_per_pixel,
-                    is_outside: !blade.cells[blade.cell_at(given)],
-                },
-                place_px: Some(given),
-            });
+            let moved = FindingKind::Moved {
+                end,
+                by_mm: off * settings.mm_per_pixel,
+                is_outside: !blade.cells[blade.cell_at(given)],
+            };
+            findings.push(Finding::at(given, moved));
         }
     }
     let apex = match (settings.apex_px, &settings.blade) {
@@ -141,7 +129,7 @@ pub(super) fn in_millimetres(
     let outside = outside.filter(|node| !outline.contains(frame.to_mm(**node)));
     let share = outside.count() as f64 / lines.veins.nodes.len().max(1) as f64;
     if share > MOST_OUTSIDE {
-        return Err(TraceError::VeinsOutside { share });
+        return Err(TraceError::VeinsOutside(share));
     }
     let mut veins = lines.veins.clone();
     part_at_base(&mut veins, base);
@@ -183,10 +171,9 @@ fn outline(
             let mut line = line.to_vec();
             // Base and apex become points of it.
             for end in [frame.base_px, apex] {
-                let near = |i: &usize| line[*i].distance_squared(end);
-                let at = (0..line.len()).min_by(|a, b| near(a).total_cmp(&near(b)));
-                if let Some(at) = at {
-                    line[at] = end;
+                let nearest = polyline::nearest(&line, end);
+                if let Some(place) = line.get_mut(nearest) {
+                    *place = end;
                 }
             }
             Ok(of(&line)?)
@@ -428,12 +415,9 @@ fn roots(veins: &Veins, frame: &Frame, findings: &mut Vec<Finding>) -> Vec<u32> 
     for (number, (_, root)) in nearest.into_iter().enumerate() {
         if number != longest {
             roots.push(root);
-            findings.push(Finding {
-                kind: FindingKind::Apart {
-                    length_mm: lengths[number] * frame.mm_per_pixel,
-                },
-                place_px: Some(veins.nodes[root as usize]),
-            });
+            let length_mm = lengths[number] * frame.mm_per_pixel;
+            let place = veins.nodes[root as usize];
+            findings.push(Finding::at(place, FindingKind::Apart { length_mm }));
         }
     }
     roots

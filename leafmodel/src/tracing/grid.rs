@@ -20,7 +20,7 @@ impl Raster {
     ///
     /// [`TraceError::BadRaster`] unless there are 3 × 3 to 2²⁹ pixels, as many values, all finite.
     pub fn new(width: usize, height: usize, values: Vec<f32>) -> Result<Self, TraceError> {
-        let bad = |what: String| Err(TraceError::BadRaster { what });
+        let bad = |what: String| Err(TraceError::BadRaster(what));
         let pixels = width.saturating_mul(height);
         if width < 3 || height < 3 || pixels > MOST_PIXELS {
             return bad(format!(
@@ -70,6 +70,15 @@ impl Raster {
             height: self.height,
             values,
         }
+    }
+
+    /// The same pixels, each with the value made from its number and its old value.
+    pub(super) fn each(&self, value: impl Fn(usize, f32) -> f32 + Sync) -> Self {
+        self.mapped(|y, from, to| {
+            for ((at, to), &from) in (y * self.width..).zip(to).zip(from) {
+                *to = value(at, from);
+            }
+        })
     }
 
     /// The value at a place in pixels, between four pixel centres; the nearest outside of them.

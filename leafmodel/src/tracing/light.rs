@@ -32,31 +32,16 @@ pub(super) fn ink(
         Ink::Dark => 1.0,
         Ink::Bright => -1.0,
     };
-    let level_of = |evened: &Raster| -> Result<f32, TraceError> {
-        otsu(evened, blade).ok_or(TraceError::NoContrast)
+    let under = |level: f32, picture: &Raster| picture.each(|_, value| sign * (level - value));
+    let under_otsu = |picture: &Raster| {
+        let level = otsu(picture, blade).ok_or(TraceError::NoContrast)?;
+        Ok::<_, TraceError>(under(level, picture))
     };
     Ok(match settings.threshold {
-        Threshold::Level(level) => picture.mapped(|_, from, to| {
-            for (to, from) in to.iter_mut().zip(from) {
-                *to = sign * (level as f32 - from);
-            }
-        }),
-        Threshold::Otsu { even_light: false } => {
-            let level = level_of(&picture)?;
-            picture.mapped(|_, from, to| {
-                for (to, from) in to.iter_mut().zip(from) {
-                    *to = sign * (level - from);
-                }
-            })
-        }
+        Threshold::Level(level) => under(level as f32, &picture),
+        Threshold::Otsu { even_light: false } => under_otsu(&picture)?,
         Threshold::Otsu { even_light: true } => {
-            let evened = evened(&picture, blade, settings.veins);
-            let level = level_of(&evened)?;
-            evened.mapped(|_, from, to| {
-                for (to, from) in to.iter_mut().zip(from) {
-                    *to = sign * (level - from);
-                }
-            })
+            under_otsu(&evened(&picture, blade, settings.veins))?
         }
         Threshold::Sauvola { window_px, k } => {
             let half = (window_px / 2.0).round().max(1.0) as usize;
@@ -117,28 +102,17 @@ pub(super) fn hairlines(picture: &Raster, settings: &Settings) -> Option<Vec<boo
 /// without veins would be paler than the rest of it.
 fn smoothed_within(picture: &Raster, blade: &Mask, deviation: f64) -> Raster {
     let width = picture.width();
-    let row = |y: usize| &blade.cells[blade.cell(0, y)..][..width];
-    let masked = picture.mapped(|y, from, to| {
-        for ((to, from), is_in) in to.iter_mut().zip(from).zip(row(y)) {
-            *to = if *is_in { *from } else { 0.0 };
-        }
-    });
-    let weights = picture.mapped(|y, _, to| {
-        for (to, is_in) in to.iter_mut().zip(row(y)) {
-            *to = if *is_in { 1.0 } else { 0.0 };
-        }
-    });
+    let is_in = |at: usize| blade.cells[blade.cell(at % width, at / width)];
+    let masked = picture.each(|at, value| if is_in(at) { value } else { 0.0 });
+    let weights = picture.each(|at, _| if is_in(at) { 1.0 } else { 0.0 });
     let weights = smoothed(&weights, deviation);
     let sums = smoothed(&masked, deviation);
     let plain = smoothed(picture, deviation);
-    plain.mapped(|y, from, to| {
-        let at = y * width;
-        for (x, ((to, from), is_in)) in to.iter_mut().zip(from).zip(row(y)).enumerate() {
-            *to = if *is_in {
-                sums.values()[at + x] / weights.values()[at + x]
-            } else {
-                *from
-            };
+    plain.each(|at, value| {
+        if is_in(at) {
+            sums.values()[at] / weights.values()[at]
+        } else {
+            value
         }
     })
 }
@@ -188,7 +162,6 @@ fn evened(picture: &Raster, blade: &Mask, veins: Ink) -> Raster {
     let half = ((LIGHT_WINDOW * longer as f64 / 2.0) as usize).max(4);
     let all = Means::new(picture, blade, |_, _| true);
     let mean = all.over(picture, half);
-    let width = picture.width();
     let tissue = Means::new(picture, blade, |at, value| match veins {
         Ink::Dark => value >= mean[at],
         Ink::Bright => value <= mean[at],
@@ -201,15 +174,12 @@ fn evened(picture: &Raster, blade: &Mask, veins: Ink) -> Raster {
             *level = whole;
         }
     }
-    picture.mapped(|y, from, to| {
-        let tissue = &tissue[y * width..][..width];
-        for ((to, from), tissue) in to.iter_mut().zip(from).zip(tissue) {
-            // Light that is not there at all has nothing to be compared with.
-            *to = if *tissue > 1e-6 {
-                (from / tissue).min(4.0)
-            } else {
-                1.0
-            };
+    picture.each(|at, value| {
+        // Light that is not there at all has nothing to be compared with.
+        if tissue[at] > 1e-6 {
+            (value / tissue[at]).min(4.0)
+        } else {
+            1.0
         }
     })
 }
@@ -354,17 +324,9 @@ fn sauvola(picture: &Raster, blade: &Mask, veins: Ink, half: usize, k: f64) -> R
     let top = picture.values().iter().copied().fold(0.0_f32, f32::max);
     let dark = match veins {
         Ink::Dark => picture.clone(),
-        Ink::Bright => picture.mapped(|_, from, to| {
-            for (to, from) in to.iter_mut().zip(from) {
-                *to = top - from;
-            }
-        }),
+        Ink::Bright => picture.each(|_, value| top - value),
     };
-    let squares = dark.mapped(|_, from, to| {
-        for (to, from) in to.iter_mut().zip(from) {
-            *to = from * from;
-        }
-    });
+    let squares = dark.each(|_, value| value * value);
     let mean = Means::new(&dark, blade, |_, _| true).over(&dark, half);
     let square = Means::new(&squares, blade, |_, _| true).over(&squares, half);
     let deviation = |at: usize| (square[at] - mean[at] * mean[at]).max(0.0).sqrt();
@@ -372,13 +334,9 @@ fn sauvola(picture: &Raster, blade: &Mask, veins: Ink, half: usize, k: f64) -> R
         .into_par_iter()
         .map(deviation)
         .reduce(|| 0.0, f32::max);
-    let width = dark.width();
-    dark.mapped(|y, from, to| {
-        for (x, (to, from)) in to.iter_mut().zip(from).enumerate() {
-            let at = y * width + x;
-            let share = deviation(at) / greatest.max(1e-9);
-            *to = mean[at] * (1.0 + k as f32 * (share - 1.0)) - from;
-        }
+    dark.each(|at, value| {
+        let share = deviation(at) / greatest.max(1e-9);
+        mean[at] * (1.0 + k as f32 * (share - 1.0)) - value
     })
 }
 

@@ -40,9 +40,9 @@ pub(super) fn lines(
     let crossings = pruning.join_near_nodes(settings.crossing_radii);
     let mut graph = pruning.finished();
     if graph.chains.is_empty() {
-        return Err(TraceError::NoVeins {
-            what: format!("{spurs} spurs were cut off and nothing was left"),
-        });
+        return Err(TraceError::NoVeins(format!(
+            "{spurs} spurs were cut off and nothing was left"
+        )));
     }
     for (count, kind) in [
         (spurs, FindingKind::Spurs { count: spurs }),
@@ -161,11 +161,7 @@ fn tell_thin(
         }
     }
     if length > 0.0 {
-        findings.push(Finding {
-            kind: FindingKind::Thin {
-                length_mm: length * settings.mm_per_pixel,
-            },
-            place_px: Some(thinnest.1),
-        });
+        let length_mm = length * settings.mm_per_pixel;
+        findings.push(Finding::at(thinnest.1, FindingKind::Thin { length_mm }));
     }
 }

@@ -10,6 +10,7 @@ use glam::DVec2;
 
 use super::graph::{Chain, Graph};
 use super::grid::Raster;
+use crate::plane::polyline;
 
 /// Points before and after over which directions across are taken.
 const LOOK: usize = 4;
@@ -45,10 +46,7 @@ pub(super) fn measured(
     is_junction: [bool; 2],
 ) -> Vec<f64> {
     let count = chain.points.len();
-    let mut passed = vec![0.0; count];
-    for i in 1..count {
-        passed[i] = passed[i - 1] + chain.points[i].distance(chain.points[i - 1]);
-    }
+    let passed = polyline::lengths(&chain.points);
     let length = passed[count - 1];
     let shadow = |end: usize| {
         let node = &graph_nodes.nodes[chain.ends[end] as usize];

@@ -55,7 +55,7 @@ pub(super) fn silhouette(picture: &Raster) -> Result<Mask, TraceError> {
     keep_largest(&mut leaf);
     let share = leaf.count() as f64 / (width * height) as f64;
     if share < LEAST_LEAF {
-        return Err(TraceError::NoLeaf { share });
+        return Err(TraceError::NoLeaf(share));
     }
     if share > 1.0 - 1e-3 {
         return Err(TraceError::NoBackground);

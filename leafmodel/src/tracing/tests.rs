@@ -306,12 +306,12 @@ fn what_is_no_leaf_is_refused_with_its_reason() {
     };
     for value in [0.0, 0.5, 1.0] {
         let error = refused(&flat(value), &Settings::new(0.01));
-        assert!(matches!(error, TraceError::NoLeaf { .. }), "{error}");
+        assert!(matches!(error, TraceError::NoLeaf(_)), "{error}");
         assert_eq!(refused(&flat(value), &in_pixels()), TraceError::NoContrast);
     }
     for scale in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = refused(&flat(0.5), &Settings::new(scale));
-        assert!(matches!(error, TraceError::BadScale { .. }), "{error}");
+        assert!(matches!(error, TraceError::BadScale(_)), "{error}");
     }
     // A blade without veins.
     let square = |at: usize| (16..48).contains(&(at % 64)) && (16..48).contains(&(at / 64));
@@ -341,7 +341,7 @@ fn what_is_no_leaf_is_refused_with_its_reason() {
     };
     assert!(matches!(
         refused(&flat(0.5), &level),
-        TraceError::NoVeins { .. }
+        TraceError::NoVeins(_)
     ));
     let bright = Settings {
         veins: Ink::Bright,

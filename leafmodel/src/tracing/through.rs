@@ -9,6 +9,7 @@ use glam::DVec2;
 
 use super::graph::{Chain, Graph};
 use super::radii::shadow_of;
+use crate::plane::polyline;
 
 /// A vein goes through a junction if all others are at most so wide, as a fraction of its finer side.
 const FINER: f64 = 0.75;
@@ -137,10 +138,7 @@ fn lead(path: &[End], chains: &mut [Chain], graph: &mut Graph) {
             junctions.push((points.len() - 1, chains[chain].ends[1 - end]));
         }
     }
-    let mut along = vec![0.0; points.len()];
-    for i in 1..points.len() {
-        along[i] = along[i - 1] + points[i].distance(points[i - 1]);
-    }
+    let along = polyline::lengths(&points);
     let mut shadow = vec![0.0_f64; points.len()];
     for &(at, node) in &junctions {
         let reach = shadow_of(graph.nodes[node as usize].reach);

@@ -4,10 +4,11 @@ use glam::DVec2;
 
 use super::contour::{contour, first_hit, is_inside, place, smoothed};
 use super::leaf::TransportLeaf;
-use super::plan::TransportError;
+use super::plan::no_outline;
 use super::vein_style::VeinStyle;
 use crate::document::declared::Declared;
 use crate::document::ranges::RangeError;
+use crate::not_grown::NotGrown;
 use crate::shape::outline::{Outline, OutlineError};
 use crate::venation::network::VenationNetwork;
 
@@ -59,9 +60,9 @@ impl TransportLeaf {
     ///
     /// # Errors
     ///
-    /// [`TransportError::Range`] for `length_mm`; [`TransportError::Outline`] if the cells
+    /// [`NotGrown`] for `length_mm`; [`NotGrown`] if the cells
     /// give no valid margin.
-    pub fn outline(&self, length_mm: f64) -> Result<Outline, TransportError> {
+    pub fn outline(&self, length_mm: f64) -> Result<Outline, NotGrown> {
         Ok(self.framed(length_mm)?.1)
     }
 
@@ -77,7 +78,7 @@ impl TransportLeaf {
         length_mm: f64,
         style: VeinStyle,
         stages: &[usize],
-    ) -> Result<Vec<(Outline, VenationNetwork)>, TransportError> {
+    ) -> Result<Vec<(Outline, VenationNetwork)>, NotGrown> {
         style.in_range()?;
         let (grown, _) = self.framed(length_mm)?;
         let widest = self.counts()[0];
@@ -95,14 +96,14 @@ impl TransportLeaf {
     }
 
     /// The blade's frame and outline when its midrib has this length.
-    pub(crate) fn framed(&self, length_mm: f64) -> Result<(Frame, Outline), TransportError> {
+    pub(crate) fn framed(&self, length_mm: f64) -> Result<(Frame, Outline), NotGrown> {
         let valid = (0.001..=1e5).contains(&length_mm);
         RangeError::unless(valid, "length_mm", length_mm, "0.001 to 100000")?;
         self.framed_in(|frame| frame.scale = length_mm / (frame.apex - frame.base).length())
     }
 
     /// The frame after `settle` has adjusted it, and the outline in it.
-    fn framed_in(&self, settle: impl Fn(&mut Frame)) -> Result<(Frame, Outline), TransportError> {
+    fn framed_in(&self, settle: impl Fn(&mut Frame)) -> Result<(Frame, Outline), NotGrown> {
         let steps = contour(self.cells());
         let midrib = self.midrib();
         let mut result = Err(OutlineError::NoMidrib);
@@ -116,7 +117,7 @@ impl TransportLeaf {
                 break;
             }
         }
-        Ok(result?)
+        result.map_err(no_outline)
     }
 
     /// The frame with base and apex where the midrib, continued backwards from its first cell and

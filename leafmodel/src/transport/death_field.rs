@@ -7,7 +7,7 @@ use super::cells::Cell;
 use super::contour::place;
 use super::filled::FilledBlade;
 use super::leaf::TransportLeaf;
-use super::plan::TransportError;
+use crate::not_grown::NotGrown;
 
 /// Steps in which the revenue falls; deaths are resolved to a thousandth of it.
 const STEPS: u32 = 1000;
@@ -38,7 +38,7 @@ impl TransportLeaf {
     /// # Errors
     ///
     /// As [`TransportLeaf::outline`].
-    pub fn death_field(&self, length_mm: f64) -> Result<DeathField, TransportError> {
+    pub fn death_field(&self, length_mm: f64) -> Result<DeathField, NotGrown> {
         let (frame, _) = self.framed(length_mm)?;
         Ok(DeathField::new(self, frame))
     }

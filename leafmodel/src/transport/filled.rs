@@ -14,10 +14,11 @@ use super::cells::Cell;
 use super::contour::place;
 use super::growth::Outgrown;
 use super::leaf::TransportLeaf;
-use super::plan::{Ladder, TransportError, TransportPlan};
+use super::plan::{Ladder, TransportPlan};
 use super::vein_style::VeinStyle;
 use super::walls::Walls;
 use crate::document::declared::Declared;
+use crate::not_grown::{NotGrown, not_grown};
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;
 
@@ -58,10 +59,7 @@ impl Default for FilledPlan {
             alpha: 0.6,
             beta: 0.5,
             cells_along: 80,
-            style: VeinStyle {
-                base_radius_mm: 0.6,
-                least_cells: 3,
-            },
+            style: VeinStyle::default(),
         }
     }
 }
@@ -88,8 +86,8 @@ impl FilledPlan {
     ///
     /// # Errors
     ///
-    /// [`TransportError::Range`].
-    pub fn validate(&self) -> Result<(), TransportError> {
+    /// [`NotGrown`].
+    pub fn validate(&self) -> Result<(), NotGrown> {
         Ok(self.in_range()?)
     }
 
@@ -97,8 +95,8 @@ impl FilledPlan {
     ///
     /// # Errors
     ///
-    /// [`TransportError::Range`] for a number; [`TransportError::TooFine`] for too many cells.
-    pub fn check(&self, outline: &Outline) -> Result<(), TransportError> {
+    /// [`NotGrown`] for a number; [`NotGrown`] for too many cells.
+    pub fn check(&self, outline: &Outline) -> Result<(), NotGrown> {
         self.validate()?;
         self.grid(outline)?;
         Ok(())
@@ -113,7 +111,7 @@ impl FilledPlan {
     /// # Errors
     ///
     /// As [`FilledPlan::check`].
-    pub fn fill(&self, outline: &Outline) -> Result<FilledBlade, TransportError> {
+    pub fn fill(&self, outline: &Outline) -> Result<FilledBlade, NotGrown> {
         self.validate()?;
         let (frame, all) = self.grid(outline)?;
         let is_crossed = |a, b| outline.is_crossed_by(frame.to_mm(a), frame.to_mm(b));
@@ -163,7 +161,7 @@ impl FilledPlan {
     }
 
     /// The grid over a blade, and the cells whose centres lie on it; the first is the root.
-    fn grid(&self, outline: &Outline) -> Result<(Frame, Vec<Cell>), TransportError> {
+    fn grid(&self, outline: &Outline) -> Result<(Frame, Vec<Cell>), NotGrown> {
         let scale = outline.length() / f64::from(self.cells_along);
         let estimate = outline.area() / (scale * scale);
         if estimate > 1.1 * MOST_CELLS as f64 {
@@ -220,12 +218,12 @@ impl FilledBlade {
     ///
     /// # Errors
     ///
-    /// [`TransportError::Range`] for the style.
+    /// [`NotGrown`] for the style.
     pub fn network(
         &self,
         outline: &Outline,
         style: VeinStyle,
-    ) -> Result<VenationNetwork, TransportError> {
+    ) -> Result<VenationNetwork, NotGrown> {
         style.in_range()?;
         let widest = self.leaf.counts()[0];
         Ok(self.leaf.network_in(&self.frame, outline, style, widest))
@@ -242,7 +240,7 @@ impl FilledBlade {
         outline: &Outline,
         style: VeinStyle,
         stages: &[usize],
-    ) -> Result<Vec<VenationNetwork>, TransportError> {
+    ) -> Result<Vec<VenationNetwork>, NotGrown> {
         style.in_range()?;
         let widest = self.leaf.counts()[0];
         let at = |&stage: &usize| {
@@ -253,9 +251,10 @@ impl FilledBlade {
     }
 }
 
-fn too_fine(cells: usize) -> TransportError {
+fn too_fine(cells: usize) -> NotGrown {
     let limit = MOST_CELLS;
-    TransportError::TooFine { cells, limit }
+    let error = not_grown!("the blade takes {cells} cells, more than {limit}");
+    error.mend("cells_along", "use fewer cells along the midrib")
 }
 
 #[cfg(test)]

@@ -3,9 +3,10 @@
 use super::cells::{Cell, NONE};
 use super::cost::TransportSystem;
 use super::growth::{Growth, Outgrown};
-use super::plan::{Ladder, TransportError, TransportPlan};
+use super::plan::{Ladder, TransportPlan};
 use super::revenue::Revenue;
 use super::tree::Tree;
+use crate::not_grown::{NotGrown, not_grown};
 
 /// The leaf at one step of the rising revenue.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,14 +48,19 @@ impl TransportPlan {
     ///
     /// # Errors
     ///
-    /// [`TransportError::Range`]; [`TransportError::TooManyCells`] as soon as the leaf
+    /// [`NotGrown`]; [`NotGrown`] as soon as the leaf
     /// outgrows `most_cells`.
-    pub fn grow(&self, seed: u64) -> Result<TransportLeaf, TransportError> {
+    pub fn grow(&self, seed: u64) -> Result<TransportLeaf, NotGrown> {
         self.validate()?;
-        let outgrown = |Outgrown { cells }| TransportError::TooManyCells {
-            cells,
-            limit: self.most_cells,
-            alpha: self.alpha,
+        let outgrown = |Outgrown { cells }| {
+            let error = not_grown!(
+                "the leaf has {cells} cells when most_cells is {}; only for alpha above 0.5 is it \
+                 sure to stop growing (alpha is {})",
+                self.most_cells,
+                self.alpha
+            );
+            let help = "use a lower revenue, a larger alpha, or allow more cells";
+            error.mend("epsilon", help)
         };
         let mut growth = self.seedling(seed);
         let last = self.in_cells(self.epsilon);

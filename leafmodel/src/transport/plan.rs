@@ -1,12 +1,10 @@
 //! The parameters of a transport leaf and their ranges.
 
-use thiserror::Error;
-
 use crate::document::declared::Declared;
 use crate::document::keys::Keys;
 use crate::document::ranges::RangeError;
 use crate::document::value_kind::{Flag, Integer};
-use crate::shape::outline::OutlineError;
+use crate::not_grown::{NotGrown, not_grown};
 
 /// The steps in which the revenue `ε` rises (Definition 3.5 leaves them open).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,35 +112,10 @@ fn ladder(plan: &mut TransportPlan, keys: &mut Keys<'_>) {
 /// Equal steps in which the revenue rises where nothing is said.
 const STEPS: u32 = 80;
 
-/// Why a plan gives no leaf.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum TransportError {
-    /// A number is outside the range in which the model holds.
-    #[error(transparent)]
-    Range(#[from] RangeError),
-    /// The leaf would have more cells than its plan allows.
-    #[error(
-        "the leaf has {cells} cells when most_cells is {limit}; only for alpha above 0.5 is it sure to stop growing (alpha is {alpha})"
-    )]
-    TooManyCells {
-        /// How many it has so far.
-        cells: usize,
-        /// How many it may have.
-        limit: usize,
-        /// The plan's `α`.
-        alpha: f64,
-    },
-    /// The grid is too fine for the blade that it is to fill.
-    #[error("the blade takes {cells} cells, more than {limit}")]
-    TooFine {
-        /// About how many cells it would have.
-        cells: usize,
-        /// How many it may have.
-        limit: usize,
-    },
-    /// The cells give no valid margin.
-    #[error("no outline comes of the cells: {0}")]
-    Outline(#[from] OutlineError),
+/// The error of cells that have no margin.
+pub(super) fn no_outline(error: impl std::fmt::Display) -> NotGrown {
+    let error = not_grown!("no outline comes of the cells: {error}");
+    error.mend("epsilon", "let the leaf grow larger")
 }
 
 impl TransportPlan {
@@ -150,17 +123,14 @@ impl TransportPlan {
     ///
     /// # Errors
     ///
-    /// [`TransportError::Range`], naming the parameter and its range.
-    pub fn validate(&self) -> Result<(), TransportError> {
+    /// [`NotGrown`], naming the parameter and its range.
+    pub fn validate(&self) -> Result<(), NotGrown> {
         self.in_range()?;
         let value = self.in_cells(self.epsilon);
         let path = "epsilon · cell^(1 − 2 alpha)";
-        Ok(RangeError::unless(
-            value <= 100.0,
-            path,
-            value,
-            "above 0 to 100",
-        )?)
+        RangeError::unless(value <= 100.0, path, value, "above 0 to 100").map_err(|error| {
+            NotGrown::from(error).mend("epsilon", "use a lower revenue, or a larger cell")
+        })
     }
 
     /// Whether both sides are grown as one.

@@ -2,8 +2,8 @@
 //! \[xia2007\]).
 
 use super::leaf::TransportLeaf;
-use super::plan::TransportError;
 use crate::document::ranges::RangeError;
+use crate::not_grown::NotGrown;
 
 impl TransportLeaf {
     /// For each cell the share of the full-grown leaf's revenue `ε` at which it dies as `ε` falls
@@ -16,13 +16,13 @@ impl TransportLeaf {
     ///
     /// # Errors
     ///
-    /// [`TransportError::Range`] for `steps`.
+    /// [`NotGrown`] for `steps`.
     ///
     /// # Source
     ///
     /// \[xia2007\], Remark 3.6, which says that cells die, not how. The expense of an existing cell
     /// is our definition.
-    pub fn deaths(&self, steps: u32) -> Result<Vec<f64>, TransportError> {
+    pub fn deaths(&self, steps: u32) -> Result<Vec<f64>, NotGrown> {
         let valid = (1..=10_000).contains(&steps);
         RangeError::unless(valid, "steps", f64::from(steps), "1 to 10000")?;
         let plan = self.plan();

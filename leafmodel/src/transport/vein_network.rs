@@ -5,9 +5,9 @@ use glam::DVec2;
 use super::blade::Frame;
 use super::contour::place;
 use super::leaf::TransportLeaf;
-use super::plan::TransportError;
 use super::vein_style::VeinStyle;
 use crate::document::declared::Declared;
+use crate::not_grown::NotGrown;
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinEdge, VeinNode, VenationNetwork};
 use crate::venation::order;
@@ -29,11 +29,7 @@ impl TransportLeaf {
     /// # Errors
     ///
     /// As [`TransportLeaf::outline`].
-    pub fn network(
-        &self,
-        length_mm: f64,
-        style: VeinStyle,
-    ) -> Result<VenationNetwork, TransportError> {
+    pub fn network(&self, length_mm: f64, style: VeinStyle) -> Result<VenationNetwork, NotGrown> {
         style.in_range()?;
         let (frame, outline) = self.framed(length_mm)?;
         Ok(self.network_in(&frame, &outline, style, self.counts()[0]))

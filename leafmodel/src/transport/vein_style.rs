@@ -11,3 +11,12 @@ pub struct VeinStyle {
     #[key("least_cells", 1..=1_000_000)]
     pub least_cells: u32,
 }
+
+impl Default for VeinStyle {
+    fn default() -> Self {
+        Self {
+            base_radius_mm: 0.6,
+            least_cells: 3,
+        }
+    }
+}

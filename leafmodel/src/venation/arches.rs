@@ -68,13 +68,7 @@ pub(crate) fn rounds(
     apex: DVec2,
     seed: u64,
 ) -> Vec<Vec<DVec2>> {
-    let nearest = |p: DVec2| {
-        let squared = |i: &usize| (margin[*i] - p).length_squared();
-        (0..margin.len())
-            .min_by(|i, j| squared(i).total_cmp(&squared(j)))
-            .unwrap_or(0)
-    };
-    let (from, to) = (nearest(base), nearest(apex));
+    let [from, to] = [base, apex].map(|end| polyline::nearest(margin, end));
     let walk = |from: usize, to: usize| {
         let count = (to + margin.len() - from) % margin.len();
         let corner = |i| margin[(from + i) % margin.len()];

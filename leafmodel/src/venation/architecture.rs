@@ -17,7 +17,6 @@
 //!
 //! \[ellis2009\] for terms and classes; the layout is ours.
 
-pub(crate) mod axis;
 mod check;
 pub(crate) mod course;
 pub(crate) mod ends;
@@ -169,9 +168,10 @@ impl SecondaryEnding {
 
 /// Which secondaries bear agrophic veins: a comb of two or more veins that leave a basal secondary
 /// on its outer side and run beside each other towards the margin.
-#[derive(Clone, Copy, Debug, Eq, PartialEq, Words)]
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq, Words)]
 pub enum Agrophic {
     /// None of them.
+    #[default]
     Absent,
     /// The lowest of each side.
     Simple,
@@ -390,5 +390,14 @@ impl Lots {
     pub(crate) fn share(self, order: u8, vein: u64, what: u64) -> f64 {
         let counter = (u64::from(order) << 56) | (vein << 8) | what;
         uniform(self.seed, Use::Architecture, counter)
+    }
+
+    /// −1 or 1.
+    pub(crate) fn side(self, order: u8, vein: u64, what: u64) -> f64 {
+        if self.share(order, vein, what) < 0.5 {
+            -1.0
+        } else {
+            1.0
+        }
     }
 }

@@ -21,7 +21,7 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 
 use super::fresh_nodes::FreshNodes;
-use super::influence::Surroundings;
+use super::influence::{Surroundings, Zone};
 use super::point_tree::PointTree;
 use super::probe::{Probe, SLACK};
 use crate::plane::rectangle_distance_squared;
@@ -62,9 +62,8 @@ pub(crate) struct Bipolar {
     nearest: Option<(Pole, DVec2)>,
 }
 
-impl Bipolar {
-    /// Finds the poles of source number `id`.
-    pub(crate) fn find(source: DVec2, id: u32, surroundings: &Surroundings<'_>) -> Self {
+impl Zone for Bipolar {
+    fn find(source: DVec2, id: u32, surroundings: &Surroundings) -> Self {
         let &Surroundings { tree, seed, .. } = surroundings;
         let mut vein = Nearest { source, node: None };
         let _ = tree.visit(source, &mut vein);
@@ -80,26 +79,25 @@ impl Bipolar {
         found
     }
 
-    /// Finds the poles of the same source when it and all nodes have moved.
-    pub(crate) fn find_anew(&mut self, source: DVec2, tree: &PointTree) {
+    fn find_anew(&mut self, source: DVec2, surroundings: &Surroundings) {
         *self = Self::about(source, self.axis);
-        self.search(tree);
+        self.search(surroundings.tree);
     }
 
-    fn search(&mut self, tree: &PointTree) {
-        let _ = tree.visit(self.source, &mut Search(self));
-        self.choose();
-    }
-
-    /// Takes in new nodes.
-    pub(crate) fn update(&mut self, fresh: &FreshNodes) {
+    fn update(&mut self, fresh: &FreshNodes, _surroundings: &Surroundings) {
         let _ = fresh.visit(&mut Search(self));
         self.choose();
     }
 
-    /// Number and squared distance of each pole.
-    pub(crate) fn members(&self) -> &[(u32, f64)] {
-        &self.members
+    fn members(&self) -> impl Iterator<Item = (u32, f64)> {
+        self.members.iter().copied()
+    }
+}
+
+impl Bipolar {
+    fn search(&mut self, tree: &PointTree) {
+        let _ = tree.visit(self.source, &mut Search(self));
+        self.choose();
     }
 
     fn about(source: DVec2, axis: DVec2) -> Self {
@@ -230,11 +228,7 @@ mod tests {
             axis_along_vein: along,
         };
         let poles = Bipolar::find(DVec2::ZERO, id, &surroundings);
-        poles
-            .members()
-            .iter()
-            .map(|&(id, _)| nodes[id as usize])
-            .collect()
+        poles.members().map(|(id, _)| nodes[id as usize]).collect()
     }
 
     #[test]
@@ -265,6 +259,6 @@ mod tests {
             axis_along_vein: 1.0,
         };
         let poles = Bipolar::find(DVec2::ZERO, 1, &surroundings);
-        assert_eq!(poles.members(), [(0, 90.0)]);
+        assert_eq!(poles.members, [(0, 90.0)]);
     }
 }

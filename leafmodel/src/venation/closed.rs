@@ -15,81 +15,8 @@
 
 use glam::DVec2;
 
-use super::bipolar::Bipolar;
 use super::fresh_nodes::FreshNodes;
-use super::influence::{Fate, Influence, Surroundings};
-use super::relative_neighbourhood::RelativeNeighbourhood;
-use super::urquhart::UrquhartNeighbourhood;
-
-/// The rule that decides which nodes are neighbours of a source.
-pub(crate) trait Zone: Send + Sized {
-    /// The neighbours of source number `id` at `place` among all nodes.
-    fn find(place: DVec2, id: u32, surroundings: &Surroundings) -> Self;
-
-    /// The neighbours of the same source when it and all nodes have moved.
-    fn find_anew(&mut self, place: DVec2, surroundings: &Surroundings);
-
-    /// Takes in the nodes added since the last call.
-    fn update(&mut self, fresh: &FreshNodes, surroundings: &Surroundings);
-
-    /// Number and squared distance of each neighbour.
-    fn members(&self) -> impl Iterator<Item = (u32, f64)>;
-}
-
-impl Zone for RelativeNeighbourhood {
-    fn find(place: DVec2, _id: u32, surroundings: &Surroundings) -> Self {
-        Self::find(place, surroundings.tree)
-    }
-
-    fn find_anew(&mut self, place: DVec2, surroundings: &Surroundings) {
-        *self = Self::find(place, surroundings.tree);
-    }
-
-    fn update(&mut self, fresh: &FreshNodes, surroundings: &Surroundings) {
-        self.update(fresh, surroundings.tree);
-    }
-
-    fn members(&self) -> impl Iterator<Item = (u32, f64)> {
-        self.members()
-    }
-}
-
-impl Zone for Bipolar {
-    fn find(place: DVec2, id: u32, surroundings: &Surroundings) -> Self {
-        Self::find(place, id, surroundings)
-    }
-
-    fn find_anew(&mut self, place: DVec2, surroundings: &Surroundings) {
-        self.find_anew(place, surroundings.tree);
-    }
-
-    fn update(&mut self, fresh: &FreshNodes, _surroundings: &Surroundings) {
-        self.update(fresh);
-    }
-
-    fn members(&self) -> impl Iterator<Item = (u32, f64)> {
-        self.members().iter().copied()
-    }
-}
-
-impl Zone for UrquhartNeighbourhood {
-    fn find(place: DVec2, _id: u32, surroundings: &Surroundings) -> Self {
-        Self::find(place, surroundings.tree)
-    }
-
-    fn find_anew(&mut self, place: DVec2, surroundings: &Surroundings) {
-        *self = Self::find(place, surroundings.tree);
-    }
-
-    fn update(&mut self, fresh: &FreshNodes, _surroundings: &Surroundings) {
-        let _ = fresh.visit(self);
-        self.choose();
-    }
-
-    fn members(&self) -> impl Iterator<Item = (u32, f64)> {
-        self.members().iter().copied()
-    }
-}
+use super::influence::{Fate, Influence, Surroundings, Zone};
 
 /// The neighbours of a source, and the veins on their way to it.
 #[derive(Clone, Debug)]

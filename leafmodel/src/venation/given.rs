@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::influence::Influence;
-use super::network::VenationNetwork;
+use super::network::{self, VenationNetwork};
 use super::simulation::Simulation;
 use super::topology::Topology;
 
@@ -27,7 +27,7 @@ impl GivenVeins {
     /// The veins of a network whose first node is the base, as far as they hang together with it.
     pub(super) fn new(network: &VenationNetwork, base: DVec2, segment_mm: f64) -> Self {
         let place = |node: u32| (network.nodes()[node as usize].position - base) / segment_mm;
-        let pairs: Vec<[u32; 2]> = network.edges().iter().map(|e| [e.from, e.to]).collect();
+        let pairs = network::ends(network.edges());
         let topology = Topology::new(network.nodes().len(), &pairs);
         let mut ways: Vec<Way> = Vec::new();
         let mut starts: Vec<(Option<usize>, u32)> = vec![(None, 0)];

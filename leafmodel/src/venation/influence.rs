@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::fresh_nodes::FreshNodes;
+use super::plan::AuxinPlan;
 use super::point_tree::PointTree;
 
 /// The data that all sources use.
@@ -13,6 +14,17 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) seed: u64,
     /// Share of bipolar sources whose axis runs along the nearest vein.
     pub(crate) axis_along_vein: f64,
+}
+
+impl<'a> Surroundings<'a> {
+    /// The nodes in `tree` under a plan.
+    pub(crate) fn new(tree: &'a PointTree, seed: u64, plan: &AuxinPlan) -> Self {
+        Self {
+            tree,
+            seed,
+            axis_along_vein: plan.axis_along_vein,
+        }
+    }
 }
 
 /// The fate of a source at the end of a step.
@@ -52,4 +64,22 @@ pub(crate) trait Influence: Send + Sized {
 
     /// Called when the source is given up: returns the veins that have reached it so far.
     fn give_up(&mut self) -> Vec<u32>;
+}
+
+/// The rule that decides which nodes are neighbours of a source.
+pub(crate) trait Zone: Send + Sized {
+    /// The neighbours of source number `id` at `place` among all nodes.
+    fn find(place: DVec2, id: u32, surroundings: &Surroundings) -> Self;
+
+    /// The neighbours of the same source when it and all nodes have moved.
+    fn find_anew(&mut self, place: DVec2, surroundings: &Surroundings) {
+        // Zones without a memory do not depend on the number.
+        *self = Self::find(place, 0, surroundings);
+    }
+
+    /// Takes in the nodes added since the last call.
+    fn update(&mut self, fresh: &FreshNodes, surroundings: &Surroundings);
+
+    /// Number and squared distance of each neighbour.
+    fn members(&self) -> impl Iterator<Item = (u32, f64)>;
 }

@@ -12,6 +12,7 @@ use glam::DVec2;
 use thiserror::Error;
 
 use super::conformal_map::ConformalMap;
+use crate::numeric::Sets;
 
 /// Greatest x and y of a node of an external network, mm: one kilometre.
 pub(crate) const FARTHEST_MM: f64 = 1e6;
@@ -82,55 +83,37 @@ pub struct VenationNetwork {
 /// Why a network is not valid. Networks from [`super::grow`] are always valid.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum NetworkError {
-    /// An edge refers to a node that does not exist, or to one node twice.
-    #[error("edge {edge} does not join two nodes of the network")]
-    BadEdge {
-        /// Number of the edge.
-        edge: usize,
-    },
+    /// An edge refers to a node that does not exist, or to one node twice (number of the edge).
+    #[error("edge {0} does not join two nodes of the network")]
+    BadEdge(usize),
     /// A position or radius is not finite, or a radius is not above 0 or grows away from the
-    /// petiole.
-    #[error("edge {edge} has a bad position or radius")]
-    BadNumber {
-        /// Number of the edge.
-        edge: usize,
-    },
-    /// A node lies more than 10⁶ mm from the origin in x or y, or its position is not finite.
-    #[error("node {node} is not within 10⁶ mm of the origin")]
-    FarNode {
-        /// Number of the node.
-        node: usize,
-    },
-    /// The length of a segment is not finite and above 0.
-    #[error("a vein segment is {value} mm long; it must be finite and above 0")]
-    BadSegment {
-        /// The length given.
-        value: f64,
-    },
-    /// An edge has no length.
-    #[error("edge {edge} has no length")]
-    NoLength {
-        /// Number of the edge.
-        edge: usize,
-    },
-    /// The same two nodes are joined twice.
-    #[error("edge {edge} joins two nodes that are joined already")]
-    Twice {
-        /// Number of the second edge.
-        edge: usize,
-    },
-    /// The directed edges contain a cycle.
-    #[error("the edges about node {node} run in a circle")]
-    Circle {
-        /// Number of a node on or beyond the cycle.
-        node: usize,
-    },
-    /// An edge has order 0.
-    #[error("edge {edge} has order 0; orders start at 1")]
-    NoOrder {
-        /// Number of the edge.
-        edge: usize,
-    },
+    /// petiole (number of the edge).
+    #[error("edge {0} has a bad position or radius")]
+    BadNumber(usize),
+    /// A node lies more than 10⁶ mm from the origin in x or y, or its position is not finite
+    /// (number of the node).
+    #[error("node {0} is not within 10⁶ mm of the origin")]
+    FarNode(usize),
+    /// The length of a segment is not finite and above 0 (the length given).
+    #[error("a vein segment is {0} mm long; it must be finite and above 0")]
+    BadSegment(f64),
+    /// An edge has no length (number of the edge).
+    #[error("edge {0} has no length")]
+    NoLength(usize),
+    /// The same two nodes are joined twice (number of the second edge).
+    #[error("edge {0} joins two nodes that are joined already")]
+    Twice(usize),
+    /// The directed edges contain a cycle (number of a node on or beyond the cycle).
+    #[error("the edges about node {0} run in a circle")]
+    Circle(usize),
+    /// An edge has order 0 (number of the edge).
+    #[error("edge {0} has order 0; orders start at 1")]
+    NoOrder(usize),
+}
+
+/// The nodes at both ends of each edge.
+pub(crate) fn ends(edges: &[VeinEdge]) -> Vec<[u32; 2]> {
+    edges.iter().map(|edge| [edge.from, edge.to]).collect()
 }
 
 impl VenationNetwork {
@@ -154,10 +137,10 @@ impl VenationNetwork {
             .iter()
             .position(|node| !near(node) || node.position.is_nan())
         {
-            return Err(NetworkError::FarNode { node });
+            return Err(NetworkError::FarNode(node));
         }
         if !(segment_mm.is_finite() && segment_mm > 0.0) {
-            return Err(NetworkError::BadSegment { value: segment_mm });
+            return Err(NetworkError::BadSegment(segment_mm));
         }
         let steps = nodes.iter().map(|node| node.born).max().unwrap_or(0);
         // The origins: the first nodes up to the first one that an edge leads to.
@@ -244,24 +227,10 @@ impl VenationNetwork {
 
     /// Number of connected components, ≥ 1.
     pub fn components(&self) -> usize {
-        let mut leaders: Vec<u32> = (0..self.nodes.len() as u32).collect();
-        let find = |leaders: &mut Vec<u32>, mut node: u32| {
-            while leaders[node as usize] != node {
-                let next = leaders[leaders[node as usize] as usize];
-                leaders[node as usize] = next;
-                node = next;
-            }
-            node
-        };
-        let mut components = self.nodes.len();
-        for edge in &self.edges {
-            let (from, to) = (find(&mut leaders, edge.from), find(&mut leaders, edge.to));
-            if from != to {
-                leaders[from.max(to) as usize] = from.min(to);
-                components -= 1;
-            }
-        }
-        components
+        let mut sets = Sets::new(self.nodes.len());
+        let joints = self.edges.iter();
+        let joints = joints.filter(|edge| sets.join(edge.from, edge.to).is_some());
+        self.nodes.len() - joints.count()
     }
 
     /// Number of independent loops: edges − nodes + components. If veins do not cross, it is the
@@ -287,7 +256,7 @@ impl VenationNetwork {
         let count = self.nodes.len();
         for (edge, e) in self.edges.iter().enumerate() {
             if e.from == e.to || e.from.max(e.to) as usize >= count {
-                return Err(NetworkError::BadEdge { edge });
+                return Err(NetworkError::BadEdge(edge));
             }
             let (from, to) = (self.nodes[e.from as usize], self.nodes[e.to as usize]);
             // Radii are compared on the blade, not in its map; equal ones may differ by rounding.
@@ -297,13 +266,13 @@ impl VenationNetwork {
             let slack = if self.map.is_flat() { 1.0 } else { 1.0 + 1e-12 };
             let radii = start.is_finite() && end > 0.0 && start * slack >= end;
             if !(radii && from.position.is_finite() && to.position.is_finite()) {
-                return Err(NetworkError::BadNumber { edge });
+                return Err(NetworkError::BadNumber(edge));
             }
             if from.position == to.position {
-                return Err(NetworkError::NoLength { edge });
+                return Err(NetworkError::NoLength(edge));
             }
             if e.order == 0 {
-                return Err(NetworkError::NoOrder { edge });
+                return Err(NetworkError::NoOrder(edge));
             }
         }
         let mut pairs: Vec<(u32, u32, usize)> = self
@@ -317,12 +286,12 @@ impl VenationNetwork {
             .windows(2)
             .find(|p| (p[0].0, p[0].1) == (p[1].0, p[1].1))
         {
-            return Err(NetworkError::Twice { edge: pair[1].2 });
+            return Err(NetworkError::Twice(pair[1].2));
         }
-        let edges: Vec<[u32; 2]> = self.edges.iter().map(|e| [e.from, e.to]).collect();
+        let edges = ends(&self.edges);
         match super::topology::Topology::new(count, &edges).base_to_tip() {
             Ok(_) => Ok(()),
-            Err(node) => Err(NetworkError::Circle { node }),
+            Err(node) => Err(NetworkError::Circle(node)),
         }
     }
 }
@@ -369,17 +338,17 @@ mod tests {
     #[test]
     fn each_fault_of_a_network_from_elsewhere_has_its_error() {
         let two = [(0.0, 0.0), (0.0, 1.0)];
-        let far = NetworkError::FarNode { node: 1 };
+        let far = NetworkError::FarNode(1);
         for place in [(f64::NAN, 0.0), (0.0, f64::INFINITY), (0.0, -2e6)] {
             assert_eq!(parts(&[(0.0, 0.0), place], &[]), Err(far.clone()));
         }
         assert_eq!(
             parts(&two, &[(0, 2, 1.0, 1.0)]),
-            Err(NetworkError::BadEdge { edge: 0 })
+            Err(NetworkError::BadEdge(0))
         );
         assert_eq!(
             parts(&two, &[(1, 1, 1.0, 1.0)]),
-            Err(NetworkError::BadEdge { edge: 0 })
+            Err(NetworkError::BadEdge(0))
         );
         for (from, to) in [
             (1.0, 2.0),
@@ -390,19 +359,19 @@ mod tests {
         ] {
             assert_eq!(
                 parts(&two, &[(0, 1, from, to)]),
-                Err(NetworkError::BadNumber { edge: 0 })
+                Err(NetworkError::BadNumber(0))
             );
         }
         let same = parts(&[(1.0, 1.0), (1.0, 1.0)], &[(0, 1, 1.0, 1.0)]);
-        assert_eq!(same, Err(NetworkError::NoLength { edge: 0 }));
+        assert_eq!(same, Err(NetworkError::NoLength(0)));
         let twice = parts(&two, &[(0, 1, 1.0, 1.0), (1, 0, 1.0, 1.0)]);
-        assert_eq!(twice, Err(NetworkError::Twice { edge: 1 }));
+        assert_eq!(twice, Err(NetworkError::Twice(1)));
         let ring = [(0, 1, 1.0, 1.0), (1, 2, 1.0, 1.0), (2, 0, 1.0, 1.0)];
         let ring = parts(&[(0.0, 0.0), (0.0, 1.0), (1.0, 0.0)], &ring);
-        assert_eq!(ring, Err(NetworkError::Circle { node: 0 }));
+        assert_eq!(ring, Err(NetworkError::Circle(0)));
         for value in [0.0, -1.0, f64::INFINITY] {
             let bad = VenationNetwork::from_parts(Vec::new(), Vec::new(), value);
-            assert_eq!(bad, Err(NetworkError::BadSegment { value }));
+            assert_eq!(bad, Err(NetworkError::BadSegment(value)));
         }
         assert!(VenationNetwork::from_parts(Vec::new(), Vec::new(), f64::NAN).is_err());
     }

@@ -19,7 +19,7 @@ mod tests;
 use glam::DVec2;
 
 pub(crate) use self::grid::EdgeGrid;
-use self::grid::Lattice;
+use self::grid::cells_around;
 use super::network::{VeinEdge, VenationNetwork};
 use crate::buckets::Buckets;
 
@@ -96,7 +96,7 @@ impl PlaneGraph {
 /// The network's nodes and edges, renumbered by the place of the nodes.
 fn in_rows(network: &VenationNetwork) -> (Vec<DVec2>, Vec<VeinEdge>) {
     let count = network.nodes().len();
-    let lattice = Lattice::around(network.nodes().iter().map(|n| n.position), count, 0.0);
+    let lattice = cells_around(network.nodes().iter().map(|n| n.position), count, 0.0);
     let places = network.nodes().iter().map(|node| node.position);
     let cells = places.map(|place| lattice.cell(place));
     let order = Buckets::new(lattice.cells(), cells.zip(0_u32..)).into_members();

@@ -19,6 +19,7 @@ use glam::DVec2;
 
 use super::fresh_nodes::FreshNodes;
 use super::horizon::Horizon;
+use super::influence::{Surroundings, Zone};
 use super::point_tree::PointTree;
 use super::probe::{Probe, SLACK};
 use crate::plane::rectangle_distance_squared;
@@ -41,9 +42,8 @@ pub(crate) struct RelativeNeighbourhood {
     neighbours: Vec<Neighbour>,
 }
 
-impl RelativeNeighbourhood {
-    /// Finds the relative neighbours of `source` among the points of `tree`.
-    pub(crate) fn find(source: DVec2, tree: &PointTree) -> Self {
+impl Zone for RelativeNeighbourhood {
+    fn find(source: DVec2, _id: u32, &Surroundings { tree, .. }: &Surroundings) -> Self {
         let (low, high) = tree.bounds();
         let mut found = Self {
             source,
@@ -55,20 +55,21 @@ impl RelativeNeighbourhood {
         found
     }
 
-    /// Takes in new nodes, which must be in `tree` too.
-    pub(crate) fn update(&mut self, fresh: &FreshNodes, tree: &PointTree) {
+    fn update(&mut self, fresh: &FreshNodes, surroundings: &Surroundings) {
         let _ = fresh.visit(&mut Update(self));
-        self.ascertain(tree);
+        self.ascertain(surroundings.tree);
     }
 
-    /// Number and squared distance of each relative neighbour, in no particular order. The nearest
-    /// node is always among them, unless another node close to it has exactly the same distance.
-    pub(crate) fn members(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
+    /// In no particular order. The nearest node is always among them, unless another node close to
+    /// it has exactly the same distance.
+    fn members(&self) -> impl Iterator<Item = (u32, f64)> {
         self.neighbours
             .iter()
             .map(|node| (node.id, node.distance_squared))
     }
+}
 
+impl RelativeNeighbourhood {
     /// Keeps the neighbours whose lunes are empty.
     fn ascertain(&mut self, tree: &PointTree) {
         let source = self.source;
@@ -148,6 +149,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::venation::plan::AuxinPlan;
     use properties::fixed;
 
     /// Eq. 2 as written.
@@ -208,17 +210,20 @@ mod tests {
             let source = if kind == 1 { (source * 2.0).floor() * 0.5 } else { source };
             let (low, high) = (DVec2::ZERO, DVec2::splat(10.0));
             let mut tree = PointTree::new(low, high);
-            let mut neighbourhood = RelativeNeighbourhood::find(source, &tree);
+            let plan = AuxinPlan::default();
+            let mut neighbourhood =
+                RelativeNeighbourhood::find(source, 0, &Surroundings::new(&tree, 0, &plan));
             for step in 0..steps {
                 let (from, to) = (nodes.len() * step / steps, nodes.len() * (step + 1) / steps);
                 for (id, &p) in nodes.iter().enumerate().take(to).skip(from) {
                     tree.insert(id as u32, p);
                 }
                 let known = &nodes[..to];
-                neighbourhood.update(&FreshNodes::new(known, from as u32), &tree);
+                let surroundings = Surroundings::new(&tree, 0, &plan);
+                neighbourhood.update(&FreshNodes::new(known, from as u32), &surroundings);
                 let expected = by_definition(source, known);
                 prop_assert_eq!(&sorted(&neighbourhood), &expected, "kept up to date");
-                let anew = RelativeNeighbourhood::find(source, &tree);
+                let anew = RelativeNeighbourhood::find(source, 0, &surroundings);
                 prop_assert_eq!(&sorted(&anew), &expected, "found anew");
             }
         }

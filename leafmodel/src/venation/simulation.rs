@@ -236,11 +236,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         let (low, high) = self.lamina.room();
         self.veins.carry(&self.lamina, low, high);
         self.source_tree = PointTree::new(low, high);
-        let surroundings = Surroundings {
-            tree: &self.veins.tree,
-            seed: self.seed,
-            axis_along_vein: self.plan.axis_along_vein,
-        };
+        let surroundings = Surroundings::new(&self.veins.tree, self.seed, self.plan);
         let (lamina, source_tree) = (&self.lamina, &mut self.source_tree);
         self.sources.carry(
             |start| lamina.now_at(start),
@@ -255,11 +251,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         let near = self.nearness(unit);
         let fresh = FreshNodes::new(&self.veins.positions, self.noticed);
         if !fresh.is_empty() {
-            let surroundings = Surroundings {
-                tree: &self.veins.tree,
-                seed: self.seed,
-                axis_along_vein: self.plan.axis_along_vein,
-            };
+            let surroundings = Surroundings::new(&self.veins.tree, self.seed, self.plan);
             self.sources.notice(&fresh, near, &surroundings);
         }
         self.noticed = self.veins.count();
@@ -280,11 +272,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         self.sources
             .fit_cells(self.plan.source_birth_distance * unit);
         if let Some(near) = near {
-            let surroundings = Surroundings {
-                tree: &self.veins.tree,
-                seed: self.seed,
-                axis_along_vein: self.plan.axis_along_vein,
-            };
+            let surroundings = Surroundings::new(&self.veins.tree, self.seed, self.plan);
             self.sources.reconsider(self.step, near, &surroundings);
         }
         for dart in self.darts.of_step(age, unit, self.seed, &self.lamina) {
@@ -314,11 +302,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         let id = self.sources_born;
         self.sources_born += 1;
         self.source_tree.insert(id, place);
-        let surroundings = Surroundings {
-            tree: &self.veins.tree,
-            seed: self.seed,
-            axis_along_vein: self.plan.axis_along_vein,
-        };
+        let surroundings = Surroundings::new(&self.veins.tree, self.seed, self.plan);
         let start = self.lamina.start_of(place);
         self.sources.push(id, place, start, near, &surroundings);
     }

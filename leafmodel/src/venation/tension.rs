@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use super::network::VeinEdge;
 use super::planar::EdgeGrid;
 use super::topology::Topology;
-use crate::plane::{bounds, segment};
+use crate::plane::{Lattice, bounds, segment};
 use net::{Net, reach, steps};
 
 mod net;
@@ -260,16 +260,12 @@ fn crossings_of(positions: &[DVec2], edges: &[VeinEdge], nodes: &[u32]) -> Vec<[
     let (low, high) = bounds(positions.iter().copied());
     let size = high - low;
     let cell = (4.0 * mean_length(positions, edges)).max(size.max_element() / 2000.0);
-    let columns = (size.x / cell) as usize + 1;
+    let lattice = Lattice::new(low, size, cell);
     let cells = |edge: &VeinEdge| {
         let [from, to] = [edge.from, edge.to].map(|node| positions[node as usize]);
-        let [least, most] = [from.min(to), from.max(to)].map(|corner| (corner - low) / cell);
-        let rows = least.y as usize..=most.y as usize;
-        rows.flat_map(move |row| {
-            (least.x as usize..=most.x as usize).map(move |column| row * columns + column)
-        })
+        lattice.cells_between(from.min(to), from.max(to))
     };
-    let mut is_near = vec![false; columns * ((size.y / cell) as usize + 1)];
+    let mut is_near = vec![false; lattice.cells()];
     for edge in edges {
         if is_one[edge.from as usize] || is_one[edge.to as usize] {
             cells(edge).for_each(|cell| is_near[cell] = true);

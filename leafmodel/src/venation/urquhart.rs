@@ -15,7 +15,8 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-use super::point_tree::PointTree;
+use super::fresh_nodes::FreshNodes;
+use super::influence::{Surroundings, Zone};
 use super::probe::{Probe, SLACK};
 use crate::plane::rectangle_distance_squared;
 
@@ -44,9 +45,8 @@ pub(crate) struct UrquhartNeighbourhood {
     is_cut: bool,
 }
 
-impl UrquhartNeighbourhood {
-    /// Finds the neighbours of `source` among the points of `tree`.
-    pub(crate) fn find(source: DVec2, tree: &PointTree) -> Self {
+impl Zone for UrquhartNeighbourhood {
+    fn find(source: DVec2, _id: u32, &Surroundings { tree, .. }: &Surroundings) -> Self {
         let (low, high) = tree.bounds();
         let far = SURROUNDINGS * (high - low).max_element();
         let corners = [(far, -far), (far, far), (-far, far), (-far, -far)];
@@ -66,6 +66,17 @@ impl UrquhartNeighbourhood {
         found
     }
 
+    fn update(&mut self, fresh: &FreshNodes, _surroundings: &Surroundings) {
+        let _ = fresh.visit(self);
+        self.choose();
+    }
+
+    fn members(&self) -> impl Iterator<Item = (u32, f64)> {
+        self.members.iter().copied()
+    }
+}
+
+impl UrquhartNeighbourhood {
     /// Takes in one new node. [`Self::choose`] must be called after the last one.
     fn cut(&mut self, id: u32, position: DVec2) {
         let offset = position - self.source;
@@ -149,7 +160,7 @@ impl UrquhartNeighbourhood {
     }
 
     /// Tests the Delaunay neighbours against each other, if the cell has been cut.
-    pub(crate) fn choose(&mut self) {
+    fn choose(&mut self) {
         if !std::mem::take(&mut self.is_cut) {
             return;
         }
@@ -172,11 +183,6 @@ impl UrquhartNeighbourhood {
         self.members.sort_unstable_by_key(|&(id, _)| id);
         // By rounding a node may have two sides.
         self.members.dedup_by_key(|&mut (id, _)| id);
-    }
-
-    /// Number and squared distance of each neighbour.
-    pub(crate) fn members(&self) -> &[(u32, f64)] {
-        &self.members
     }
 }
 
@@ -203,8 +209,14 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::venation::plan::AuxinPlan;
+    use crate::venation::point_tree::PointTree;
     use crate::venation::relative_neighbourhood::RelativeNeighbourhood;
     use properties::fixed;
+
+    fn surroundings(tree: &PointTree) -> Surroundings<'_> {
+        Surroundings::new(tree, 0, &AuxinPlan::default())
+    }
 
     fn tree(nodes: &[(f64, f64)]) -> PointTree {
         let mut tree = PointTree::new(DVec2::splat(-16.0), DVec2::splat(16.0));
@@ -215,11 +227,11 @@ mod tests {
     }
 
     fn ids(neighbourhood: &UrquhartNeighbourhood) -> Vec<u32> {
-        neighbourhood.members().iter().map(|&(id, _)| id).collect()
+        neighbourhood.members().map(|(id, _)| id).collect()
     }
 
     fn relative(source: DVec2, tree: &PointTree) -> Vec<u32> {
-        let found = RelativeNeighbourhood::find(source, tree);
+        let found = RelativeNeighbourhood::find(source, 0, &surroundings(tree));
         let mut ids: Vec<u32> = found.members().map(|(id, _)| id).collect();
         ids.sort_unstable();
         ids
@@ -237,7 +249,11 @@ mod tests {
             for dy in -20..=0 {
                 let a = (5.0 + 0.2 * f64::from(dx), -5.0 + 0.2 * f64::from(dy));
                 let tree = tree(&[nodes[0], a, nodes[2]]);
-                let urquhart = ids(&UrquhartNeighbourhood::find(DVec2::ZERO, &tree));
+                let urquhart = ids(&UrquhartNeighbourhood::find(
+                    DVec2::ZERO,
+                    0,
+                    &surroundings(&tree),
+                ));
                 let exact = relative(DVec2::ZERO, &tree);
                 if urquhart.contains(&0) && !exact.contains(&0) {
                     seen = Some(a);
@@ -299,7 +315,7 @@ mod tests {
                 .map(|v| v as u32)
                 .collect();
             let tree = tree(&points);
-            let found = UrquhartNeighbourhood::find(source, &tree);
+            let found = UrquhartNeighbourhood::find(source, 0, &surroundings(&tree));
             prop_assert_eq!(ids(&found), expected.clone());
             let exact = relative(source, &tree);
             prop_assert!(exact.iter().all(|id| expected.contains(id)));

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::{CheckpointError, Heading, Opened};
+use super::heading::Heading;
+use super::opened::{CheckpointError, Opened};
 use crate::integrator::render::Begun;
 
 /// Why parts do not add up to a picture.

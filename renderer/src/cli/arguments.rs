@@ -1,16 +1,14 @@
 //! The command line as written: what can be asked for, and nothing of how it is done.
 
-mod check_bsdf;
 mod compare_networks;
-mod example;
-mod fit;
 mod fit_veins;
 mod grow;
 mod instruments;
 mod measure;
+mod measured;
+mod numbers;
 mod optics;
-mod samples;
-mod shell;
+mod scene;
 mod sweep;
 mod tables;
 mod tonemap;
@@ -20,20 +18,19 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap_complete::Shell;
 
-use crate::film::MOST_SAMPLES;
+use self::numbers::{MOST_GIB, MOST_SECONDS, between, samples, size};
 
-pub use check_bsdf::CheckBsdfArguments;
 pub use compare_networks::{Alignment, CompareNetworksArguments, Group, Groups};
-pub use example::ExampleArguments;
-pub use fit::FitArguments;
 pub use fit_veins::FitVeinsArguments;
 pub use grow::{CaptionedKinds, GrowArguments, VeinColour};
 pub use instruments::InstrumentsArguments;
 pub use measure::{MeasureArguments, MeasuringArguments, ReadingArguments};
+pub use measured::{CheckBsdfArguments, FitArguments};
+pub use numbers::SampleRange;
 pub use optics::OpticsArguments;
-pub use samples::SampleRange;
-pub use shell::{CompletionsArguments, ManArguments};
+pub use scene::SceneArguments;
 pub use sweep::{SweepArguments, TaskRange};
 pub use tables::{ReadingTablesArguments, TableArguments};
 pub use tonemap::TonemapArguments;
@@ -46,6 +43,11 @@ Render the first leaf:  lamina example first-leaf && lamina render first-leaf/sc
 Check a scene file:     lamina check SCENE.toml
 All commands:           lamina help
 The guide starts at:    docs/src/guide.md";
+
+const EXAMPLE_EXAMPLES: &str = "\
+Examples:
+  lamina example first-leaf && lamina render first-leaf/scene.toml
+  lamina example --list";
 
 const RENDER_EXAMPLES: &str = "\
 Examples:
@@ -149,7 +151,7 @@ impl Arguments {
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
     /// Write a scene that the program carries into a folder
-    #[command(after_help = example::EXAMPLES)]
+    #[command(after_help = EXAMPLE_EXAMPLES)]
     Example(ExampleArguments),
     /// Render a scene to STEM.exr and STEM.png, or STEM.jpg
     #[command(after_help = RENDER_EXAMPLES)]
@@ -173,7 +175,7 @@ pub enum Command {
     #[command(after_help = FIT_EXAMPLES)]
     Fit(FitArguments),
     /// Check a measured BRDF or BTDF: reciprocity, its error, its energy
-    #[command(after_help = check_bsdf::EXAMPLES)]
+    #[command(after_help = measured::CHECK_BSDF_EXAMPLES)]
     CheckBsdf(CheckBsdfArguments),
     /// Read out the instruments of a scene: what it reflects, transmits and absorbs
     #[command(after_help = instruments::EXAMPLES)]
@@ -211,17 +213,6 @@ pub enum Command {
     Licenses,
 }
 
-/// A scene file with overrides.
-#[derive(Args, Clone, Debug, PartialEq, Eq)]
-pub struct SceneArguments {
-    /// The scene file
-    #[arg(value_name = "SCENE.toml")]
-    pub scene: PathBuf,
-    /// Override a value, written as in the file: -D film.rgb.spp=16
-    #[arg(short = 'D', value_name = "KEY=VALUE")]
-    pub overrides: Vec<String>,
-}
-
 /// `lamina check`.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct CheckArguments {
@@ -235,11 +226,6 @@ pub struct CheckArguments {
     /// Memory that a render may take; the default is what the machine has free
     #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,
-}
-
-/// Numbers of samples of a pixel.
-fn samples() -> clap::builder::RangedI64ValueParser<u32> {
-    clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES))
 }
 
 /// `lamina render`.
@@ -330,42 +316,6 @@ pub struct MergeArguments {
     pub out: PathBuf,
 }
 
-/// Longest time that a render may be given: a year.
-const MOST_SECONDS: u32 = 366 * 24 * 3600;
-
-/// Most memory that a render may be given, GiB.
-const MOST_GIB: u32 = 1 << 20;
-
-/// A number from `LOW` to `HIGH`.
-fn between<const LOW: u32, const HIGH: u32>(text: &str) -> Result<f64, String> {
-    let number: f64 = text
-        .parse()
-        .map_err(|_| format!("not a number; write one from {LOW} to {HIGH}"))?;
-    let allowed = f64::from(LOW)..=f64::from(HIGH);
-    if allowed.contains(&number) {
-        Ok(number)
-    } else {
-        Err(format!("must be from {LOW} to {HIGH}"))
-    }
-}
-
-/// A width and a height, such as `640x480`.
-fn size(text: &str) -> Result<[u32; 2], String> {
-    let number = |text: &str| text.trim().parse().ok();
-    let pair = text.split_once(['x', '×', ',']);
-    let pair = pair.and_then(|(width, height)| Some([number(width)?, number(height)?]));
-    pair.ok_or_else(|| "write a width and a height: 640x480".to_owned())
-}
-
-/// Two finite numbers with a comma between them; `wanted` tells what is to be written.
-fn two_numbers(text: &str, wanted: &str) -> Result<[f64; 2], String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
-    let pair = text
-        .split_once(',')
-        .and_then(|(x, y)| Some([number(x)?, number(y)?]));
-    pair.ok_or_else(|| wanted.to_owned())
-}
-
 /// `lamina export`.
 #[derive(Clone, Debug, Subcommand)]
 pub enum ExportCommand {
@@ -416,6 +366,35 @@ pub struct SchemaArguments {
     /// `<!-- keys: BLOCK -->`
     #[arg(long, value_name = "FILE.md", num_args = 1.., conflicts_with = "out")]
     pub pages: Vec<PathBuf>,
+}
+
+/// `lamina example`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct ExampleArguments {
+    /// The scene
+    #[arg(required_unless_present = "list")]
+    pub name: Option<String>,
+    /// The folder that is made; the default is the scene's name in this folder
+    #[arg(long, value_name = "FOLDER")]
+    pub out: Option<PathBuf>,
+    /// Name the scenes
+    #[arg(long, exclusive = true)]
+    pub list: bool,
+}
+
+/// `lamina completions`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct CompletionsArguments {
+    /// The shell
+    pub shell: Shell,
+}
+
+/// `lamina man`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct ManArguments {
+    /// Folder for a page of each command; without it the page of `lamina` itself goes to stdout
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 /// The file, and the leaf in it if one is named behind `#`.

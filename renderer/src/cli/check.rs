@@ -4,14 +4,16 @@
 use leafmodel::document::error::{DocumentError, LocatedError};
 
 use crate::cli::arguments::{CheckArguments, SceneArguments};
+use crate::cli::building::{Building, load_scene};
+use crate::cli::needs;
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, load_scene, needs, note, say, warn};
-use crate::geometry;
+use crate::cli::terminal::{Failure, note, say, warn};
 use crate::scene::assets;
-use crate::scene::description::{Description, Held, Mesh, Named, Reflectance, Shape};
+use crate::scene::description::{Description, Held, Mesh, Named, Shape};
 use crate::scene::load;
-use crate::scene::world::{World, on_mesh};
+use crate::scene::world::meshes::build_mesh;
+use crate::scene::world::on_mesh;
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let CheckArguments {
@@ -47,7 +49,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     needs::check(&description, *memory)?;
     if *build {
         let _signals = Signals::listen()?;
-        return tell_world(scene, &description, *memory);
+        return report_world(scene, &description, *memory);
     }
     let patience = Patience::reading();
     read_files(&description)?;
@@ -77,41 +79,24 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
 /// Reads the files of a scene whose existence alone was checked so far.
 fn read_files(description: &Description) -> Result<(), Failure> {
     for (number, mesh) in description.meshes.iter().enumerate() {
-        let name = &mesh.name;
-        if let Shape::Mesh(Mesh::Gltf {
-            file,
-            beside,
-            scale,
-        }) = &mesh.value
-        {
-            let told = |error| Failure::bad(format!("meshes.{name}: {error}"));
-            let wanted = description.wanted_of(number);
-            let model = assets::model(file, beside, *scale, wanted).map_err(told)?;
-            note(on_mesh(name, &model.mesh, &model.left_out));
+        if let Shape::Mesh(Mesh::Gltf(_) | Mesh::File(_)) = &mesh.value {
+            let built = build_mesh(&mesh.name, &mesh.value, description.wanted_of(number));
+            let built = built.map_err(Failure::bad)?;
+            note(on_mesh(&mesh.name, &built.mesh, &built.left_out));
         }
-        let Shape::Mesh(Mesh::File { file, scale }) = &mesh.value else {
-            continue;
-        };
-        let bytes = assets::read(file).map_err(Failure::bad)?;
-        let ending = file.extension().and_then(|ending| ending.to_str());
-        let mesh = geometry::import(&bytes, ending.unwrap_or_default(), *scale as f32)
-            .map_err(|error| Failure::bad(format!("meshes.{name}: {}: {error}", file.display())))?;
-        note(on_mesh(name, &mesh, &[]));
     }
     for material in &description.materials {
-        if let Some(Reflectance::Picture { file, layer, .. }) = material.value.reflectance() {
-            let told = |error| Failure::bad(format!("materials.{}: {error}", material.name));
-            assets::reflectances(file, layer.as_deref()).map_err(told)?;
+        let refused = |error| bad!("materials.{}: {error}", material.name);
+        if let Some((file, layer)) = material.value.picture() {
+            assets::reflectances(file, layer).map_err(refused)?;
         }
-        let Some(Held::Map { file, .. }) = material.value.held() else {
-            continue;
-        };
-        let told = |error| Failure::bad(format!("materials.{}: {error}", material.name));
-        assets::contents_map(file).map_err(told)?;
+        if let Some(Held::Map { file, .. }) = material.value.held() {
+            assets::contents_map(file).map_err(refused)?;
+        }
     }
     for light in &description.lights {
         if let Some((file, layer)) = light.value.picture() {
-            let told = |error| Failure::bad(format!("lights.{}: {error}", light.name));
+            let told = |error| bad!("lights.{}: {error}", light.name);
             assets::shining(file, layer).map_err(told)?;
         }
     }
@@ -119,14 +104,16 @@ fn read_files(description: &Description) -> Result<(), Failure> {
 }
 
 /// Builds the scene and prints its size.
-fn tell_world(
+fn report_world(
     scene: &SceneArguments,
     description: &Description,
     memory: Option<f64>,
 ) -> Result<(), Failure> {
-    let patience = Patience::building(description.leaves.len(), memory);
-    let mut world = World::build_with(description, &patience.options()).map_err(Failure::bad)?;
-    drop(patience);
+    let building = Building {
+        memory,
+        ..Building::default()
+    };
+    let mut world = building.world(description)?;
     note(std::mem::take(&mut world.notes));
     for Named { name, value } in &description.crossing {
         let [crossing, leaves] = value;

@@ -2,8 +2,8 @@
 
 use crate::cli::arguments::CheckBsdfArguments;
 use crate::cli::places::{check_outputs, is_json_not_csv, write_and_say};
+use crate::cli::terminal::{Failure, note, say};
 use crate::cli::texts::text_of;
-use crate::cli::{Failure, note, say};
 use crate::measured::bsdf;
 use crate::report::bsdf_check::{human, report, rows};
 

@@ -13,9 +13,10 @@ use leafmodel::measure::keys;
 use self::leaves::measure_all;
 use self::sources::Sources;
 use crate::cli::arguments::CompareNetworksArguments;
+use crate::cli::needs::on_threads;
 use crate::cli::places::{check_outputs, has_ending, require_ending, write_and_say};
 use crate::cli::progress::Patience;
-use crate::cli::{Failure, did_you_mean, note, on_threads, say};
+use crate::cli::terminal::{Failure, did_you_mean, note, say};
 use crate::comparison::leaves::LEFT_OUT;
 use crate::comparison::{Findings, Wanted};
 use crate::report::comparison::{csv, html, json, overlay, words};
@@ -83,11 +84,11 @@ fn found(
         .collect();
     Findings::new(sources.groups.clone(), leaves, wanted).map_err(|[one, other]| {
         let ((one, group), (other, _)) = (&names[one], &names[other]);
-        Failure::bad(format!(
+        bad!(
             "{one} and {other} of group {} are the same network: each leaf of a group counts as one of its own, \
              so name it once, or grow it by a plan that heeds its seed",
             sources.groups[*group]
-        ))
+        )
     })
 }
 
@@ -96,15 +97,13 @@ fn check_keys(only: &[String]) -> Result<(), Failure> {
     for key in only {
         if !keys().any(|known| known == key) {
             let meant = did_you_mean(key, keys());
-            return Err(Failure::bad(format!(
+            bail!(
                 "--only: there is no measure `{}`{meant}",
                 key.escape_debug()
-            )));
+            );
         }
         if LEFT_OUT.contains(&key.as_str()) {
-            return Err(Failure::bad(format!(
-                "--only: `{key}` is not compared, because its numbers go together"
-            )));
+            bail!("--only: `{key}` is not compared, because its numbers go together");
         }
     }
     Ok(())
@@ -118,10 +117,10 @@ fn check_files(arguments: &CompareNetworksArguments, sources: &Sources) -> Resul
             .any(|end| has_ending(path, end))
     };
     if let Some(path) = arguments.out.iter().find(|path| !is_known(path)) {
-        return Err(Failure::bad(format!(
-            "{}: the ending tells what is written: html (the report), csv or json",
-            path.display()
-        )));
+        bail_at!(
+            path,
+            "the ending tells what is written: html (the report), csv or json"
+        );
     }
     require_ending(&arguments.values, "csv", "a table is written as csv")?;
     let mut inputs = sources.files();
@@ -141,18 +140,16 @@ fn overlays(
         found.ok_or_else(|| {
             let names = sources.leaves.iter().map(|leaf| leaf.name.as_str());
             let meant = did_you_mean(name, names);
-            Failure::bad(format!(
+            bad!(
                 "--overlay: no leaf is called `{}`{meant}",
                 name.escape_debug()
-            ))
+            )
         })
     };
     if let [one, other] = arguments.overlay.as_slice() {
         let pair = [named(one)?, named(other)?];
         if pair[0] == pair[1] {
-            return Err(Failure::bad(format!(
-                "--overlay: {one} lies over itself in any case: name another leaf"
-            )));
+            bail!("--overlay: {one} lies over itself in any case: name another leaf");
         }
         return Ok(vec![pair]);
     }

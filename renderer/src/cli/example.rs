@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use lamina_scenes::{SCENES, Scene};
 
 use crate::cli::arguments::ExampleArguments;
-use crate::cli::{Failure, say};
+use crate::cli::terminal::{Failure, say};
 use crate::image::atomic::folder_of;
 
 pub(super) fn run(arguments: &ExampleArguments) -> Result<(), Failure> {
@@ -23,7 +23,7 @@ pub(super) fn run(arguments: &ExampleArguments) -> Result<(), Failure> {
     };
     let scene = lamina_scenes::find(name).ok_or_else(|| {
         let known = SCENES.map(|scene| scene.name).join(", ");
-        Failure::bad(format!("there is no example `{name}`; there are: {known}"))
+        bad!("there is no example `{name}`; there are: {known}")
     })?;
     let folder = arguments
         .out
@@ -31,9 +31,7 @@ pub(super) fn run(arguments: &ExampleArguments) -> Result<(), Failure> {
         .unwrap_or_else(|| PathBuf::from(scene.name));
     let shown = folder.display();
     if fs::symlink_metadata(&folder).is_ok() {
-        return Err(Failure::bad(format!(
-            "{shown} exists: name another folder with --out"
-        )));
+        bail!("{shown} exists: name another folder with --out");
     }
     write(scene, &folder).map_err(|error| Failure::system(format!("{shown}: {error}")))?;
     say(folder.join(scene.files[0].name).display());

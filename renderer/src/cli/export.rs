@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use crate::cli::arguments::MitsubaArguments;
-use crate::cli::progress::Patience;
+use crate::cli::building::{Building, load_scene};
+use crate::cli::needs;
+use crate::cli::places::check_writable;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, check_writable, load_scene, needs, say};
+use crate::cli::terminal::{Failure, say};
 use crate::export::mitsuba::{self, ExportError};
-use crate::scene::world::World;
 
 pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
     let signals = Signals::listen()?;
@@ -15,21 +16,23 @@ pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
     let scene = load_scene(&arguments.scene)?.description;
     mitsuba::check(&scene).map_err(Failure::bad)?;
     needs::check_geometry(&scene, "export", arguments.memory)?;
-    let patience = Patience::building(scene.leaves.len(), arguments.memory);
-    let world = World::build_with(&scene, &patience.options()).map_err(Failure::bad)?;
-    drop(patience);
+    let building = Building {
+        memory: arguments.memory,
+        ..Building::default()
+    };
+    let world = building.world(&scene)?;
     // What is begun is written to its end, or not at all.
     signals.begin_work();
     mitsuba::write(&scene, &world, &arguments.out).map_err(|error| match error {
         ExportError::Write { .. } | ExportError::Image(_) => Failure::system(error),
         ExportError::Asset(_)
         | ExportError::Fluorescence
-        | ExportError::Lens { .. }
+        | ExportError::Lens(_)
         | ExportError::Nested { .. }
         | ExportError::CameraInside
-        | ExportError::Layers { .. }
-        | ExportError::Tangents { .. }
-        | ExportError::NotOurs { .. } => Failure::bad(error),
+        | ExportError::Layers(_)
+        | ExportError::Tangents(_)
+        | ExportError::NotOurs(_) => Failure::bad(error),
     })?;
     say(arguments.out.display());
     if world.objects.have_drops() {

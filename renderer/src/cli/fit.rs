@@ -10,7 +10,8 @@ use rayon::prelude::*;
 use crate::cli::arguments::FitArguments;
 use crate::cli::places::{check_outputs, is_json_not_csv, require_ending, write_and_say};
 use crate::cli::progress::Patience;
-use crate::cli::{Failure, say};
+use crate::cli::terminal::{Failure, say};
+use crate::measured::series::retain;
 use crate::measured::spectra::Leaf;
 use crate::report::fit::{
     Fitted, Rounded, contents, covariances, fitted_spectra, human, report, shown, svg,
@@ -53,11 +54,11 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
         if leaf.nm.len() < LEAST_WAVELENGTHS {
             let [low, high] = range;
             let (count, name) = (leaf.nm.len(), shown(leaf));
-            return Err(Failure::bad(format!(
-                "{}: {name} has {count} wavelengths from {low} to {high} nm, at least \
-                 {LEAST_WAVELENGTHS} are needed",
-                input::files(arguments)[0].display()
-            )));
+            bail_at!(
+                input::files(arguments)[0],
+                "{name} has {count} wavelengths from {low} to {high} nm, at least \
+                 {LEAST_WAVELENGTHS} are needed"
+            );
         }
     }
     let left_out = before - leaves.iter().map(|leaf| leaf.nm.len()).sum::<usize>();
@@ -78,14 +79,11 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
         };
         write_and_say(file, text)?;
     }
-    if let Some(file) = &arguments.spectra_out {
-        write_and_say(file, fitted_spectra(&fitted))?;
-    }
-    if let Some(file) = &arguments.plot {
-        write_and_say(file, svg(&fitted))?;
-    }
-    if let Some(file) = &arguments.covariance_out {
-        write_and_say(file, covariances(&fitted))?;
+    let texts = [fitted_spectra, svg, covariances];
+    for ((file, ..), text) in others.into_iter().zip(texts) {
+        if let Some(file) = file {
+            write_and_say(file, text(&fitted))?;
+        }
     }
     for fitted in &fitted {
         say_correlation(fitted);
@@ -103,7 +101,7 @@ fn wanted(arguments: &FitArguments) -> Result<(Vec<Constituent>, Contents), Fail
         found.ok_or_else(|| {
             let names = Constituent::ALL.map(Constituent::name).join(", ");
             let name = name.escape_debug();
-            Failure::bad(format!("there is no content `{name}`; allowed are {names}"))
+            bad!("there is no content `{name}`; allowed are {names}")
         })
     };
     let mut free = if arguments.free.is_empty() {
@@ -120,40 +118,28 @@ fn wanted(arguments: &FitArguments) -> Result<(Vec<Constituent>, Contents), Fail
         let value = value.trim().parse::<f64>().ok();
         let value = value
             .filter(|value| (low..=high).contains(value))
-            .ok_or_else(|| {
-                Failure::bad(format!(
-                    "--fix {written}: a number from {low} to {high} is needed"
-                ))
-            })?;
+            .ok_or_else(|| bad!("--fix {written}: a number from {low} to {high} is needed"))?;
         if arguments.free.iter().any(|name| name.trim() == of.name()) {
-            return Err(Failure::bad(format!(
-                "{} is both free and fixed",
-                of.name()
-            )));
+            bail!("{} is both free and fixed", of.name());
         }
         fixed[of] = value;
         free.retain(|other| *other != of);
         known.push(of);
     }
     if let Some(twice) = (1..free.len()).find(|&i| free[..i].contains(&free[i])) {
-        return Err(Failure::bad(format!(
-            "{} is free twice",
-            free[twice].name()
-        )));
+        bail!("{} is free twice", free[twice].name());
     }
     let unknown = Inversion::PROSPECT_D.into_iter();
     let unknown = unknown.filter(|of| !free.contains(of) && !known.contains(of));
     let unknown: Vec<&str> = unknown.map(Constituent::name).collect();
     if !unknown.is_empty() {
-        return Err(Failure::bad(format!(
+        bail!(
             "neither free nor known: {}; name each by --free, or give it by --fix NAME=VALUE",
             unknown.join(", ")
-        )));
+        );
     }
     if free.is_empty() {
-        return Err(Failure::bad(
-            "every content is fixed: there is nothing to be found",
-        ));
+        bail!("every content is fixed: there is nothing to be found");
     }
     Ok((free, fixed))
 }
@@ -165,29 +151,24 @@ fn parse_range(written: &str) -> Result<[f64; 2], Failure> {
         Some([Ok(low), Ok(high)]) if FIRST_NM <= low && low < high && high <= LAST_NM => {
             Ok([low, high])
         }
-        _ => Err(Failure::bad(format!(
+        _ => Err(bad!(
             "--range {written}: write it as 400..800, from {FIRST_NM} to {LAST_NM} nm"
-        ))),
+        )),
     }
 }
 
 /// Keeps the wavelengths of a range.
 fn keep(leaf: &mut Leaf, [low, high]: [f64; 2]) {
     let kept: Vec<bool> = leaf.nm.iter().map(|nm| (low..=high).contains(nm)).collect();
-    let Leaf {
-        name: _,
-        nm,
-        reflectance,
-        abaxial,
-        transmittance,
-        lines,
-    } = leaf;
-    for values in [nm, reflectance, abaxial, transmittance] {
-        let mut kept = kept.iter();
-        values.retain(|_| kept.next().copied().unwrap_or(true));
+    for values in [
+        &mut leaf.nm,
+        &mut leaf.reflectance,
+        &mut leaf.abaxial,
+        &mut leaf.transmittance,
+    ] {
+        retain(values, &kept);
     }
-    let mut kept = kept.iter();
-    lines.retain(|_| kept.next().copied().unwrap_or(true));
+    retain(&mut leaf.lines, &kept);
 }
 
 fn spectra(leaf: &Leaf) -> inversion::Spectra<'_> {

@@ -4,16 +4,20 @@ mod free;
 mod observed;
 mod simulations;
 
-use leafmodel::inference::{FitError, Problem, fit};
+use leafmodel::inference::{FitError, Problem, Role, fit};
+use serde_json::json;
 
 use self::free::Grower;
 use self::observed::Observed;
 use self::simulations::Simulations;
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::FitVeinsArguments;
+use crate::cli::needs::on_threads;
+use crate::cli::places::check_writable;
 use crate::cli::places::{Lock, write_whole};
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, check_writable, note, on_threads, say, stats};
+use crate::cli::stats;
+use crate::cli::terminal::{Failure, note, say};
 use crate::report::vein_fit;
 use crate::scene::fingerprint::fnv1a;
 
@@ -29,7 +33,7 @@ pub(super) fn run(arguments: &FitVeinsArguments) -> Result<(), Failure> {
     let problem = problem.map_err(Failure::bad)?;
     note(observed.notes.iter().chain(&grower.notes(&observed)));
     let folder = arguments.out.as_path();
-    let refused = |error| Failure::system(format!("{}: {error}", folder.display()));
+    let refused = Failure::system_at(folder);
     std::fs::create_dir_all(folder).map_err(refused)?;
     let [json, sample, picture, table] =
         ["fit.json", "posterior.csv", "fit.svg", "simulations.csv"].map(|name| folder.join(name));
@@ -38,12 +42,21 @@ pub(super) fn run(arguments: &FitVeinsArguments) -> Result<(), Failure> {
     }
     let signals = Signals::listen()?;
     let _lock = Lock::take(&json, &signals)?;
-    let told = format!(
-        "{PROGRAM} {} {} {problem:?}",
-        grower.told(),
-        arguments.memory
-    );
-    let simulations = Simulations::open(&table, fnv1a(told.as_bytes()), &problem)?;
+    let parameters = problem.parameters().iter();
+    let parameters = parameters.map(|one| json!([one.name(), one.range(), one.is_whole()]));
+    let observed = problem.observed().iter();
+    let observed = observed.map(|one| json!([one.key, one.value, one.role == Role::HeldOut]));
+    let identity = json!({
+        "program": PROGRAM,
+        "leaf": grower.file(),
+        "memory": arguments.memory,
+        "parameters": parameters.collect::<Vec<_>>(),
+        "observed": observed.collect::<Vec<_>>(),
+        "simulations": problem.simulations(),
+        "seed": problem.seed(),
+    });
+    let identity = fnv1a(identity.to_string().as_bytes());
+    let simulations = Simulations::open(&table, identity, &problem)?;
     signals.begin_work();
     let work = || {
         fit(&problem, |draws| {

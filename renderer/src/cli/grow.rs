@@ -13,7 +13,7 @@ mod maps;
 mod outputs;
 
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use leafmodel::compound::{CompoundLeaf, StalkKind};
@@ -34,10 +34,12 @@ use self::grown::Grown;
 use self::outputs::{Kind, Outputs};
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::GrowArguments;
-use crate::cli::places::write_whole;
+use crate::cli::needs::on_threads;
+use crate::cli::places::write_and_say;
 use crate::cli::progress::Patience;
-use crate::cli::signals::Signals;
-use crate::cli::{Failure, needs, on_threads, say, stats};
+use crate::cli::signals::{self, Signals};
+use crate::cli::terminal::{Failure, say};
+use crate::cli::{needs, stats};
 use crate::export::blade::{self, Parts};
 
 pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
@@ -152,16 +154,14 @@ fn carry_out(
     };
     let look = Look::asked_for(arguments, page, all_veins);
     for (path, kind) in &outputs.whole {
-        let bytes = match kind {
-            Kind::Svg | Kind::Png | Kind::Json | Kind::GraphMl | Kind::GeoJson | Kind::Csv => {
-                look.file(*kind, without_sources(outlines, all_veins), None)?
-            }
+        let bytes = match *kind {
+            Kind::Veins(format) => look.file(format, without_sources(outlines, all_veins), None)?,
             Kind::Ply | Kind::Obj => match &grown {
                 Grown::Whole(leaf) if *kind == Kind::Ply => blade::ply(&Parts::of(leaf)),
                 Grown::Whole(leaf) => blade::obj(&Parts::of(leaf)).into_bytes(),
                 Grown::Flat { .. } => continue,
             },
-            Kind::Gif | Kind::Apng | Kind::Mp4 | Kind::Toml => continue,
+            Kind::Film(_) | Kind::Mp4 | Kind::Toml => continue,
         };
         finish(path, &bytes, stop)?;
     }
@@ -303,10 +303,6 @@ fn compound_measures(leaf: &CompoundLeaf) -> serde_json::Value {
 
 /// Writes a file and prints its name, unless the run was interrupted.
 fn finish(path: &Path, bytes: &[u8], stop: &AtomicBool) -> Result<(), Failure> {
-    if stop.load(Ordering::Relaxed) {
-        return Err(Failure::Interrupted);
-    }
-    write_whole(path, bytes)?;
-    say(path.display());
-    Ok(())
+    signals::check(stop)?;
+    write_and_say(path, bytes)
 }

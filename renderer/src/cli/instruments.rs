@@ -4,21 +4,21 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::cli::arguments::InstrumentsArguments;
+use crate::cli::building::Building;
+use crate::cli::needs;
+use crate::cli::needs::on_threads;
 use crate::cli::places::{
     check_outputs, has_ending, is_json_not_csv, require_ending, write_and_say,
 };
-use crate::cli::progress::{Clock, Patience};
+use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, needs, note, on_threads, warn};
+use crate::cli::terminal::{Failure, note, warn};
 use crate::instruments::{
     Budget, CutPaths, Effort, MOST_TURNS, Row, Watch, notes, read_out_watched, sets_of,
 };
 use crate::report::instruments as report;
 use crate::scene::description::Description;
 use crate::scene::load;
-use crate::scene::plant_cache::PlantCache;
-use crate::scene::world::{BuildOptions, World};
-use crate::spectrum::WavelengthSampler;
 
 /// Rays if the command line says nothing.
 const USUAL_RAYS: u64 = 1 << 16;
@@ -55,12 +55,12 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
     })?;
     let ended = match ended {
         // Nothing was measured: what older runs wrote stays.
-        Err(Ended::Failed(failure)) if rows.is_empty() => return Err(failure),
+        Some(Ended::Failed(failure)) if rows.is_empty() => return Err(failure),
         ended => ended,
     };
     for path in &arguments.out {
         let text = if has_ending(path, "json") {
-            report::json(&scene, &budget, (&rows, &cuts), ended.is_ok())
+            report::json(&scene, &budget, (&rows, &cuts), ended.is_none())
         } else {
             report::csv(&rows)
         };
@@ -68,27 +68,28 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
     }
     if let Some(path) = &arguments.plot {
         let drawing = report::svg(&rows).ok_or_else(|| {
-            Failure::bad(format!(
-                "{}: there is nothing to draw: a line needs figures at two wavelengths, view angles \
-                 or depths",
-                path.display()
-            ))
+            bad_at!(
+                path,
+                "there is nothing to draw: a line needs figures at two wavelengths, view angles \
+                 or depths"
+            )
         })?;
         write_and_say(path, drawing)?;
     }
     match ended {
-        Err(Ended::Failed(failure)) => Err(failure),
-        Err(Ended::Late) | Ok(()) => Ok(()),
+        Some(Ended::Failed(failure)) => Err(failure),
+        Some(Ended::Late) | None => Ok(()),
     }
 }
 
 /// What was measured.
+#[derive(Default)]
 struct Measured {
     rows: Vec<Row>,
     /// Paths that the limit of events cut, of each instrument.
     cuts: Cuts,
     /// Why not all of it was, or not with all rays.
-    ended: Result<(), Ended>,
+    ended: Option<Ended>,
 }
 
 /// Why a measurement ended early.
@@ -104,18 +105,18 @@ fn choose(arguments: &InstrumentsArguments, scene: &Description) -> Result<Vec<u
     let shown = arguments.scene.scene.display();
     let all = &scene.instruments;
     if all.is_empty() {
-        return Err(Failure::bad(format!(
+        bail!(
             "{shown} has no instruments: add one, for example `[instruments.ball.sphere]` with \
              `object = \"leaf\"`"
-        )));
+        );
     }
     for name in &arguments.only {
         if !all.iter().any(|instrument| instrument.name == *name) {
             let known: Vec<&str> = all.iter().map(|known| known.name.as_str()).collect();
-            return Err(Failure::bad(format!(
+            bail!(
                 "--only: {shown} has no instrument `{name}`, but {}",
                 known.join(", ")
-            )));
+            );
         }
     }
     let is_chosen = |name: &String| arguments.only.is_empty() || arguments.only.contains(name);
@@ -135,19 +136,20 @@ fn measure(
     signals: &Signals,
 ) -> Result<Measured, Failure> {
     needs::check_geometry(scene, "measurement", arguments.memory)?;
+    let mut measured = Measured::default();
     let Some((sampler, first)) = sets_of(scene) else {
-        return Ok(Measured {
-            rows: Vec::new(),
-            cuts: Vec::new(),
-            ended: Ok(()),
-        });
+        return Ok(measured);
     };
-    let world = build(arguments, scene, &sampler)?;
+    let building = Building {
+        memory: arguments.memory,
+        cache: arguments.cache.as_deref(),
+        wavelengths: Some(&sampler),
+    };
+    let world = building.world(scene)?;
     note(&world.notes);
     signals.begin_work();
     let time = arguments.time.map(Duration::from_secs_f64);
     let until = time.map(|time| Instant::now() + time);
-    let (mut rows, mut cuts) = (Vec::new(), Vec::new());
     for (place, &number) in chosen.iter().enumerate() {
         let started = Instant::now();
         let name = &scene.instruments[number].name;
@@ -166,12 +168,12 @@ fn measure(
         let found = match read_out_watched(&world, scene, number, first[number], &effort) {
             Ok(found) => found,
             Err(error) => {
-                let ended = Err(Ended::Failed(Failure::bad(error)));
-                return Ok(Measured { rows, cuts, ended });
+                measured.ended = Some(Ended::Failed(Failure::bad(error)));
+                break;
             }
         };
         report_cuts(name, &found.cut, scene.integrator.max_events);
-        cuts.push((name.clone(), found.cut));
+        measured.cuts.push((name.clone(), found.cut));
         let found = found.rows;
         let greatest = found.iter().map(|row| row.error).fold(0.0, f64::max);
         eprintln!(
@@ -191,41 +193,29 @@ fn measure(
                  standard errors, up to {greatest:.1e}"
             );
         }
-        rows.extend(found);
+        measured.rows.extend(found);
         let left = chosen[place + 1..].iter();
-        let left: Vec<&str> = left
-            .map(|&number| scene.instruments[number].name.as_str())
-            .collect();
+        let left = left.map(|&number| scene.instruments[number].name.as_str());
+        let left: Vec<&str> = left.collect();
         let is_cut = open > 0 || (budget.error.is_none() && (1..budget.rays).contains(&rays));
         let is_stopped = signals.stop.load(Ordering::Relaxed);
         let is_over = is_stopped || until.is_some_and(|until| Instant::now() >= until);
         if is_over && (is_cut || !left.is_empty()) {
-            let by = if is_stopped {
-                "the interruption"
-            } else {
-                "--time"
+            let by = ["--time", "the interruption"][usize::from(is_stopped)];
+            let rest = match left.as_slice() {
+                [] => String::new(),
+                left => format!("; not measured: {}", left.join(", ")),
             };
-            eprintln!(
-                "note: {by} ended the measurement after {rays} rays of `{name}`{}",
-                if left.is_empty() {
-                    String::new()
-                } else {
-                    format!("; not measured: {}", left.join(", "))
-                }
-            );
-            let ended = Err(if is_stopped {
+            eprintln!("note: {by} ended the measurement after {rays} rays of `{name}`{rest}");
+            measured.ended = Some(if is_stopped {
                 Ended::Failed(Failure::Interrupted)
             } else {
                 Ended::Late
             });
-            return Ok(Measured { rows, cuts, ended });
+            break;
         }
     }
-    Ok(Measured {
-        rows,
-        cuts,
-        ended: Ok(()),
-    })
+    Ok(measured)
 }
 
 /// Says so if a limit cut paths.
@@ -276,20 +266,4 @@ impl<'a> Rays<'a> {
             eprintln!("{name}: {rays} of {all} rays {after}");
         }
     }
-}
-
-fn build(
-    arguments: &InstrumentsArguments,
-    scene: &Description,
-    sampler: &WavelengthSampler,
-) -> Result<World, Failure> {
-    let cache = arguments.cache.as_deref().map(PlantCache::open);
-    let cache = cache.transpose().map_err(Failure::bad)?;
-    let patience = Patience::building(scene.leaves.len(), arguments.memory);
-    let options = BuildOptions {
-        cache: cache.as_ref(),
-        wavelengths: Some(sampler),
-        ..patience.options()
-    };
-    World::build_with(scene, &options).map_err(Failure::bad)
 }

@@ -13,7 +13,8 @@ use crate::cli::places::{
     check_outputs, has_ending, is_json_not_csv, require_ending, write_and_say,
 };
 use crate::cli::progress::Patience;
-use crate::cli::{Failure, trace};
+use crate::cli::terminal::Failure;
+use crate::cli::trace;
 use crate::report::measures::{Report, measured};
 
 /// Most areoles that the bootstrap draws, which takes up to a minute of a processor.
@@ -88,11 +89,11 @@ fn check_draws(draws: u32, areoles: usize) -> Result<(), Failure> {
     if drawn <= MOST_DRAWN {
         return Ok(());
     }
-    Err(Failure::bad(format!(
+    Err(bad!(
         "--bootstrap {draws}: {areoles} areoles are drawn each time, {drawn} in all, more than the {MOST_DRAWN} \
          that are drawn: take {} or less",
         MOST_DRAWN / areoles as u64
-    )))
+    ))
 }
 
 /// Fails if files cannot be written, are named twice or read, or end in what is not written.

@@ -7,7 +7,7 @@ use crate::cli::arguments::MergeArguments;
 use crate::cli::picture_files::{self, stem_of, with_ending};
 use crate::cli::places::{Lock, check_outputs};
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, note, say};
+use crate::cli::terminal::{Failure, note, say};
 use crate::integrator::layers::Layout;
 use crate::integrator::render::{Ended, Rendered};
 use crate::spectrum::WavelengthSampler;

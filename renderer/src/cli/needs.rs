@@ -1,6 +1,6 @@
 //! Memory that a render, an export or the growth of a leaf needs, said before it begins.
 
-use crate::cli::Failure;
+use crate::cli::terminal::Failure;
 use crate::film::Film;
 use crate::integrator::layers::Layout;
 use crate::scene::description::Description;
@@ -65,11 +65,11 @@ pub(super) fn compare(
         [] => String::new(),
         parts => format!(" ({})", parts.join(", ")),
     };
-    Err(Failure::bad(format!(
+    Err(bad!(
         "this {work} needs about {} of memory{parts}, more than {limit}: make it smaller, or allow it with --memory {}",
         shown(needed),
         (needed / GIB).ceil(),
-    )))
+    ))
 }
 
 /// Bytes that a scene may take while it is built: `allowed` GiB, or what the machine has free, and no
@@ -137,4 +137,13 @@ fn reported_bytes(file: &str, name: &str) -> Option<f64> {
     let line = text.lines().find_map(|line| line.strip_prefix(name))?;
     let kib: f64 = line.split_whitespace().next()?.parse().ok()?;
     Some(kib * 1024.0)
+}
+
+/// Does work on so many threads; without a number on one for each processor.
+pub(super) fn on_threads<T: Send>(
+    threads: Option<u16>,
+    work: impl FnOnce() -> Result<T, Failure> + Send,
+) -> Result<T, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from));
+    pool.build().map_err(Failure::system)?.install(work)
 }

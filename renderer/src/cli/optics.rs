@@ -13,9 +13,10 @@ use serde_json::json;
 use self::leaf::Chosen;
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::OpticsArguments;
+use crate::cli::places::check_writable;
 use crate::cli::places::{require_ending, write_and_say};
 use crate::cli::progress::Patience;
-use crate::cli::{Failure, check_writable, say};
+use crate::cli::terminal::{Failure, say};
 use crate::report::optics::{angles, colour, figures, layers};
 
 pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {

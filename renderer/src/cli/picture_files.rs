@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::cli::Failure;
+use crate::cli::terminal::Failure;
 use crate::image::display::FileKind;
 use crate::image::{ImageError, openexr};
 use crate::integrator::caption::Caption;
@@ -19,20 +19,20 @@ const OTHER_PICTURES: [&str; 13] = [
 pub(super) fn stem_of<'a>(out: &'a Path, endings: &[&str]) -> Result<(PathBuf, &'a str), Failure> {
     let text = out.as_os_str().as_encoded_bytes();
     if out.file_name().is_none() || text.ends_with(b"/") {
-        return Err(Failure::bad(format!(
+        bail!(
             "{} is a folder: name the pictures in it, for example --out {}",
             out.display(),
             out.join("leaf").display()
-        )));
+        );
     }
     let ending = out.extension().and_then(|ending| ending.to_str());
     if let Some(ending) = ending
         && OTHER_PICTURES.contains(&ending.to_ascii_lowercase().as_str())
     {
-        return Err(Failure::bad(format!(
-            "{}: pictures are written as exr and png or jpg, not as {ending}",
-            out.display()
-        )));
+        bail_at!(
+            out,
+            "pictures are written as exr and png or jpg, not as {ending}"
+        );
     }
     Ok(match (FileKind::of(out), ending) {
         (Some(_), Some(ending)) => (out.with_extension(""), ending),

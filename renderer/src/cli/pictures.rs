@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use crate::cli::arguments::{CompareArguments, InfoArguments};
-use crate::cli::{Failure, needs, say};
+use crate::cli::needs;
+use crate::cli::terminal::{Failure, say};
 use crate::image::colours::in_rec709;
 use crate::image::{Attribute, Picture, compare as numbers, openexr};
 
@@ -19,15 +20,13 @@ pub(super) fn read(path: &Path) -> Result<Picture, Failure> {
 pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let of = |path: &Path| {
         let converted = in_rec709(read(path)?);
-        converted.map_err(|error| Failure::bad(format!("{}: {error}", path.display())))
+        converted.map_err(Failure::at(path))
     };
     let (first, second) = (of(&arguments.first)?, of(&arguments.second)?);
     let comparison = numbers::compare(&first, &second);
     let [(width, height), (other_width, other_height)] = comparison.sizes;
     if (width, height) != (other_width, other_height) {
-        return Err(Failure::bad(format!(
-            "the pictures have {width} × {height} and {other_width} × {other_height} pixels"
-        )));
+        bail!("the pictures have {width} × {height} and {other_width} × {other_height} pixels");
     }
     say(format!(
         "{:<28} {:>13} {:>13} {:>11} {:>12} {:>12}",

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, say};
+use crate::cli::terminal::{Failure, say};
 use crate::image::atomic::{self, Destination, destination, folder_of};
 
 /// Fails if `path` could not be written, before any work is done. Half files of programs that were
@@ -15,7 +15,7 @@ use crate::image::atomic::{self, Destination, destination, folder_of};
 pub(super) fn check_writable(path: &Path) -> Result<(), Failure> {
     let shown = path.display();
     if path.is_dir() {
-        return Err(Failure::bad(format!("{shown} is a folder: name a file")));
+        bail!("{shown} is a folder: name a file");
     }
     let refused = |error: std::io::Error| Failure::system(format!("{shown}: {error}"));
     let path = match destination(path).map_err(refused)? {
@@ -24,10 +24,10 @@ pub(super) fn check_writable(path: &Path) -> Result<(), Failure> {
     };
     let folder = folder_of(&path);
     if !folder.is_dir() {
-        return Err(Failure::bad(format!(
+        bail!(
             "the folder {} of {shown} does not exist: make it or write somewhere else",
             folder.display(),
-        )));
+        );
     }
     atomic::sweep(folder);
     // A file without a name: a program that is killed here leaves none behind.
@@ -68,17 +68,17 @@ pub(super) fn check_outputs<'a, P: AsRef<Path> + ?Sized + 'a>(
             continue;
         };
         if inputs.contains(&place) {
-            return Err(Failure::bad(format!(
+            bail!(
                 "{} is a file that {reader} reads: name another output",
                 output.display()
-            )));
+            );
         }
         if let Some(other) = seen.insert(place, output) {
             return Err(if other == output {
                 Failure::written_twice(output)
             } else {
                 let (one, other) = (output.display(), other.display());
-                Failure::bad(format!("{one} and {other} are one file: name another"))
+                bad!("{one} and {other} are one file: name another")
             });
         }
     }
@@ -100,10 +100,7 @@ pub(super) fn require_ending<'a, P: AsRef<Path> + ?Sized + 'a>(
     let mut files = file.into_iter().map(AsRef::as_ref);
     match files.find(|path| !has_ending(path, ending)) {
         None => Ok(()),
-        Some(path) => Err(Failure::bad(format!(
-            "{}: {what}: let its name end in .{ending}",
-            path.display()
-        ))),
+        Some(path) => Err(bad_at!(path, "{what}: let its name end in .{ending}")),
     }
 }
 
@@ -111,10 +108,10 @@ pub(super) fn require_ending<'a, P: AsRef<Path> + ?Sized + 'a>(
 pub(super) fn is_json_not_csv(out: Option<&Path>) -> Result<bool, Failure> {
     match out {
         Some(path) if has_ending(path, "json") => Ok(true),
-        Some(path) if !has_ending(path, "csv") => Err(Failure::bad(format!(
-            "{}: --out writes tables: let its name end in .csv or .json",
-            path.display()
-        ))),
+        Some(path) if !has_ending(path, "csv") => Err(bad_at!(
+            path,
+            "--out writes tables: let its name end in .csv or .json"
+        )),
         Some(_) | None => Ok(false),
     }
 }

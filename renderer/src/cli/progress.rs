@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::cli::{needs, on_a_screen};
+use crate::cli::needs;
+use crate::cli::terminal::on_a_screen;
 use crate::integrator::render::Progress;
 use crate::scene::world::BuildOptions;
 
@@ -185,7 +186,7 @@ impl Reporter {
         }
     }
 
-    pub(super) fn tell(&self, progress: Progress) {
+    pub(super) fn report(&self, progress: Progress) {
         if let Some(bar) = &self.bar {
             // The expected total: fewer paths than asked for if the time is up before.
             bar.set_length((progress.paths as f64 / self.fraction(progress)) as u64);

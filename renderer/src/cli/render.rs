@@ -1,6 +1,7 @@
 //! `lamina render`: a scene file to STEM.exr and STEM.png or STEM.jpg.
 
 mod keeping;
+mod pace;
 mod plan;
 mod preview;
 mod report;
@@ -13,83 +14,109 @@ use std::time::{Duration, Instant};
 use self::keeping::Keeping;
 use self::plan::{Files, Plan};
 use self::preview::Preview;
-use self::report::{Times, report, tell_samples, tell_speed};
+use self::report::{Times, report_samples, report_speed, stats};
 use self::viewer::Viewer;
 use crate::checkpoint::{self, Heading};
 use crate::cli::arguments::{RenderArguments, SceneArguments};
+use crate::cli::building::{Building, load_scene};
+use crate::cli::needs::{self, on_threads};
 use crate::cli::picture_files;
-use crate::cli::progress::{Patience, Reporter};
+use crate::cli::progress::Reporter;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, load_scene, needs, note, say, stats};
+use crate::cli::terminal::{Failure, note, say};
 use crate::image::ImageError;
 use crate::integrator::caption::Caption;
 use crate::integrator::layers::Layout;
 use crate::integrator::render::{Begun, Contact, Ended, Rendered, begin, go_on};
-use crate::scene::description::Description;
-use crate::scene::load;
-use crate::scene::plant_cache::PlantCache;
-use crate::scene::world::{BuildOptions, World};
+use crate::scene::load::{self, Loaded};
+use crate::scene::world::World;
 
 pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), Failure> {
     let started = Instant::now();
     let signals = Signals::listen()?;
     let loaded = load_scene(&sized(arguments))?;
     let files = Files::of(arguments, &loaded, &signals)?;
-    let threads = arguments.threads.map_or(0, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(Failure::system)?;
-    // As many leaves grow at a time as there are threads.
-    pool.install(|| needs::check(&loaded.description, arguments.memory))?;
-    let mut plan = pool.install(|| Plan::of(arguments, &loaded, &files))?;
-    let shown = files.preview(arguments)?;
-    let viewer = viewer(arguments, &plan.heading)?;
-    let scene = loaded.description;
-    let job = plan.heading.job;
-    let patience = Patience::building(scene.leaves.len(), arguments.memory);
-    let world = pool.install(|| build_world(&scene, arguments, &patience))?;
-    drop(patience);
-    plan.heading.caption = Caption::of(&scene, &world.view, &world.light_colours);
-    note(&world.notes);
-    let build_seconds = started.elapsed().as_secs_f64();
-    // It counts from where an earlier run ended.
-    let spent = plan.before.as_ref().map(|begun| begun.elapsed);
-    let time = arguments
-        .time
-        .map(|time| Duration::from_secs_f64(time) + spent.unwrap_or_default());
-    signals.begin_work();
-    let is_taken_up = plan.before.is_some();
-    let keeping = Keeping::new(
-        &files.checkpoint,
-        [arguments.checkpoint.is_some(), is_taken_up],
-        Duration::from_secs_f64(arguments.checkpoint_every),
-        &plan.heading,
-        &signals,
-    );
-    let layout = Layout::new(&world.wavelengths);
-    let every = arguments
-        .preview
-        .map_or(preview::USUAL, Duration::from_secs_f64);
-    let preview = Preview::new(&plan.heading, layout, every, shown, viewer);
-    let tracing = Instant::now();
-    let begun = match plan.before {
-        Some(begun) => begun.up_to(&job).down_to(plan.heading.aim),
-        None => pool
-            .install(|| begin(&world, &job, plan.heading.aim, &signals.stop))
-            .map_err(Failure::bad)?
-            .from_sample(plan.first),
+    let command = Command {
+        arguments,
+        line,
+        files: &files,
+        signals: &signals,
+        started,
     };
-    let begun = match plan.map {
-        Some(map) => begun.by_map(map),
-        None => begun,
-    };
-    let before = [begun.film.drawn(), begun.rays];
-    let reporter = Reporter::new(time.map(|time| time.saturating_sub(begun.elapsed)));
-    let (begun, ended) = pool.install(|| {
+    on_threads(arguments.threads, || command.carry_out(loaded))
+}
+
+/// What a render was asked for.
+struct Command<'a> {
+    arguments: &'a RenderArguments,
+    /// The command line.
+    line: &'a [OsString],
+    files: &'a Files,
+    signals: &'a Signals,
+    started: Instant,
+}
+
+/// A render whose paths are traced.
+struct Traced<'a> {
+    world: &'a World,
+    heading: &'a Heading,
+    keeping: &'a Keeping<'a>,
+    preview: &'a Preview<'a>,
+    times: Times,
+}
+
+impl Command<'_> {
+    fn carry_out(&self, loaded: Loaded) -> Result<(), Failure> {
+        let (arguments, files, signals) = (self.arguments, self.files, self.signals);
+        // As many leaves grow at a time as there are threads.
+        needs::check(&loaded.description, arguments.memory)?;
+        let mut plan = Plan::of(arguments, &loaded, files)?;
+        let shown = files.preview(arguments)?;
+        let viewer = viewer(arguments, &plan.heading)?;
+        let scene = loaded.description;
+        let job = plan.heading.job;
+        let building = Building {
+            memory: arguments.memory,
+            cache: arguments.cache.as_deref(),
+            ..Building::default()
+        };
+        let world = building.world(&scene)?;
+        plan.heading.caption = Caption::of(&scene, &world.view, &world.light_colours);
+        note(&world.notes);
+        let build_seconds = self.started.elapsed().as_secs_f64();
+        // It counts from where an earlier run ended.
+        let spent = plan.before.as_ref().map(|begun| begun.elapsed);
+        let time = arguments.time.map(Duration::from_secs_f64);
+        let time = time.map(|time| time + spent.unwrap_or_default());
+        signals.begin_work();
+        let is_taken_up = plan.before.is_some();
+        let keeping = Keeping::new(
+            &files.checkpoint,
+            [arguments.checkpoint.is_some(), is_taken_up],
+            Duration::from_secs_f64(arguments.checkpoint_every),
+            &plan.heading,
+            signals,
+        );
+        let layout = Layout::new(&world.wavelengths);
+        let every = arguments.preview.map(Duration::from_secs_f64);
+        let every = every.unwrap_or(preview::USUAL);
+        let preview = Preview::new(&plan.heading, layout, every, shown, viewer);
+        let tracing = Instant::now();
+        let begun = match plan.before {
+            Some(begun) => begun.up_to(&job).down_to(plan.heading.aim),
+            None => begin(&world, &job, plan.heading.aim, &signals.stop)
+                .map_err(Failure::bad)?
+                .from_sample(plan.first),
+        };
+        let begun = match plan.map {
+            Some(map) => begun.by_map(map),
+            None => begun,
+        };
+        let before = [begun.film.drawn(), begun.rays];
+        let reporter = Reporter::new(time.map(|time| time.saturating_sub(begun.elapsed)));
         let contact = Contact {
             stop: &signals.stop,
-            progress: &|progress| reporter.tell(progress),
+            progress: &|progress| reporter.report(progress),
             is_due: &|| keeping.is_due() || preview.is_due(),
             keep: &|begun| {
                 if keeping.is_due() {
@@ -100,42 +127,32 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
                 }
             },
         };
-        go_on(&world, &job, begun, time, &contact)
-    });
-    reporter.finish();
-    let times = Times {
-        all: started.elapsed().as_secs_f64(),
-        build: build_seconds,
-        trace: tracing.elapsed().as_secs_f64(),
-        before,
-    };
-    let traced = Traced {
-        world: &world,
-        heading: &plan.heading,
-        files: &files,
-        keeping: &keeping,
-        preview: &preview,
-        line,
-        stats: arguments.stats.as_deref(),
-    };
-    pool.install(|| traced.finish(begun, ended, &times))
-}
+        let (begun, ended) = go_on(&world, &job, begun, time, &contact);
+        reporter.finish();
+        let traced = Traced {
+            world: &world,
+            heading: &plan.heading,
+            keeping: &keeping,
+            preview: &preview,
+            times: Times {
+                all: self.started.elapsed().as_secs_f64(),
+                build: build_seconds,
+                trace: tracing.elapsed().as_secs_f64(),
+                before,
+            },
+        };
+        self.finish(&traced, begun, ended)
+    }
 
-/// A render whose paths are traced.
-struct Traced<'a> {
-    world: &'a World,
-    heading: &'a Heading,
-    files: &'a Files,
-    keeping: &'a Keeping<'a>,
-    preview: &'a Preview<'a>,
-    /// The command line.
-    line: &'a [OsString],
-    stats: Option<&'a Path>,
-}
-
-impl Traced<'_> {
-    /// Writes and tells what was rendered.
-    fn finish(&self, begun: Begun, ended: Ended, times: &Times) -> Result<(), Failure> {
+    /// Writes and reports what was rendered.
+    fn finish(&self, traced: &Traced<'_>, begun: Begun, ended: Ended) -> Result<(), Failure> {
+        let Traced {
+            world,
+            heading,
+            keeping,
+            preview,
+            times,
+        } = traced;
         let drawn = begun.film.drawn();
         let is_interrupted = ended == Ended::Interrupted;
         if is_interrupted && drawn == 0 {
@@ -144,50 +161,50 @@ impl Traced<'_> {
         }
         // What cannot be made again is kept first.
         let kept = if is_interrupted {
-            self.keeping.save(&begun)
+            keeping.save(&begun)
         } else {
             Ok(())
         };
-        let layout = Layout::new(&self.world.wavelengths);
-        let rendered = Rendered::new(begun, layout, ended);
-        let written = self.write_pictures(&rendered);
-        self.preview.show_last(&rendered.film);
-        let stats = report(self, &rendered, times);
+        let rendered = Rendered::new(begun, Layout::new(&world.wavelengths), ended);
+        let written = self.write_pictures(heading, &rendered);
+        preview.show_last(&rendered.film);
+        let mut stats = stats(&rendered, times);
+        stats["scene"] = heading.caption.name.as_str().into();
+        stats["geometry_mib"] = (world.geometry.memory_bytes() as f64 / f64::from(1 << 20)).into();
+        keeping.report(&mut stats);
+        preview.report(&mut stats);
         let ended = rendered.ended;
-        tell_speed(&rendered, times);
-        tell_samples(&rendered);
+        report_speed(&rendered, times);
+        report_samples(&rendered);
         let rejected = rendered.film.rejected();
         let notes = rendered.notes();
         let begun = rendered.into_begun();
         let written = written.and_then(|()| match &self.files.pictures {
             // An interrupted part is its checkpoint.
-            None if !is_interrupted => checkpoint::write(&self.files.part, self.heading, &begun),
+            None if !is_interrupted => checkpoint::write(&self.files.part, heading, &begun),
             Some(_) | None => Ok(()),
         });
-        written.map_err(|error| self.failed(&error, &begun, is_interrupted))?;
-        if let Some(path) = self.stats {
-            stats::write(path, &stats)?;
+        written.map_err(|error| self.failed(&error, keeping, &begun, is_interrupted))?;
+        if let Some(path) = &self.arguments.stats {
+            crate::cli::stats::write(path, &stats)?;
         }
         if is_interrupted {
-            kept.map_err(|error| Failure::system(format!("no checkpoint: {error}")))?;
+            kept.map_err(|error| Failure::system(format_args!("no checkpoint: {error}")))?;
             if let Some(pictures) = &self.files.pictures {
                 for path in pictures {
                     say(path.display());
                 }
                 eprintln!("interrupted: the pictures hold what was rendered until then");
             }
-            eprintln!("{}", how_to_go_on(&self.files.checkpoint, self.line));
+            eprintln!("{}", self.how_to_go_on(&self.files.checkpoint));
             return Err(Failure::Interrupted);
         }
-        let goes_on = self
-            .keeping
-            .finish(&begun, ended)
-            .map_err(Failure::system)?;
+        let goes_on = keeping.finish(&begun, ended).map_err(Failure::system)?;
         for path in self.files.results() {
             say(path.display());
         }
         if goes_on {
-            eprintln!("{}", how_to_go_on(&self.files.checkpoint, self.line));
+            eprintln!("{}", self.how_to_go_on(&self.files.checkpoint));
         }
         note(notes);
         // More than one rejected sample in a million is not due to rounding.
@@ -200,23 +217,32 @@ impl Traced<'_> {
     }
 
     /// Writes the pictures, unless only a part of the samples was rendered.
-    fn write_pictures(&self, rendered: &Rendered) -> Result<(), ImageError> {
+    fn write_pictures(&self, heading: &Heading, rendered: &Rendered) -> Result<(), ImageError> {
         let Some([exr, shown]) = &self.files.pictures else {
             return Ok(());
         };
-        let Heading { caption, job, .. } = self.heading;
-        picture_files::write(caption, job, rendered, [exr, shown])
+        picture_files::write(&heading.caption, &heading.job, rendered, [exr, shown])
     }
 
     /// The result could not be written: nothing is lost as long as the sums can be kept anywhere.
-    fn failed(&self, error: &ImageError, begun: &Begun, is_kept: bool) -> Failure {
+    fn failed(
+        &self,
+        error: &ImageError,
+        keeping: &Keeping<'_>,
+        begun: &Begun,
+        is_kept: bool,
+    ) -> Failure {
         if !is_kept {
             // If this fails too, an earlier checkpoint may be there.
-            let _ = self.keeping.save(begun);
+            let _ = keeping.save(begun);
         }
-        let rest = self.keeping.file();
-        let rest = rest.map(|file| format!("\n{}", how_to_go_on(file, self.line)));
-        Failure::system(format!("{error}{}", rest.unwrap_or_default()))
+        let rest = keeping.file();
+        let rest = rest.map(|file| format!("\n{}", self.how_to_go_on(file)));
+        Failure::system(format_args!("{error}{}", rest.unwrap_or_default()))
+    }
+
+    fn how_to_go_on(&self, checkpoint: &Path) -> String {
+        how_to_go_on(checkpoint, self.line)
     }
 }
 
@@ -236,26 +262,12 @@ fn viewer(arguments: &RenderArguments, heading: &Heading) -> Result<Option<Viewe
     let Heading { caption, job, .. } = heading;
     let open = |address: &String| {
         Viewer::open(address, &caption.name, [job.width, job.height]).map_err(|error| {
-            Failure::bad(format!(
+            bad!(
                 "--tev {address}: {error}: write HOST:PORT and start tev first, or leave out --tev"
-            ))
+            )
         })
     };
     arguments.tev.as_ref().map(open).transpose()
-}
-
-fn build_world(
-    scene: &Description,
-    arguments: &RenderArguments,
-    patience: &Patience,
-) -> Result<World, Failure> {
-    let cache = arguments.cache.as_deref().map(PlantCache::open);
-    let cache = cache.transpose().map_err(Failure::bad)?;
-    let options = BuildOptions {
-        cache: cache.as_ref(),
-        ..patience.options()
-    };
-    World::build_with(scene, &options).map_err(Failure::bad)
 }
 
 /// The command that goes on from a checkpoint.

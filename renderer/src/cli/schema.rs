@@ -5,17 +5,17 @@ use std::fs;
 use leafmodel::document::schema::filled;
 
 use crate::cli::arguments::SchemaArguments;
+use crate::cli::places::check_writable;
 use crate::cli::places::write_and_say;
-use crate::cli::{Failure, check_writable, say};
+use crate::cli::terminal::{Failure, say};
 use crate::scene::load;
 
 pub(super) fn run(arguments: &SchemaArguments) -> Result<(), Failure> {
     let schema = load::schema();
     for page in &arguments.pages {
-        let unreadable = |error| Failure::bad(format!("{}: {error}", page.display()));
+        let unreadable = Failure::at(page);
         let text = fs::read_to_string(page).map_err(unreadable)?;
-        let filled = filled(&text, &schema)
-            .map_err(|problem| Failure::bad(format!("{}: {problem}", page.display())))?;
+        let filled = filled(&text, &schema).map_err(|problem| bad_at!(page, "{problem}"))?;
         if filled != text {
             write_and_say(page, filled)?;
         }

@@ -7,7 +7,7 @@ use clap_mangen::Man;
 
 use crate::cli::arguments::{Arguments, CompletionsArguments, ManArguments};
 use crate::cli::places::write_and_say;
-use crate::cli::{Failure, say};
+use crate::cli::terminal::{Failure, say};
 
 pub(super) fn completions(arguments: &CompletionsArguments) {
     let mut script = Vec::new();
@@ -23,7 +23,7 @@ pub(super) fn man(arguments: &ManArguments) -> Result<(), Failure> {
         say(page(command)?.trim_end());
         return Ok(());
     };
-    let refused = |error| Failure::system(format!("{}: {error}", folder.display()));
+    let refused = Failure::system_at(folder);
     fs::create_dir_all(folder).map_err(refused)?;
     let mut open = vec![(String::from("lamina"), command)];
     while let Some((name, command)) = open.pop() {

@@ -1,5 +1,6 @@
 //! Signals: to end with the work saved, and to save it and go on.
 
+use std::fmt::Display;
 #[cfg(unix)]
 use std::io::Write;
 use std::path::PathBuf;
@@ -8,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[cfg(unix)]
 use std::time::{Duration, Instant};
 
-use crate::cli::Failure;
+use crate::cli::terminal::Failure;
 
 /// What signals ask for.
 #[derive(Debug, Default)]
@@ -27,6 +28,19 @@ pub(super) struct Signals {
 /// some programs send it to a process and to its group.
 #[cfg(unix)]
 const ECHO: Duration = Duration::from_millis(300);
+
+/// Ends the work if it is to stop.
+pub(super) fn check(stop: &AtomicBool) -> Result<(), Failure> {
+    if stop.load(Ordering::Relaxed) {
+        return Err(Failure::Interrupted);
+    }
+    Ok(())
+}
+
+/// Why work ended with an error: it was to stop, or its input is bad.
+pub(super) fn failure(stop: &AtomicBool, error: impl Display) -> Failure {
+    check(stop).err().unwrap_or_else(|| Failure::bad(error))
+}
 
 impl Signals {
     /// Listens from now on.

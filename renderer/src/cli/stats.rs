@@ -5,8 +5,8 @@ use std::path::Path;
 use serde_json::Value;
 
 use crate::checkpoint::PROGRAM;
-use crate::cli::Failure;
 use crate::cli::places::write_whole;
+use crate::cli::terminal::Failure;
 
 /// Writes a JSON object atomically, with the version of the program as `program`.
 pub(super) fn write(path: &Path, stats: &Value) -> Result<(), Failure> {

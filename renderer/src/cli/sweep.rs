@@ -26,9 +26,11 @@ use self::record::Record;
 use self::table::{Row, State};
 use self::tasks::{hexadecimal, words_of};
 use crate::cli::arguments::{SweepArguments, file_and_leaf};
+use crate::cli::places::check_writable;
 use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, check_writable, grow, say, stats};
+use crate::cli::terminal::{Failure, say};
+use crate::cli::{grow, stats};
 use crate::sweep::{Sweep, Target, Words, is_sweep_file};
 
 pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
@@ -40,9 +42,7 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let range = arguments.tasks.map_or(0..count, |tasks| tasks.of(count));
     if range.end > count {
         let (first, end, last) = (range.start, range.end, count - 1);
-        return Err(Failure::bad(format!(
-            "--tasks {first}..{end}: the sweep has {count} tasks, from 0 to {last}"
-        )));
+        bail!("--tasks {first}..{end}: the sweep has {count} tasks, from 0 to {last}");
     }
     if range.is_empty() {
         eprintln!("this part of the {count} tasks is empty");
@@ -62,7 +62,7 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         true
     })?;
     let made = folder.join("tasks");
-    let refused = |error| Failure::system(format!("{}: {error}", made.display()));
+    let refused = Failure::system_at(&made);
     std::fs::create_dir_all(&made).map_err(refused)?;
     record::check_version(&made)?;
     let table = folder.join(match arguments.tasks {
@@ -87,7 +87,7 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     table::write(&table, &sweep, &rows)?;
     stats::write(&folder.join("sweep.json"), &work.about())?;
     say(table.display());
-    result.told(&work)
+    result.report(&work)
 }
 
 /// The sweep that the command line asks for.
@@ -147,54 +147,44 @@ impl Work<'_> {
         let is_open = |identity: &u64| !Record::is_there(&self.made, *identity);
         let mut seen = BTreeSet::new();
         // Tasks that are the same are done once.
-        let numbered = self.range.clone().zip(&self.identities);
-        let numbered = numbered.filter(|(_, identity)| seen.insert(**identity));
-        let open: Vec<(usize, u64)> = numbered
-            .filter(|(_, identity)| is_open(identity))
-            .map(|(number, identity)| (number, *identity))
-            .collect();
-        let twins = self.range.len() - seen.len();
+        let numbered = self.range.clone().zip(self.identities.iter().copied());
+        let numbered = numbered.filter(|(_, identity)| seen.insert(*identity));
+        let open: Vec<(usize, u64)> = numbered.filter(|(_, own)| is_open(own)).collect();
+        let (all, before) = (self.range.len(), seen.len() - open.len());
+        let twins = all - seen.len();
         if twins > 0 {
-            eprintln!(
-                "{twins} of {} tasks are the same as others: each is done once",
-                self.range.len()
-            );
+            eprintln!("{twins} of {all} tasks are the same as others: each is done once");
+        }
+        if !open.is_empty() && before > 0 {
+            eprintln!("{before} of {all} tasks are done already");
         }
         let outcome = Mutex::new(Outcome {
-            before: seen.len() - open.len(),
+            before,
             ..Outcome::default()
         });
-        if !open.is_empty() && open.len() < seen.len() {
-            let before = seen.len() - open.len();
-            eprintln!("{before} of {} tasks are done already", self.range.len());
-        }
         let next = AtomicUsize::new(0);
         let clock = Clock::new();
         let jobs = usize::from(self.arguments.jobs).min(open.len());
+        let work = || {
+            while let Some(&(number, identity)) = open.get(next.fetch_add(1, Ordering::Relaxed)) {
+                if self.signals.stop.load(Ordering::Relaxed) {
+                    break;
+                }
+                let began = Instant::now();
+                let ended = self.one(number, identity, jobs);
+                let mut outcome = outcome.lock().unwrap_or_else(PoisonError::into_inner);
+                outcome.take(identity, ended);
+                let count = outcome.done + outcome.failed.len();
+                let problem = outcome.failed.get(&identity).map(String::as_str);
+                let is_due = open.len() <= 100 || clock.is_due() || count == open.len();
+                if problem.is_some() || is_due {
+                    self.report(number, problem, [count, open.len()], began);
+                }
+            }
+        };
         std::thread::scope(|scope| {
             for _ in 0..jobs {
-                scope.spawn(|| {
-                    while let Some(&(number, identity)) =
-                        open.get(next.fetch_add(1, Ordering::Relaxed))
-                    {
-                        if self.signals.stop.load(Ordering::Relaxed) {
-                            break;
-                        }
-                        let began = Instant::now();
-                        let ended = self.one(number, identity, jobs);
-                        let mut outcome = outcome.lock().unwrap_or_else(PoisonError::into_inner);
-                        outcome.take(identity, ended);
-                        let count = outcome.done + outcome.failed.len();
-                        self.tell(
-                            number,
-                            identity,
-                            &outcome,
-                            [count, open.len()],
-                            began,
-                            &clock,
-                        );
-                    }
-                });
+                scope.spawn(work);
             }
         });
         let mut outcome = outcome.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -206,45 +196,39 @@ impl Work<'_> {
     fn one(&self, number: usize, identity: u64, jobs: usize) -> Ended {
         let task = self.sweep.task(number);
         let mut words = words_of(self.sweep, &task, self.arguments.cache.as_deref());
-        let threads = self
-            .arguments
-            .threads
-            .map_or_else(|| (rayon::current_num_threads() / jobs).max(1), usize::from);
+        let default = || (rayon::current_num_threads() / jobs).max(1);
+        let threads = self.arguments.threads.map_or_else(default, usize::from);
         words.extend(["--threads".to_owned(), threads.to_string()]);
         let files = record::files(self.sweep, &self.made, identity, &mut words);
         let ended = process::run(&words, self.signals);
         if !matches!(ended, Ended::Done) {
             return ended;
         }
-        match Record::of(self.sweep, &task, identity, &self.made, files)
-            .and_then(|record| record.write(&self.made))
-        {
+        let record = Record::of(self.sweep, &task, identity, &self.made, files);
+        match record.and_then(|record| record.write(&self.made)) {
             Ok(()) => Ended::Done,
             Err(problem) => Ended::Failed(problem),
         }
     }
 
-    fn tell(
+    /// Prints a line about a task that has ended.
+    fn report(
         &self,
         number: usize,
-        identity: u64,
-        outcome: &Outcome,
+        problem: Option<&str>,
         [count, all]: [usize; 2],
         began: Instant,
-        clock: &Clock,
     ) {
         let task = self.sweep.task(number);
         let mut settings: Vec<String> = task.overrides().collect();
         settings.extend(task.seed.map(|seed| format!("seed {seed}")));
         let settings = settings.join(" ");
-        if let Some(problem) = outcome.failed.get(&identity) {
+        if let Some(problem) = problem {
             eprintln!("task {number} failed: {settings}\n{}", problem.trim_end());
             return;
         }
-        if all <= 100 || clock.is_due() || count == all {
-            let seconds = began.elapsed().as_secs_f64();
-            eprintln!("{count} of {all}: task {number}, {seconds:.1} s  {settings}");
-        }
+        let seconds = began.elapsed().as_secs_f64();
+        eprintln!("{count} of {all}: task {number}, {seconds:.1} s  {settings}");
     }
 
     /// The table's rows.
@@ -278,23 +262,20 @@ impl Work<'_> {
     /// What the command line adds to a sweep file, or says instead of one.
     fn words(&self) -> Vec<String> {
         let arguments = self.arguments;
-        let mut words = Vec::new();
-        let mut add = |flag: &str, value: String| words.extend([flag.to_owned(), value]);
-        for (flag, values) in [("--over", &arguments.over), ("-D", &arguments.overrides)] {
-            for value in values {
-                add(flag, value.clone());
-            }
-        }
-        if let Some(seeds) = arguments.seeds {
-            add("--seeds", seeds.to_string());
-        }
-        if let Some(spp) = arguments.spp {
-            add("--spp", spp.to_string());
-        }
-        if let Some(noise) = arguments.noise {
-            add("--noise", noise.to_string());
-        }
-        words
+        let pair = |flag: &str, value: String| [flag.to_owned(), value];
+        let over = arguments.over.iter().map(|own| pair("--over", own.clone()));
+        let fixed = arguments
+            .overrides
+            .iter()
+            .map(|own| pair("-D", own.clone()));
+        let numbers = [
+            ("--seeds", arguments.seeds.map(|seeds| seeds.to_string())),
+            ("--spp", arguments.spp.map(|spp| spp.to_string())),
+            ("--noise", arguments.noise.map(|noise| noise.to_string())),
+        ];
+        let numbers = numbers.into_iter();
+        let numbers = numbers.filter_map(|(flag, number)| Some(pair(flag, number?)));
+        over.chain(fixed).chain(numbers).flatten().collect()
     }
 }
 
@@ -310,7 +291,7 @@ impl Outcome {
     }
 
     /// The result of the command.
-    fn told(&self, work: &Work<'_>) -> Result<(), Failure> {
+    fn report(&self, work: &Work<'_>) -> Result<(), Failure> {
         let all = work.range.len();
         let Self { done, before, .. } = self;
         eprintln!(

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use leafmodel::document::whole_file;
 
-use super::Failure;
+use crate::cli::terminal::Failure;
 use crate::measured::series;
 
 /// The text of a file; a note says so if its encoding is a guess.
@@ -19,6 +19,5 @@ pub(super) fn text_of(path: &Path) -> Result<String, Failure> {
 
 /// The bytes of a file.
 pub(super) fn bytes_of(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
-    whole_file::read(path, most)
-        .map_err(|error| Failure::bad(format!("{}: {error}", path.display())))
+    whole_file::read(path, most).map_err(Failure::at(path))
 }

@@ -1,26 +1,20 @@
 //! `lamina tonemap`: a picture to look at from an EXR, without rendering again.
 
 use crate::cli::arguments::TonemapArguments;
-use crate::cli::{Failure, check_writable, pictures, say};
-use crate::image::Attribute;
+use crate::cli::pictures;
+use crate::cli::places::check_writable;
+use crate::cli::terminal::{Failure, say};
 use crate::image::ImageError;
 use crate::image::display::FileKind;
 use crate::scene::load::parse_picture;
 
 pub(super) fn run(arguments: &TonemapArguments) -> Result<(), Failure> {
     let out = &arguments.out;
-    let kind = FileKind::of(out).ok_or_else(|| {
-        Failure::bad(format!(
-            "{}: the ending tells what is written: png or jpg",
-            out.display()
-        ))
-    })?;
+    let kind = FileKind::of(out)
+        .ok_or_else(|| bad_at!(out, "the ending tells what is written: png or jpg"))?;
     let picture = pictures::read(&arguments.picture)?;
     // What the scene said when it was rendered; other programs' pictures say nothing.
-    let scene = match picture.attribute("lamina:scene") {
-        Some(Attribute::Text(text)) => text.as_str(),
-        _ => "",
-    };
+    let scene = picture.text("lamina:scene").unwrap_or_default();
     let shown = format!("{} (lamina:scene)", arguments.picture.display());
     let display = parse_picture(scene, &shown, &arguments.overrides())?;
     display.check(kind).map_err(Failure::bad)?;
@@ -31,7 +25,7 @@ pub(super) fn run(arguments: &TonemapArguments) -> Result<(), Failure> {
             return Failure::system(error);
         }
         let place = arguments.picture.display();
-        Failure::bad(format!("{place}: {error}"))
+        bad!("{place}: {error}")
     })?;
     say(out.display());
     Ok(())

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use glam::DVec2;
-use leafmodel::export::{self, SvgStyle};
+use leafmodel::export::SvgStyle;
 use leafmodel::measure::measure;
 use leafmodel::tracing::{
     Blade, Finding, FindingKind, Ink, Raster, Settings, Threshold, Traced, trace,
@@ -12,12 +12,15 @@ use leafmodel::tracing::{
 use serde_json::json;
 
 use crate::cli::arguments::{ThresholdKind, TraceArguments};
+use crate::cli::needs::on_threads;
 use crate::cli::places::{check_outputs, write_and_say};
 use crate::cli::progress::Patience;
-use crate::cli::{Failure, needs, on_threads, say, stats};
-use crate::export::drawing::{Drawing, Style, Subject, draw_within};
+use crate::cli::terminal::{Failure, say};
+use crate::cli::{needs, stats};
+use crate::export::drawing::{Style, Subject, draw_within};
 use crate::export::overlay::draw_over;
-use crate::image::{portable_network, scan};
+use crate::export::veins::VeinFormat;
+use crate::image::scan;
 
 /// Memory that tracing takes for a pixel, bytes; measured with pictures of 12 and 42 megapixels.
 const BYTES_A_PIXEL: f64 = 60.0;
@@ -27,63 +30,44 @@ const BYTES_A_PIXEL: f64 = 60.0;
 const WINDOW_PX: f64 = 61.0;
 const SAUVOLA_K: f64 = 0.2;
 
-/// The kind of a file, by its ending.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Svg,
-    Png,
-    Json,
-    GraphMl,
-    GeoJson,
+/// The format of a file, by its ending.
+fn format_of(path: &Path) -> Result<VeinFormat, Failure> {
+    let format = VeinFormat::of(path).filter(|format| *format != VeinFormat::Csv);
+    let what = "the ending tells what is written: svg, png, json, graphml or geojson";
+    format.ok_or_else(|| bad_at!(path, "{what}"))
 }
 
-impl Kind {
-    fn of(path: &Path) -> Result<Self, Failure> {
-        match path.extension().and_then(|ending| ending.to_str()) {
-            Some("svg") => Ok(Self::Svg),
-            Some("png") => Ok(Self::Png),
-            Some("json") => Ok(Self::Json),
-            Some("graphml") => Ok(Self::GraphMl),
-            Some("geojson") => Ok(Self::GeoJson),
-            _ => Err(Failure::bad(format!(
-                "{}: the ending tells what is written: svg, png, json, graphml or geojson",
-                path.display()
-            ))),
-        }
+/// What was traced, in a format.
+fn bytes(format: VeinFormat, traced: &Traced, pixels: u32) -> Result<Vec<u8>, Failure> {
+    let page = traced.outline.bounds();
+    let subject = Subject {
+        outlines: std::slice::from_ref(&traced.outline),
+        network: &traced.network,
+        sources: &[],
+    };
+    let text = format.text(page, subject.outlines, subject.network, SvgStyle::default());
+    if let Some(text) = text {
+        return Ok(text.into_bytes());
     }
-
-    fn bytes(self, traced: &Traced, pixels: u32) -> Result<Vec<u8>, Failure> {
-        let (outline, network) = (&traced.outline, &traced.network);
-        let outlines = std::slice::from_ref(outline);
-        Ok(match self {
-            Self::Svg => export::svg(outline, network, SvgStyle::default()).into_bytes(),
-            Self::Png => {
-                let page = outline.bounds();
-                let subject = Subject {
-                    outlines,
-                    network,
-                    sources: &[],
-                };
-                let drawing = draw_within(page, subject, pixels, Style::OnPaper);
-                png(&drawing.map_err(Failure::bad)?)?
-            }
-            Self::Json => export::json(outlines, network, true).into_bytes(),
-            Self::GraphMl => export::graphml(network).into_bytes(),
-            Self::GeoJson => export::geojson(outlines, network).into_bytes(),
-        })
-    }
+    let drawing = draw_within(page, subject, pixels, Style::OnPaper);
+    drawing
+        .and_then(|drawing| drawing.png())
+        .map_err(Failure::bad)
 }
 
 pub(super) fn run(arguments: &TraceArguments) -> Result<(), Failure> {
     let _patience = Patience::about("tracing");
     let started = Instant::now();
-    let kinds = arguments.out.iter().map(|path| Kind::of(path));
-    let kinds: Vec<Kind> = kinds.collect::<Result<_, _>>()?;
+    let formats: Vec<VeinFormat> = arguments
+        .out
+        .iter()
+        .map(|path| format_of(path))
+        .collect::<Result<_, _>>()?;
     if arguments.mask && arguments.margin.is_none() && !arguments.cut_out {
-        return Err(Failure::bad(
+        bail!(
             "a mask shows no blade: give its picture with --margin, or --cut-out if the whole \
-             picture is blade",
-        ));
+             picture is blade"
+        );
     }
     if arguments.threshold != ThresholdKind::Sauvola {
         let idle = [
@@ -91,24 +75,26 @@ pub(super) fn run(arguments: &TraceArguments) -> Result<(), Failure> {
             ("--sauvola-k", arguments.sauvola_k.is_some()),
         ];
         if let Some((flag, _)) = idle.into_iter().find(|(_, given)| *given) {
-            return Err(Failure::bad(format!(
-                "{flag} goes with --threshold sauvola: give both or neither"
-            )));
+            bail!("{flag} goes with --threshold sauvola: give both or neither");
         }
     }
     let reports = [&arguments.measure, &arguments.overlay, &arguments.findings];
     let outputs = arguments.out.iter().chain(reports.into_iter().flatten());
     if outputs.clone().next().is_none() {
-        return Err(Failure::bad(
-            "nothing is to be written: give --out, --measure, --overlay or --findings",
-        ));
+        bail!("nothing is to be written: give --out, --measure, --overlay or --findings");
     }
     let inputs = std::iter::once(arguments.picture.clone()).chain(arguments.margin.clone());
     check_outputs(outputs, &inputs.collect::<Vec<_>>(), "the command")?;
-    on_threads(arguments.threads, || carry_out(arguments, &kinds, started))
+    on_threads(arguments.threads, || {
+        carry_out(arguments, &formats, started)
+    })
 }
 
-fn carry_out(arguments: &TraceArguments, kinds: &[Kind], started: Instant) -> Result<(), Failure> {
+fn carry_out(
+    arguments: &TraceArguments,
+    formats: &[VeinFormat],
+    started: Instant,
+) -> Result<(), Failure> {
     let picture = read(&arguments.picture, arguments.memory)?;
     let settings = settings(arguments)?;
     let shown = arguments.picture.display();
@@ -121,12 +107,13 @@ fn carry_out(arguments: &TraceArguments, kinds: &[Kind], started: Instant) -> Re
     if let Some(warning) = implausible_density(Some(density), "--mm-per-pixel") {
         eprintln!("{warning}");
     }
-    for (path, kind) in arguments.out.iter().zip(kinds) {
-        write_and_say(path, kind.bytes(&traced, arguments.size)?)?;
+    for (path, format) in arguments.out.iter().zip(formats) {
+        write_and_say(path, bytes(*format, &traced, arguments.size)?)?;
     }
     if let Some(path) = &arguments.overlay {
-        let drawing = draw_over(&picture, &traced, arguments.size).map_err(Failure::bad)?;
-        write_and_say(path, png(&drawing)?)?;
+        let drawing = draw_over(&picture, &traced, arguments.size);
+        let drawing = drawing.and_then(|drawing| drawing.png());
+        write_and_say(path, drawing.map_err(Failure::bad)?)?;
     }
     if let Some(path) = &arguments.findings {
         stats::write(path, &report(&traced))?;
@@ -158,7 +145,7 @@ pub(super) fn with_usual_settings(picture: &Path, mm_per_pixel: f64) -> Result<T
 /// Traces a picture and tells what was found on the way.
 fn traced(path: &Path, picture: &Raster, settings: &Settings) -> Result<Traced, Failure> {
     let traced = trace(picture, settings);
-    let traced = traced.map_err(|error| Failure::bad(format!("{}: {error}", path.display())))?;
+    let traced = traced.map_err(Failure::at(path))?;
     for finding in &traced.findings {
         if matches!(finding.kind, FindingKind::Moved { .. }) {
             eprintln!("warning: {finding}");
@@ -306,12 +293,7 @@ fn read(path: &Path, allowed: Option<f64>) -> Result<Raster, Failure> {
     }
     let values = picture.layers.into_iter().next();
     let values = values.map_or_else(Vec::new, |layer| layer.data);
-    Raster::new(picture.width as usize, picture.height as usize, values)
-        .map_err(|error| Failure::bad(format!("{}: {error}", path.display())))
-}
-
-fn png(drawing: &Drawing) -> Result<Vec<u8>, Failure> {
-    portable_network::encoded(drawing.width, drawing.height, &drawing.rgb).map_err(Failure::bad)
+    Raster::new(picture.width as usize, picture.height as usize, values).map_err(Failure::at(path))
 }
 
 #[cfg(test)]

@@ -112,11 +112,11 @@ mod tests {
     #[test]
     fn anthocyanins_in_their_blue_form_turn_a_red_leaf_purple() {
         let blue = Pigments {
-            anthocyanins: AnthocyaninMix::Aglycones {
+            anthocyanins: Some(AnthocyaninMix {
                 shares: [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
                 shift_nm: 0.0,
                 blue_fraction: 1.0,
-            },
+            }),
             ..Pigments::default()
         };
         let contents = by_name("red-maple-scarlet").expect("a preset").contents;

@@ -16,7 +16,7 @@ use leafmodel::shape::outline::Outline;
 use leafmodel::venation::network::{VeinEdge, VenationNetwork};
 use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
-use crate::image::{ImageError, MOST_BYTES, MOST_PIXELS};
+use crate::image::{ImageError, MOST_BYTES, MOST_PIXELS, portable_network};
 
 /// Space around the blade, as a share of its longer side.
 const BORDER: f64 = 0.02;
@@ -109,6 +109,29 @@ pub struct Drawing {
     pub rgb: Vec<u8>,
 }
 
+impl Drawing {
+    /// The drawing as the bytes of a PNG file.
+    ///
+    /// # Errors
+    ///
+    /// [`ImageError::TooLarge`].
+    pub fn png(&self) -> Result<Vec<u8>, ImageError> {
+        portable_network::encoded(self.width, self.height, &self.rgb)
+    }
+
+    /// What is on a canvas.
+    pub(super) fn of(canvas: &Pixmap) -> Self {
+        let pixels = canvas.pixels().iter();
+        Self {
+            width: canvas.width(),
+            height: canvas.height(),
+            rgb: pixels
+                .flat_map(|p| [p.red(), p.green(), p.blue()])
+                .collect(),
+        }
+    }
+}
+
 /// Draws a leaf on a sheet whose longer side, with a border of a fiftieth, takes
 /// `pixels_per_long_side`.
 ///
@@ -128,19 +151,14 @@ pub fn draw_within(
     let border = BORDER * (high - low).max_element();
     let size = high - low + DVec2::splat(2.0 * border);
     let scale = pixels_per_mm((low, high), pixels_per_long_side);
-    let (width, height) = (
-        (size.x * scale).round().max(1.0) as u32,
-        (size.y * scale).round().max(1.0) as u32,
-    );
+    let side = |length: f64| (length * scale).round().max(1.0) as u32;
+    let (width, height) = (side(size.x), side(size.y));
     if pixels_per_long_side == 0 {
-        return Err(ImageError::Inconsistent {
-            what: "a drawing needs at least 1 pixel".to_owned(),
-        });
+        return Err(ImageError::inconsistent("a drawing needs at least 1 pixel"));
     }
-    let canvas = (u64::from(width) * u64::from(height) <= MOST_PIXELS
-        && pixels_per_long_side <= LONGEST_SIDE)
-        .then(|| Pixmap::new(width, height))
-        .flatten();
+    let pixels = u64::from(width) * u64::from(height);
+    let is_small = pixels <= MOST_PIXELS && pixels_per_long_side <= LONGEST_SIDE;
+    let canvas = is_small.then(|| Pixmap::new(width, height)).flatten();
     let mut canvas = canvas.ok_or(ImageError::TooLarge {
         width: u64::from(width),
         height: u64::from(height),
@@ -156,11 +174,8 @@ pub fn draw_within(
         Style::Orders | Style::Ages { .. } => ([246, 246, 242], [190, 190, 184]),
     };
     canvas.fill(Color::WHITE);
-    for path in subject
-        .outlines
-        .iter()
-        .filter_map(|outline| sheet.polygon(outline.points()))
-    {
+    let outlines = subject.outlines.iter();
+    for path in outlines.filter_map(|outline| sheet.polygon(outline.points())) {
         fill(&mut canvas, &path, blade, 1.0);
         let line = Stroke::default();
         let same = Transform::identity();
@@ -172,15 +187,7 @@ pub fn draw_within(
     if let Some(path) = sheet.dots(subject.sources, dot_radius(pixels_per_long_side)) {
         fill(&mut canvas, &path, SOURCE_COLOUR, 1.0);
     }
-    let rgb = canvas
-        .pixels()
-        .iter()
-        .flat_map(|p| [p.red(), p.green(), p.blue()]);
-    Ok(Drawing {
-        width,
-        height,
-        rgb: rgb.collect(),
-    })
+    Ok(Drawing::of(&canvas))
 }
 
 /// Pixels to a millimetre on a sheet that [`draw_within`] draws.
@@ -201,13 +208,8 @@ fn ink([red, green, blue]: [u8; 3], strength: f64) -> Paint<'static> {
 
 fn fill(canvas: &mut Pixmap, path: &Path, colour: [u8; 3], strength: f64) {
     let rule = FillRule::Winding;
-    canvas.fill_path(
-        path,
-        &ink(colour, strength),
-        rule,
-        Transform::identity(),
-        None,
-    );
+    let paint = ink(colour, strength);
+    canvas.fill_path(path, &paint, rule, Transform::identity(), None);
 }
 
 /// The map from millimetres to pixels.
@@ -316,7 +318,7 @@ impl Sheet {
 }
 
 /// A closed polygon.
-fn add(path: &mut PathBuilder, mut points: impl Iterator<Item = DVec2>) {
+pub(super) fn add(path: &mut PathBuilder, mut points: impl Iterator<Item = DVec2>) {
     if let Some(first) = points.next() {
         path.move_to(first.x as f32, first.y as f32);
         for p in points {

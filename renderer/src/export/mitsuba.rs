@@ -62,15 +62,12 @@ pub enum ExportError {
          `fluorescence` out"
     )]
     Fluorescence,
-    /// A lens that Mitsuba does not have.
+    /// A lens that Mitsuba does not have; the key that says so.
     #[error(
-        "camera.perspective.{key} cannot be exported: Mitsuba's thin lens is round, open over the \
+        "camera.perspective.{0} cannot be exported: Mitsuba's thin lens is round, open over the \
          whole picture and parallel to the film; leave the key out"
     )]
-    Lens {
-        /// The key that says so.
-        key: &'static str,
-    },
+    Lens(&'static str),
     /// Bodies within each other.
     #[error(
         "the objects `{first}` and `{second}` are transparent bodies that touch or lie within each \
@@ -86,32 +83,23 @@ pub enum ExportError {
     /// The camera stands in a medium.
     #[error("the camera stands within a transparent body: move it out, to export the scene")]
     CameraInside,
-    /// A leaf whose inside is followed.
+    /// A leaf whose inside is followed; the block that says so.
     #[error(
-        "{place}.optics = \"layers\" cannot be exported: Mitsuba follows no light through a leaf of \
+        "{0}.optics = \"layers\" cannot be exported: Mitsuba follows no light through a leaf of \
          layers; write \"plates\""
     )]
-    Layers {
-        /// The block that says so.
-        place: String,
-    },
-    /// Tangents for a map of normals.
+    Layers(String),
+    /// Tangents for a map of normals; the object that has them.
     #[error(
-        "the object `{object}` has a map of normals with tangents of its file, which cannot be exported: the \
+        "the object `{0}` has a map of normals with tangents of its file, which cannot be exported: the \
          plugin for Mitsuba has those of the texture coordinates; save the glTF file without tangents"
     )]
-    Tangents {
-        /// Name of an object.
-        object: String,
-    },
+    Tangents(String),
     /// The folder exists and holds something other than an export.
     #[error(
-        "{path} exists and holds no lamina.json: name a new folder, or one that was exported before"
+        "{0} exists and holds no lamina.json: name a new folder, or one that was exported before"
     )]
-    NotOurs {
-        /// The folder.
-        path: PathBuf,
-    },
+    NotOurs(PathBuf),
 }
 
 /// Path, within the export, of the table of a palette.
@@ -152,9 +140,7 @@ fn absorption_table(pigments: &Pigments) -> String {
 /// [`ExportError::NotOurs`].
 pub fn check_ours(dir: &Path) -> Result<(), ExportError> {
     if dir.exists() && !dir.join("lamina.json").is_file() {
-        return Err(ExportError::NotOurs {
-            path: dir.to_owned(),
-        });
+        return Err(ExportError::NotOurs(dir.to_owned()));
     }
     Ok(())
 }
@@ -166,10 +152,10 @@ pub fn check_ours(dir: &Path) -> Result<(), ExportError> {
 /// [`ExportError`] if it has a lens that Mitsuba lacks, a leaf that fluoresces, or one of layers.
 pub fn check(scene: &Description) -> Result<(), ExportError> {
     if let Some(key) = sensor::foreign_key(&scene.camera.view) {
-        return Err(ExportError::Lens { key });
+        return Err(ExportError::Lens(key));
     }
     if let Some(place) = bsdf::layered(scene) {
-        return Err(ExportError::Layers { place });
+        return Err(ExportError::Layers(place));
     }
     let mut leaves = scene.leaves.iter();
     let mut materials = scene.materials.iter();
@@ -238,9 +224,7 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
         });
     }
     if let Some(object) = with_tangents(scene, world) {
-        return Err(ExportError::Tangents {
-            object: object.to_owned(),
-        });
+        return Err(ExportError::Tangents(object.to_owned()));
     }
     if world.media.around_camera.innermost().is_some() {
         return Err(ExportError::CameraInside);
@@ -270,29 +254,25 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         let path = folder.join(name);
         fs::create_dir(&path).map_err(|source| ExportError::Write { path, source })?;
     }
+    let show = |name: &str, picture: &Picture| openexr::write(picture, &folder.join(name));
     for (number, material) in world.materials.iter().enumerate() {
-        if let Some(map) = material.contents_map() {
-            let path = folder.join(format!(
-                "maps/{}.exr",
-                units::material_id(scene, world, number)
-            ));
-            openexr::write(&map_picture(map), &path)?;
-        }
         let id = units::material_id(scene, world, number);
+        if let Some(map) = material.contents_map() {
+            show(&format!("maps/{id}.exr"), &map_picture(map))?;
+        }
         for (id, map) in colours::maps(&id, material) {
             for (name, picture) in colours::pictures(&id, &map) {
-                openexr::write(&picture, &folder.join(name))?;
+                show(&name, &picture)?;
             }
             save(colours::BASIS, rgb::basis_text().as_bytes())?;
         }
         if let Some(relief) = material.relief() {
-            let id = units::material_id(scene, world, number);
-            openexr::write(&relief_picture(relief), &folder.join(relief_file(&id)))?;
+            show(&relief_file(&id), &relief_picture(relief))?;
         }
     }
     for (light, table) in surroundings::tables(scene, world) {
         let picture = surroundings::weights(table.size, &table.weights);
-        openexr::write(&picture, &folder.join(units::weights_file(light)))?;
+        show(&units::weights_file(light), &picture)?;
         let spectra = surroundings::spectra(&table);
         save(&surroundings::spectra_file(light), spectra.as_bytes())?;
     }
@@ -300,18 +280,17 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         if let Some(map) = emitter::emission(scene, world, number) {
             let id = units::light_id(&light.name);
             for (name, picture) in colours::pictures(&id, map) {
-                openexr::write(&picture, &folder.join(name))?;
+                show(&name, &picture)?;
             }
             save(colours::BASIS, rgb::basis_text().as_bytes())?;
         }
-        if let Light::Area { .. } = light.value
+        if light.value.area().is_some()
             && let Some((file, layer)) = light.value.picture()
         {
             let picture = assets::shining(file, layer)?;
             let size = [picture.width, picture.texels.len() / picture.width];
             let picture = surroundings::weights(size, &picture.texels);
-            let path = folder.join(units::weights_file(&light.name));
-            openexr::write(&picture, &path)?;
+            show(&units::weights_file(&light.name), &picture)?;
         }
     }
     for palette in world.palettes.iter() {
@@ -334,20 +313,16 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
 /// A contents map as a picture whose first row is v = 0.
 pub fn map_picture(map: &ContentsTexture) -> Picture {
     let (width, height) = map.size();
-    let layers = Constituent::ALL.map(|constituent| Layer {
-        name: constituent.channel().to_owned(),
-        data: map
-            .texels()
-            .iter()
-            .map(|texel| texel[constituent])
-            .collect(),
+    let layers = Constituent::ALL.map(|constituent| {
+        Layer::new(
+            constituent.channel(),
+            map.texels()
+                .iter()
+                .map(|texel| texel[constituent])
+                .collect(),
+        )
     });
-    Picture {
-        width: width as u32,
-        height: height as u32,
-        layers: layers.into(),
-        attributes: Vec::new(),
-    }
+    Picture::new([width as u32, height as u32], layers)
 }
 
 /// Path, within the export, of the relief of a material.
@@ -364,12 +339,7 @@ fn relief_picture(relief: &Relief) -> Picture {
         name,
         data: texels.iter().map(|texel| texel[channel]).collect(),
     });
-    Picture {
-        width: width as u32,
-        height: height as u32,
-        layers: layers.collect(),
-        attributes: Vec::new(),
-    }
+    Picture::new([width as u32, height as u32], layers)
 }
 
 /// The bands of the film; a colour film is exported as one band over its range.
@@ -391,7 +361,7 @@ fn summary(scene: &Description) -> serde_json::Value {
     let suns = scene
         .lights
         .iter()
-        .filter(|light| matches!(light.value, Light::Distant { .. } | Light::Daylight(_)));
+        .filter(|light| matches!(light.value, Light::Distant(_) | Light::Daylight(_)));
     json!({
         "name": scene.name,
         "width": scene.film.width,

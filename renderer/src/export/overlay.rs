@@ -9,7 +9,7 @@ use leafmodel::export::order_colour;
 use leafmodel::tracing::{Raster, Traced};
 use tiny_skia::{LineCap, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
-use super::drawing::Drawing;
+use super::drawing::{Drawing, add};
 use crate::image::{ImageError, MOST_BYTES};
 
 /// How much the picture is paled, so that lines stand out.
@@ -63,14 +63,8 @@ pub fn draw_over(picture: &Raster, traced: &Traced, longest: u32) -> Result<Draw
     }
     let place = |p: DVec2| traced.frame.to_px(p) * scale;
     let mut margin = PathBuilder::new();
-    let mut points = traced.outline.points().iter().map(|&p| place(p));
-    if let Some(first) = points.next() {
-        margin.move_to(first.x as f32, first.y as f32);
-        for p in points {
-            margin.line_to(p.x as f32, p.y as f32);
-        }
-        margin.close();
-    }
+    let points = traced.outline.points().iter();
+    add(&mut margin, points.map(|&p| place(p)));
     stroke(&mut canvas, margin, MARGIN);
     let network = &traced.network;
     let position = |node: u32| place(network.nodes()[node as usize].position);
@@ -88,12 +82,8 @@ pub fn draw_over(picture: &Raster, traced: &Traced, longest: u32) -> Result<Draw
         stroke(&mut canvas, path, order_colour(order as u8));
     }
     let mut dots = PathBuilder::new();
-    for (node, _) in degree
-        .iter()
-        .enumerate()
-        .filter(|(_, degree)| **degree != 2)
-    {
-        let p = position(node as u32);
+    for (node, _) in (0..).zip(&degree).filter(|(_, degree)| **degree != 2) {
+        let p = position(node);
         for way in [DVec2::X, DVec2::Y] {
             let (a, b) = (p - way * DOT, p + way * DOT);
             dots.move_to(a.x as f32, a.y as f32);
@@ -101,15 +91,7 @@ pub fn draw_over(picture: &Raster, traced: &Traced, longest: u32) -> Result<Draw
         }
     }
     stroke(&mut canvas, dots, [0, 0, 0]);
-    let rgb = canvas
-        .pixels()
-        .iter()
-        .flat_map(|p| [p.red(), p.green(), p.blue()]);
-    Ok(Drawing {
-        width: across,
-        height: down,
-        rgb: rgb.collect(),
-    })
+    Ok(Drawing::of(&canvas))
 }
 
 fn stroke(canvas: &mut Pixmap, path: PathBuilder, [red, green, blue]: [u8; 3]) {

@@ -27,8 +27,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use color_quant::NeuQuant;
 use rayon::prelude::*;
 
+use super::error::{ImageError, MOST_BYTES, check_size};
 use super::portable_network::encoder;
-use super::{ImageError, MOST_BYTES, check_size};
 
 /// The unit of delays in a GIF: a hundredth of a second.
 const GIF_TICKS: f64 = 100.0;
@@ -104,28 +104,25 @@ impl Animation {
         timing: Timing,
     ) -> Result<Self, ImageError> {
         let [width, height] = size;
-        check_size(u64::from(width), u64::from(height), 3, 3, MOST_BYTES)?;
+        check_size(width, height, 3, 3, MOST_BYTES)?;
         let is_positive = timing.frames_per_second > 0.0 && timing.frames_per_second.is_finite();
-        if !is_positive
-            || !timing.last_frame_seconds.is_finite()
-            || count == 0
-            || width * height == 0
-        {
-            return Err(inconsistent("a film needs frames, pixels and times"));
+        let is_timed = is_positive && timing.last_frame_seconds.is_finite();
+        if !is_timed || count == 0 || width * height == 0 {
+            let what = "a film needs frames, pixels and times";
+            return Err(ImageError::inconsistent(what));
         }
         let bytes = Shared::default();
         let encoder = match format {
             Format::Gif => {
-                let side = |side: u32| {
-                    u16::try_from(side)
-                        .map_err(|_| inconsistent("sides of a gif are at most 65535"))
-                };
-                let mut encoder =
-                    gif::Encoder::new(bytes.clone(), side(width)?, side(height)?, &[])
-                        .map_err(inconsistent)?;
-                let forever = gif::Repeat::Infinite;
-                encoder.set_repeat(forever).map_err(inconsistent)?;
-                Encoder::Gif(encoder)
+                let what = |_| ImageError::inconsistent("sides of a gif are at most 65535");
+                let side = |side: u32| u16::try_from(side).map_err(what);
+                let (width, height) = (side(width)?, side(height)?);
+                let encoder = gif::Encoder::new(bytes.clone(), width, height, &[]);
+                let encoder = encoder.and_then(|mut encoder| {
+                    encoder.set_repeat(gif::Repeat::Infinite)?;
+                    Ok(encoder)
+                });
+                Encoder::Gif(encoder.map_err(ImageError::inconsistent)?)
             }
             Format::Apng => {
                 let kind = (png::ColorType::Rgb, png::BitDepth::Eight);
@@ -133,7 +130,7 @@ impl Animation {
                     encoder.set_animated(count, 0)?;
                     encoder.write_header()
                 });
-                Encoder::Apng(Box::new(writer.map_err(inconsistent)?))
+                Encoder::Apng(Box::new(writer.map_err(ImageError::inconsistent)?))
             }
         };
         Ok(Self {
@@ -156,10 +153,11 @@ impl Animation {
     pub fn push(&mut self, frames: &[impl AsRef<[u8]> + Sync]) -> Result<(), ImageError> {
         let length = 3 * self.size[0] as usize * self.size[1] as usize;
         if frames.iter().any(|frame| frame.as_ref().len() != length) {
-            return Err(inconsistent("a frame of another size than its film"));
+            let what = "a frame of another size than its film";
+            return Err(ImageError::inconsistent(what));
         }
         if frames.len() > (self.count - self.written) as usize {
-            return Err(inconsistent("more frames than were told"));
+            return Err(ImageError::inconsistent("more frames than were told"));
         }
         let width = self.size[0] as usize;
         let rectangles: Vec<Rectangle> = (0..frames.len())
@@ -172,10 +170,6 @@ impl Animation {
                 Rectangle::of_difference(before, frames[i].as_ref(), width)
             })
             .collect();
-        let cut = |(frame, rectangle): (&_, &Rectangle)| {
-            let frame: &[u8] = AsRef::as_ref(frame);
-            rectangle.cut(frame, width)
-        };
         let first = self.written;
         let delay = |i: usize, ticks| self.timing.delay(first + i as u32, self.count, ticks);
         match &mut self.encoder {
@@ -196,13 +190,14 @@ impl Animation {
                     .collect();
                 for (i, mut frame) in quantised.into_iter().enumerate() {
                     frame.delay = delay(i, GIF_TICKS);
-                    encoder.write_frame(&frame).map_err(inconsistent)?;
+                    encoder
+                        .write_frame(&frame)
+                        .map_err(ImageError::inconsistent)?;
                 }
             }
             Encoder::Apng(writer) => {
-                for (i, frame) in frames.iter().zip(&rectangles).enumerate() {
-                    let rectangle = frame.1;
-                    let pixels = cut((frame.0, rectangle));
+                for (i, (frame, rectangle)) in frames.iter().zip(&rectangles).enumerate() {
+                    let pixels = rectangle.cut(frame.as_ref(), width);
                     let [wide, high] = rectangle.size.map(|side| side as u32);
                     let [left, top] = rectangle.corner.map(|at| at as u32);
                     writer
@@ -215,7 +210,7 @@ impl Animation {
                         .and_then(|()| writer.set_blend_op(png::BlendOp::Source))
                         .and_then(|()| writer.set_dispose_op(png::DisposeOp::None))
                         .and_then(|()| writer.write_image_data(&pixels))
-                        .map_err(inconsistent)?;
+                        .map_err(ImageError::inconsistent)?;
                 }
             }
         }
@@ -233,20 +228,14 @@ impl Animation {
     /// [`ImageError::Inconsistent`] if there are fewer frames than were told.
     pub fn finish(self) -> Result<Vec<u8>, ImageError> {
         if self.written != self.count {
-            return Err(inconsistent("fewer frames than were told"));
+            return Err(ImageError::inconsistent("fewer frames than were told"));
         }
         match self.encoder {
             // The end of a GIF is written when its encoder goes.
-            Encoder::Gif(encoder) => drop(encoder.into_inner().map_err(inconsistent)?),
-            Encoder::Apng(writer) => writer.finish().map_err(inconsistent)?,
+            Encoder::Gif(encoder) => drop(encoder.into_inner().map_err(ImageError::inconsistent)?),
+            Encoder::Apng(writer) => writer.finish().map_err(ImageError::inconsistent)?,
         }
         Ok(self.bytes.take())
-    }
-}
-
-fn inconsistent(what: impl std::fmt::Display) -> ImageError {
-    ImageError::Inconsistent {
-        what: format!("{what}"),
     }
 }
 

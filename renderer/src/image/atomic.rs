@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::ImageError;
+use super::error::ImageError;
 
 /// What temporary names begin with; the number of the process follows.
 const PREFIX: &str = ".lamina-";

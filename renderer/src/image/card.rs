@@ -5,7 +5,8 @@
 //! - **Out**: the mean of its colours, linear sRGB.
 //! - **Left out**: edges: pixels that another object or the background shares, if there are others.
 
-use super::{Attribute, ImageError, Picture};
+use super::error::ImageError;
+use super::picture::Picture;
 
 /// Mean of linear sRGB `colours`, one a pixel, over an object.
 ///
@@ -18,12 +19,9 @@ pub fn colour_of(
     colours: &[[f32; 3]],
     object: &str,
 ) -> Result<[f64; 3], ImageError> {
-    let refused = |what: String| ImageError::Inconsistent { what };
-    let untold = || refused("it does not tell which objects it shows".to_owned());
+    let untold = || ImageError::inconsistent("it does not tell which objects it shows");
     let layer = &picture.layer("id.object").ok_or_else(untold)?.data;
-    let Some(Attribute::Text(names)) = picture.attribute("lamina:objects") else {
-        return Err(untold());
-    };
+    let names = picture.text("lamina:objects").ok_or_else(untold)?;
     let named = names.lines().filter_map(|line| line.split_once(' '));
     let number = named
         .filter(|(_, name)| *name == object)
@@ -43,7 +41,7 @@ pub fn colour_of(
     mean.filter(|mean| mean.iter().all(|value| *value > 0.0))
         .ok_or_else(|| {
             let object = object.escape_debug();
-            refused(format!("it shows no light from the object `{object}`"))
+            ImageError::inconsistent(format_args!("it shows no light from the object `{object}`"))
         })
 }
 
@@ -63,7 +61,7 @@ fn mean_of(colours: &[[f32; 3]], wanted: impl Fn(usize) -> bool) -> Option<[f64;
 
 #[cfg(test)]
 mod tests {
-    use super::super::Layer;
+    use super::super::{Attribute, Layer};
     use super::*;
 
     /// Five columns: background, an edge pixel of the card, two inside of it, a leaf.
@@ -72,10 +70,7 @@ mod tests {
         let picture = Picture {
             width: 5,
             height: 3,
-            layers: vec![Layer {
-                name: "id.object".to_owned(),
-                data: row.repeat(3),
-            }],
+            layers: vec![Layer::new("id.object", row.repeat(3))],
             attributes: vec![(
                 "lamina:objects".to_owned(),
                 Attribute::Text("1 leaf\n2 grey card\n3 unseen".to_owned()),

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use image::{ImageReader, Limits};
 
-use super::{MOST_PIXELS, openexr, portable_network};
+use super::error::MOST_PIXELS;
+use super::{openexr, portable_network};
 
 /// Bytes of a pixel of a PNG, JPEG or Radiance HDR, while its colours are made: as stored, in 16
 /// bits, and as three layers, which become one map.
@@ -50,10 +51,7 @@ mod tests {
         let black = vec![0; 3 * 40 * 30];
         let png = portable_network::encoded(40, 30, &black).expect("three values per pixel");
         assert_eq!(bytes(Cursor::new(png)), OF_A_PIXEL * 1200.0);
-        let layer = |name: &str| Layer {
-            name: name.to_owned(),
-            data: vec![0.0; 1200],
-        };
+        let layer = |name: &str| Layer::new(name, vec![0.0; 1200]);
         let picture = Picture {
             width: 40,
             height: 30,

@@ -11,10 +11,9 @@ use std::path::Path;
 use glam::DMat3;
 use leafmodel::document::source::escaped;
 
-use super::{
-    Attribute, ImageError, Layer, MOST_TEXTURE_BYTES, Picture, REC709, jpeg, openexr,
-    portable_network, primaries, radiance, read_file,
-};
+use super::error::{ImageError, MOST_TEXTURE_BYTES, read_file};
+use super::picture::{Attribute, Layer, Picture, REC709};
+use super::{jpeg, openexr, portable_network, primaries, radiance};
 use crate::spectrum::cie::srgb_from_xyz;
 
 /// The channels of colours.
@@ -39,14 +38,11 @@ pub fn read(path: &Path, layer: Option<&str>) -> Result<Picture, ImageError> {
 ///
 /// As [`read`], without the path.
 pub fn decode(bytes: &[u8], layer: Option<&str>) -> Result<Picture, ImageError> {
-    let malformed = |what: &str| {
-        Err(ImageError::Malformed {
-            what: what.to_owned(),
-        })
-    };
     let is_exr = bytes.starts_with(openexr::MAGIC);
     if layer.is_some() && !is_exr {
-        return malformed("only an EXR has layers: leave `layer` out");
+        return Err(ImageError::malformed(
+            "only an EXR has layers: leave `layer` out",
+        ));
     }
     if is_exr {
         let picture = openexr::decode_within(bytes, MOST_TEXTURE_BYTES)?;
@@ -60,7 +56,9 @@ pub fn decode(bytes: &[u8], layer: Option<&str>) -> Result<Picture, ImageError> 
     } else if bytes.starts_with(b"#?") {
         radiance::decode(bytes)
     } else {
-        malformed("it is no EXR, Radiance HDR, PNG or JPEG")
+        Err(ImageError::malformed(
+            "it is no EXR, Radiance HDR, PNG or JPEG",
+        ))
     }
 }
 
@@ -137,12 +135,7 @@ fn of_layer(mut picture: Picture, layer: Option<&str>) -> Result<Picture, ImageE
             .retain(|(name, _)| name != "chromaticities");
     }
     let layers = CHANNELS.into_iter().zip(colours);
-    picture.layers = layers
-        .map(|(name, data)| Layer {
-            name: name.to_owned(),
-            data,
-        })
-        .collect();
+    picture.layers = layers.map(|(name, data)| Layer::new(name, data)).collect();
     Ok(picture)
 }
 
@@ -187,7 +180,7 @@ fn lacking(picture: &Picture, layer: Option<&str>) -> ImageError {
             names.join(", ")
         )
     };
-    ImageError::Malformed { what }
+    ImageError::malformed(what)
 }
 
 #[cfg(test)]
@@ -195,16 +188,11 @@ mod tests {
     use super::*;
 
     fn layered(names: &[&str]) -> Vec<u8> {
-        let layers = names.iter().zip(1_u8..).map(|(name, value)| Layer {
-            name: (*name).to_owned(),
-            data: vec![f32::from(value)],
-        });
-        let picture = Picture {
-            width: 1,
-            height: 1,
-            layers: layers.collect(),
-            attributes: Vec::new(),
-        };
+        let layers = names
+            .iter()
+            .zip(1_u8..)
+            .map(|(name, value)| Layer::new(*name, vec![f32::from(value)]));
+        let picture = Picture::new([1, 1], layers);
         openexr::encode(&picture).expect("one pixel")
     }
 
@@ -226,10 +214,8 @@ mod tests {
     fn channels_of_xyz_are_colours_and_not_the_grey_of_their_luminance() {
         let xyz = |prefix: &str, colour: [f32; 3]| {
             let channels = ["X", "Y", "Z"].into_iter().zip(colour);
-            let layers = channels.map(|(name, value)| Layer {
-                name: format!("{prefix}{name}"),
-                data: vec![value],
-            });
+            let layers =
+                channels.map(|(name, value)| Layer::new(format!("{prefix}{name}"), vec![value]));
             let primaries = Attribute::Chromaticities(primaries::REC2020);
             let picture = Picture {
                 width: 1,
@@ -262,10 +248,7 @@ mod tests {
 
     #[test]
     fn colours_of_rec_2020_are_compared_as_those_of_rec_709() {
-        let layer = |name: &str, value: f32| Layer {
-            name: name.to_owned(),
-            data: vec![value],
-        };
+        let layer = |name: &str, value: f32| Layer::new(name, vec![value]);
         let primaries = Attribute::Chromaticities(primaries::REC2020);
         let picture = Picture {
             width: 1,

@@ -1,6 +1,6 @@
 //! Comparison of two pictures.
 
-use super::{Layer, Picture};
+use super::picture::{Layer, Picture};
 
 /// Comparison of two pictures.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,16 +99,8 @@ mod tests {
     use super::*;
 
     fn picture(layers: &[(&str, [f32; 4])]) -> Picture {
-        let layer = |&(name, data): &(&str, [f32; 4])| Layer {
-            name: name.to_owned(),
-            data: data.to_vec(),
-        };
-        Picture {
-            width: 2,
-            height: 2,
-            layers: layers.iter().map(layer).collect(),
-            attributes: Vec::new(),
-        }
+        let layer = |&(name, data): &(&str, [f32; 4])| Layer::new(name, data.to_vec());
+        Picture::new([2, 2], layers.iter().map(layer))
     }
 
     #[test]

@@ -7,61 +7,72 @@ use std::io::Write as _;
 use std::path::Path;
 
 use glam::DVec3;
+use leafmodel::document::declared::{Declared, Defaults};
+use leafmodel::document::keys::Keys;
+use leafmodel::document::value_kind::{Flag, Text, Word};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::card;
 use super::colours::{mapped, to_rec709};
+use super::error::ImageError;
 use super::light_colour;
+use super::picture::{Picture, luminance};
 use super::pixels::{Depth, Pixels};
 use super::tone::Tone;
-use super::white::{White, neutralised};
-use super::{ImageError, Picture, atomic, jpeg, portable_network};
+use super::white::{White, WhiteKind, neutralised};
+use super::{atomic, jpeg, portable_network};
 use crate::spectrum::observer::Observer;
-use crate::spectrum::rgb::luminance;
 use crate::spectrum::{Share, WavelengthSampler};
 
 /// Settings of `[picture]`.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, Declared, Defaults, Deserialize, PartialEq, Serialize)]
+#[key(last = Self::one_alone)]
 pub struct Display {
-    /// Exposure: a factor of 2^EV on radiance.
+    /// Radiance is multiplied by 2 to this power.
+    #[key("exposure_ev", -30.0..=30.0)]
     pub exposure_ev: f64,
-    /// Whether light is brought to a middle grey first, by its mean logarithm.
+    /// Whether light is brought to middle grey (0.18) first, by the mean logarithm of the picture's
+    /// luminance; `exposure_ev` is then more or less than that.
+    #[key("auto_exposure")]
     pub auto_exposure: bool,
-    /// An object that is brought to a middle grey first, as a grey card.
+    /// An object that is brought to middle grey (0.18) first, such as a grey card, instead of the whole
+    /// picture; `exposure_ev` is then more or less than that.
+    #[key("grey_object", OBJECT)]
     pub grey_object: Option<String>,
-    /// The light that comes out white.
+    /// The light that comes out white: `"d65"`, in which colours are as the film has them, or a colour
+    /// temperature in K (daylight from 4000 on, a black body below).
+    #[key("white", WhiteKind, default = White::D65)]
     pub white: White,
-    /// An object that comes out without colour, instead.
+    /// An object that comes out without colour, such as a grey card, instead of `white`.
+    #[key("white_object", OBJECT)]
     pub white_object: Option<String>,
-    /// A light of the scene whose spectrum comes out white, instead.
+    /// A light whose spectrum comes out white, instead of `white`: the mean of all that it sends out.
+    /// Of `daylight` it is sun and sky on level ground; `NAME.sun` and `NAME.sky` are one of them.
+    #[key("white_light", Text("the name of a light"))]
     pub white_light: Option<String>,
-    /// How light becomes what a display shows.
+    /// How light becomes what a display shows: a photograph's curve that keeps hues; no curve, with
+    /// colours that no display has brought among those that it has; each channel rolled off as on film;
+    /// or neither, each channel clipped (`linear` is its older name), so that colours can be measured in
+    /// the picture.
+    #[key("tone", Word(&Tone::WORDS), default = Tone::Standard)]
     pub tone: Tone,
-    /// Slope of [`Tone::Agx`] at middle grey over its usual one, within [`Tone::CONTRASTS`].
+    /// Slope of `agx` at middle grey over its usual one, which is low. It has no effect on the other
+    /// tones.
+    #[key("contrast", within(Tone::CONTRASTS), default = 1.0)]
     pub contrast: f64,
     /// Depth of a PNG.
+    #[key(with = Self::declare_depth, default = Depth::Eight)]
     pub depth: Depth,
-    /// Whether a PNG has an alpha channel, and nothing behind what is partly there.
+    /// Whether the PNG has an alpha channel: the share of a pixel that something covers, with colours
+    /// from which what lies behind everything is taken out.
+    #[key("alpha")]
     pub alpha: bool,
 }
 
-impl Default for Display {
-    fn default() -> Self {
-        Self {
-            exposure_ev: 0.0,
-            auto_exposure: false,
-            grey_object: None,
-            white: White::D65,
-            white_object: None,
-            white_light: None,
-            tone: Tone::Standard,
-            contrast: 1.0,
-            depth: Depth::Eight,
-            alpha: false,
-        }
-    }
-}
+/// The name is looked up when the whole scene has been read: a picture that is shown again brings
+/// the names of its objects with it.
+const OBJECT: Text = Text("the name of an object in the picture");
 
 /// Kinds of files that are looked at, by their ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,6 +95,44 @@ impl FileKind {
 }
 
 impl Display {
+    fn declare_depth(&mut self, keys: &mut Keys<'_>) {
+        let mut is_deep = self.depth == Depth::Sixteen;
+        let about = "Whether the PNG has 16 bits a channel instead of 8; a JPEG has 8.";
+        keys.key("sixteen_bits", &mut is_deep, Flag, about);
+        self.depth = if is_deep {
+            Depth::Sixteen
+        } else {
+            Depth::Eight
+        };
+    }
+
+    /// An empty name is none, so that a flag can take away what the scene said; with a name another key
+    /// has no effect, if it is set.
+    fn one_alone(&mut self, keys: &mut Keys<'_>) {
+        let names = [
+            &mut self.grey_object,
+            &mut self.white_object,
+            &mut self.white_light,
+        ];
+        for name in names {
+            name.take_if(|name| name.is_empty());
+        }
+        let [grey, object, light] =
+            [&self.grey_object, &self.white_object, &self.white_light].map(Option::is_some);
+        let is_white = self.white != White::D65;
+        for (key, is_named, other, is_set) in [
+            ("grey_object", grey, "auto_exposure", self.auto_exposure),
+            ("white_object", object, "white", is_white),
+            ("white_light", light, "white", is_white),
+            ("white_light", light, "white_object", object),
+        ] {
+            if is_named && is_set {
+                let problem = format!("`{other}` has no effect beside `{key}`");
+                keys.refuse(&[other], problem, "leave one of them out");
+            }
+        }
+    }
+
     /// Refuses settings that a file of this kind cannot have.
     ///
     /// # Errors
@@ -96,7 +145,7 @@ impl Display {
             (FileKind::Jpeg, Depth::Eight, false) | (FileKind::Png, ..) => return Ok(()),
         };
         let what = format!("a JPEG cannot have {cannot}: write a PNG, or leave that out");
-        Err(ImageError::Inconsistent { what })
+        Err(ImageError::inconsistent(what))
     }
 
     /// Writes a picture as a file of a kind.
@@ -204,9 +253,7 @@ fn meter(colours: &[[f32; 3]]) -> f64 {
 }
 
 fn lacks(what: &str) -> ImageError {
-    ImageError::Inconsistent {
-        what: format!("it has no {what}"),
-    }
+    ImageError::inconsistent(format_args!("it has no {what}"))
 }
 
 /// Linear sRGB of each pixel.
@@ -230,11 +277,8 @@ pub fn colours(picture: &Picture) -> Result<Vec<[f32; 3]>, ImageError> {
         .filter_map(|layer| Some((wavelength(&layer.name)?, layer.data.as_slice())))
         .collect();
     if bands.is_empty() {
-        let Some(grey) = picture.layer("Y") else {
-            return Err(lacks(
-                "channels `R`, `G`, `B`, or `Y` alone, nor bands `S0.…nm`",
-            ));
-        };
+        let none = "channels `R`, `G`, `B`, or `Y` alone, nor bands `S0.…nm`";
+        let grey = picture.layer("Y").ok_or_else(|| lacks(none))?;
         return Ok(grey.data.iter().map(|&grey| [grey; 3]).collect());
     }
     Ok(colours_of_bands(&bands))

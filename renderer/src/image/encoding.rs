@@ -7,9 +7,10 @@
 
 use moxcms::{ColorProfile, DataColorSpace, ToneReprCurve, Xyzd};
 
+use super::error::ImageError;
+use super::picture::{Picture, REC709_POINTS};
 use super::primaries::REC2020;
 use super::tone::from_srgb;
-use super::{Attribute, ImageError, Layer, Picture, REC709_POINTS};
 
 /// Luminance of white in pictures of the curve PQ, cd/m² (ITU-R BT.2408): what is 1 here.
 const PQ_WHITE: f64 = 203.0;
@@ -64,9 +65,9 @@ impl Encoding {
     ) -> Result<Self, ImageError> {
         let unread = |what: String| {
             let help = "save it with sRGB values, or as EXR";
-            Err(ImageError::Malformed {
-                what: format!("its code points (cICP) name {what}, which is not read: {help}"),
-            })
+            Err(ImageError::malformed(format_args!(
+                "its code points (cICP) name {what}, which is not read: {help}"
+            )))
         };
         if matrix != 0 || !full {
             return unread("a narrow range or colour differences".to_owned());
@@ -104,8 +105,10 @@ impl Encoding {
     ///
     /// [`ImageError::Malformed`] if it is damaged, of CMYK, or has a table instead of primaries.
     pub(super) fn of_profile(profile: &[u8]) -> Result<Self, ImageError> {
-        let refused = |why: &str| ImageError::Malformed {
-            what: format!("its colour profile (ICC) {why}: convert the picture to sRGB"),
+        let refused = |why: &str| {
+            ImageError::malformed(format_args!(
+                "its colour profile (ICC) {why}: convert the picture to sRGB"
+            ))
         };
         let profile = ColorProfile::new_from_slice(profile)
             .map_err(|error| refused(&format!("cannot be read ({error})")))?;
@@ -183,31 +186,16 @@ impl Encoding {
         let (width, height) = pixels.dimensions();
         // 8-bit values arrive as 257 times themselves, so one table serves both.
         let tables = self.curves.iter().map(|light| {
-            let values = 0..=u16::MAX;
-            values
-                .map(|value| light(f64::from(value) / 65535.0) as f32)
-                .collect()
+            let shares = (0..=u16::MAX).map(|value| f64::from(value) / 65535.0);
+            shares.map(|share| light(share) as f32).collect()
         });
         let tables: Vec<Vec<f32>> = tables.collect();
-        let channel = |number: usize, name: &str| {
+        let channel = |number: usize| {
             let table = &tables[number.min(tables.len() - 1)];
-            Layer {
-                name: name.to_owned(),
-                data: pixels
-                    .pixels()
-                    .map(|pixel| table[pixel.0[number] as usize])
-                    .collect(),
-            }
+            let values = pixels.pixels().map(|pixel| pixel.0[number]);
+            values.map(|value| table[usize::from(value)]).collect()
         };
-        Picture {
-            width,
-            height,
-            layers: vec![channel(0, "R"), channel(1, "G"), channel(2, "B")],
-            attributes: vec![(
-                "chromaticities".to_owned(),
-                Attribute::Chromaticities(self.points),
-            )],
-        }
+        Picture::of_colours([width, height], [0, 1, 2].map(channel), self.points)
     }
 }
 

@@ -10,9 +10,10 @@ use image::{
 };
 
 use super::encoding::{Encoding, Stored};
+use super::error::{ImageError, MOST_BYTES, MOST_TEXTURE_BYTES, check_size};
+use super::picture::Picture;
 use super::pixels::{Depth, Pixels};
 use super::portable_network::SOFTWARE;
-use super::{ImageError, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, check_size};
 
 /// Quality of 1 to 100 at which fine veins show no blocks.
 const QUALITY: u8 = 93;
@@ -37,23 +38,22 @@ fn comment() -> Vec<u8> {
 /// [`ImageError::Inconsistent`] unless the pixels have 8 bits and no alpha, and for more than
 /// 65535 pixels a side.
 pub fn encoded(pixels: &Pixels) -> Result<Vec<u8>, ImageError> {
-    let inconsistent = |what: String| ImageError::Inconsistent { what };
     let (width, height) = (pixels.width, pixels.height);
-    check_size(u64::from(width), u64::from(height), 3, 12, MOST_BYTES)?;
+    check_size(width, height, 3, 12, MOST_BYTES)?;
     if pixels.depth != Depth::Eight || pixels.channels != 3 {
-        return Err(inconsistent("a JPEG has 8 bits and no alpha".to_owned()));
+        return Err(ImageError::inconsistent("a JPEG has 8 bits and no alpha"));
     }
     let values: Vec<u8> = pixels.values.iter().map(|&value| value as u8).collect();
     if values.len() as u64 != u64::from(width) * u64::from(height) * 3 {
         let count = values.len();
-        return Err(inconsistent(format!(
+        return Err(ImageError::inconsistent(format_args!(
             "{count} values for {width} × {height} pixels"
         )));
     }
     let mut bytes = Vec::new();
     JpegEncoder::new_with_quality(&mut bytes, QUALITY)
         .write_image(&values, width, height, ExtendedColorType::Rgb8)
-        .map_err(|error| inconsistent(error.to_string()))?;
+        .map_err(ImageError::inconsistent)?;
     bytes.splice(AFTER_START..AFTER_START, comment());
     Ok(bytes)
 }
@@ -65,7 +65,7 @@ pub fn encoded(pixels: &Pixels) -> Result<Vec<u8>, ImageError> {
 /// As [`decode`], with the path; [`ImageError::File`] if there is no such file or it is larger than
 /// 4 GiB.
 pub fn read(path: &Path) -> Result<Picture, ImageError> {
-    super::read_file(path, decode)
+    super::error::read_file(path, decode)
 }
 
 /// Reads the bytes of a JPEG file, upright: layers R, G and B in linear light, 0 to 1, and their
@@ -98,27 +98,23 @@ pub fn decode_as(bytes: &[u8], stored: Stored) -> Result<Picture, ImageError> {
 
 /// Pixels as stored, how they have to be turned to be upright, and the profile of their colours.
 fn decode_stored(bytes: &[u8]) -> Result<(DynamicImage, Orientation, Option<Vec<u8>>), ImageError> {
-    let malformed = |error: image::ImageError| ImageError::Malformed {
-        what: error.to_string(),
-    };
     let reader = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Jpeg);
-    let (width, height) = reader().into_dimensions().map_err(malformed)?;
-    let (across, down) = (u64::from(width), u64::from(height));
-    check_size(across, down, 3, 12, MOST_TEXTURE_BYTES)?;
+    let (width, height) = reader().into_dimensions().map_err(ImageError::malformed)?;
+    check_size(width, height, 3, 12, MOST_TEXTURE_BYTES)?;
     check_scans(bytes, width, height)?;
     // Those colours depend on the inks.
     if components(bytes) == Some(4) {
-        return Err(ImageError::Malformed {
-            what: "its colours are CMYK, which is not read: convert it to sRGB".to_owned(),
-        });
+        return Err(ImageError::malformed(
+            "its colours are CMYK, which is not read: convert it to sRGB",
+        ));
     }
     let mut limited = reader();
     let mut limits = Limits::default();
     limits.max_alloc = Some(MOST_BYTES);
     limited.limits(limits);
-    let (pixels, orientation) = super::turned(limited).map_err(malformed)?;
+    let (pixels, orientation) = super::error::turned(limited).map_err(ImageError::malformed)?;
     let profile = reader().into_decoder().and_then(|mut of| of.icc_profile());
-    Ok((pixels, orientation, profile.map_err(malformed)?))
+    Ok((pixels, orientation, profile.map_err(ImageError::malformed)?))
 }
 
 /// Refuses a file that is cut short or claims more pixels than its bytes can hold, before memory is
@@ -129,9 +125,9 @@ pub(super) fn check_scans(bytes: &[u8], width: u32, height: u32) -> Result<(), I
     let blocks = u64::from(width) * u64::from(height) / 64;
     if blocks / 8 > bytes.len() as u64 || scan(&[0xff, 0xd9]) < scan(&[0xff, 0xda]) {
         let length = bytes.len();
-        return Err(ImageError::Malformed {
-            what: format!("{width} × {height} pixels in {length} bytes: it is cut short"),
-        });
+        return Err(ImageError::malformed(format_args!(
+            "{width} × {height} pixels in {length} bytes: it is cut short"
+        )));
     }
     Ok(())
 }

@@ -12,9 +12,9 @@ use leafmodel::document::nearest::nearest;
 use leafmodel::document::source::escaped;
 use serde::{Deserialize, Serialize};
 
+use super::error::ImageError;
+use super::picture::{Attribute, Picture, luminance};
 use super::white::is_balanceable;
-use super::{Attribute, ImageError, Picture};
-use crate::spectrum::rgb::luminance;
 
 /// The attribute that holds them.
 const NAME: &str = "lamina:lights";
@@ -71,10 +71,7 @@ pub fn attribute(lights: &[LightColour]) -> (String, Attribute) {
 
 /// The colours that a picture tells of its lights, by name.
 fn of_picture(picture: &Picture) -> Option<Vec<LightColour>> {
-    let Some(Attribute::Text(text)) = picture.attribute(NAME) else {
-        return None;
-    };
-    let parsed = text.lines().filter_map(|line| {
+    let parsed = picture.text(NAME)?.lines().filter_map(|line| {
         let mut words = line.split(' ');
         let name = words.next()?.to_owned();
         let mut number = || words.next()?.parse().ok().filter(|n: &f64| n.is_finite());
@@ -91,12 +88,10 @@ fn of_picture(picture: &Picture) -> Option<Vec<LightColour>> {
 /// [`ImageError::Inconsistent`] if the picture does not tell its lights, has none of this name, or
 /// one that cannot come out white.
 pub fn colour_of(picture: &Picture, light: &str) -> Result<[f64; 3], ImageError> {
-    let refused = |what: String| ImageError::Inconsistent { what };
     let lights = of_picture(picture).ok_or_else(|| {
-        refused(
+        ImageError::inconsistent(
             "it does not tell the colours of its lights: render it again, or write `white` or \
-             `white_object` instead"
-                .to_owned(),
+             `white_object` instead",
         )
     })?;
     let shown = escaped(light, QUOTED);
@@ -109,11 +104,13 @@ pub fn colour_of(picture: &Picture, light: &str) -> Result<[f64; 3], ImageError>
             },
             |name| format!("did you mean `{}`?", escaped(name, QUOTED)),
         );
-        return Err(refused(format!("there is no light `{shown}`; {meant}")));
+        return Err(ImageError::inconsistent(format_args!(
+            "there is no light `{shown}`; {meant}"
+        )));
     };
     found
         .balanceable()
-        .map_err(|why| refused(format!("the light `{shown}` {why}")))
+        .map_err(|why| ImageError::inconsistent(format_args!("the light `{shown}` {why}")))
 }
 
 #[cfg(test)]

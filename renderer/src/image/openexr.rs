@@ -16,10 +16,11 @@ use exr::meta::header::{Header, LayerAttributes};
 use exr::meta::{BlockDescription, MetaData, magic_number};
 use exr::prelude::{Compression, ReadChannels, ReadLayers, Vec2};
 
-use super::{
-    Attribute, ImageError, Layer, MOST_BYTES, MOST_EXPANSION, MOST_TEXTURE_BYTES, Picture, atomic,
-    check_held, check_size,
+use super::atomic;
+use super::error::{
+    ImageError, MOST_BYTES, MOST_EXPANSION, MOST_TEXTURE_BYTES, check_held, check_size,
 };
+use super::picture::{Attribute, Layer, Picture};
 
 /// The first bytes of each file.
 pub(super) const MAGIC: &[u8] = &magic_number::BYTES;
@@ -130,7 +131,7 @@ pub fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
                 .try_for_each(|(place, chunk)| writer.write_chunk(place, chunk))
         })
     });
-    written.map_err(|what| ImageError::Inconsistent { what })?;
+    written.map_err(ImageError::inconsistent)?;
     let mut bytes = bytes.into_inner();
     sort_attributes(&mut bytes);
     Ok(bytes)
@@ -138,45 +139,30 @@ pub fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
 
 /// Refuses pictures that would not read back unchanged.
 fn check(picture: &Picture) -> Result<(), ImageError> {
-    let refuse = |what: String| Err(ImageError::Inconsistent { what });
-    let channels = picture.layers.len() as u64;
-    let (width, height) = (u64::from(picture.width), u64::from(picture.height));
-    check_size(
-        width,
-        height,
-        channels,
-        channels.saturating_mul(4),
-        MOST_BYTES,
-    )?;
-    let pixels = width * height;
-    for layer in &picture.layers {
-        if layer.data.len() as u64 != pixels {
-            let count = layer.data.len();
+    let refuse = |what: String| Err(ImageError::inconsistent(what));
+    let count = picture.layers.len() as u64;
+    let (width, height) = (picture.width, picture.height);
+    check_size(width, height, count, 4 * count, MOST_BYTES)?;
+    let pixels = u64::from(width) * u64::from(height);
+    for Layer { name, data } in &picture.layers {
+        if data.len() as u64 != pixels {
+            let count = data.len();
             return refuse(format!(
-                "channel {:?} has {count} values for {pixels} pixels",
-                layer.name
+                "channel {name:?} has {count} values for {pixels} pixels"
             ));
         }
     }
-    let mut channels: Vec<_> = picture
-        .layers
-        .iter()
-        .map(|layer| layer.name.as_str())
-        .collect();
-    let mut attributes: Vec<_> = picture
-        .attributes
-        .iter()
-        .map(|(name, _)| name.as_str())
-        .collect();
+    let channels = picture.layers.iter().map(|layer| layer.name.as_str());
+    let mut channels: Vec<&str> = channels.collect();
+    let attributes = picture.attributes.iter().map(|(name, _)| name.as_str());
+    let mut attributes: Vec<&str> = attributes.collect();
+    let is_bad = |name: &&&str| name.is_empty() || name.len() > 255 || name.contains('\0');
     for (kind, names) in [("channel", &mut channels), ("attribute", &mut attributes)] {
         names.sort_unstable();
         if let Some([twice, _]) = names.windows(2).find(|pair| pair[0] == pair[1]) {
             return refuse(format!("the {kind} {twice:?} is there twice"));
         }
-        if let Some(name) = names
-            .iter()
-            .find(|name| name.is_empty() || name.len() > 255 || name.contains('\0'))
-        {
+        if let Some(name) = names.iter().find(is_bad) {
             return refuse(format!(
                 "{name:?} cannot name a {kind}: 1 to 255 bytes without a zero"
             ));
@@ -230,7 +216,7 @@ fn sort_attributes(file: &mut [u8]) {
 /// As [`decode`], with the path; [`ImageError::File`] if there is no such file or it is larger than
 /// 4 GiB.
 pub fn read(path: &Path) -> Result<Picture, ImageError> {
-    super::read_file(path, decode)
+    super::error::read_file(path, decode)
 }
 
 /// Reads an `OpenEXR` file that a scene names, as [`read()`].
@@ -248,7 +234,7 @@ pub fn read_texture(path: &Path) -> Result<Picture, ImageError> {
 ///
 /// As [`read()`].
 pub fn read_within(path: &Path, most: u64) -> Result<Picture, ImageError> {
-    super::read_file(path, |bytes| decode_within(bytes, most.min(MOST_BYTES)))
+    super::error::read_file(path, |bytes| decode_within(bytes, most.min(MOST_BYTES)))
 }
 
 /// Reads the bytes of an `OpenEXR` file: its display window, all channels as `f32` (16-bit floats
@@ -269,12 +255,11 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
 
 /// As [`decode`], within so many bytes of memory.
 pub(super) fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageError> {
-    let malformed = |what: String| ImageError::Malformed { what };
     if !bytes.starts_with(MAGIC) {
-        return Err(malformed("it is no EXR".to_owned()));
+        return Err(ImageError::malformed("it is no EXR"));
     }
-    let meta =
-        guard(|| MetaData::read_from_buffered(Cursor::new(bytes), false)).map_err(malformed)?;
+    let meta = guard(|| MetaData::read_from_buffered(Cursor::new(bytes), false))
+        .map_err(ImageError::malformed)?;
     check_headers(&meta, bytes.len(), most)?;
     let has_deep = meta.headers.iter().any(|header| header.deep);
     let read = || {
@@ -289,14 +274,14 @@ pub(super) fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageErr
             let read = read().first_valid_layer().all_attributes();
             read.non_parallel().from_buffered(Cursor::new(bytes))
         };
-        let image = guard(read).map_err(malformed)?;
+        let image = guard(read).map_err(ImageError::malformed)?;
         (image.attributes.display_window, vec![image.layer_data])
     } else {
         let read = || {
             let read = read().all_layers().all_attributes();
             read.non_parallel().from_buffered(Cursor::new(bytes))
         };
-        let image = guard(read).map_err(malformed)?;
+        let image = guard(read).map_err(ImageError::malformed)?;
         (image.attributes.display_window, image.layer_data.into_vec())
     };
     let mut layers: Vec<Layer> = Vec::new();
@@ -309,7 +294,7 @@ pub(super) fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageErr
         for channel in part.channel_data.list {
             let mut name = String::from_utf8_lossy(channel.name.as_slice()).into_owned();
             if channel.sampling != Vec2(1, 1) || channel.sample_data.len() != part.size.area() {
-                return Err(malformed(format!(
+                return Err(ImageError::malformed(format_args!(
                     "channel {name:?} is subsampled (as in files of luminance and chroma), which is \
                      not read: save the picture with channels R, G and B"
                 )));
@@ -318,7 +303,9 @@ pub(super) fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageErr
                 name.insert_str(0, &prefix);
             }
             if layers.iter().any(|layer| layer.name == name) {
-                return Err(malformed(format!("two parts have the channel {name:?}")));
+                return Err(ImageError::malformed(format_args!(
+                    "two parts have the channel {name:?}"
+                )));
             }
             let values = match channel.sample_data {
                 FlatSamples::F32(data) => data,
@@ -367,11 +354,10 @@ fn check_headers(meta: &MetaData, held: usize, most: u64) -> Result<(), ImageErr
             header.compression,
             Compression::HTJ2K32 | Compression::HTJ2K256
         ) {
-            return Err(ImageError::Malformed {
-                what: "its compression is HTJ2K, which is not read: save it with ZIP, PIZ or DWAA, for \
-                       example by `oiiotool IN.exr --compression zip -o OUT.exr`"
-                    .to_owned(),
-            });
+            return Err(ImageError::malformed(
+                "its compression is HTJ2K, which is not read: save it with ZIP, PIZ or DWAA, for \
+                       example by `oiiotool IN.exr --compression zip -o OUT.exr`",
+            ));
         }
         let channels = header.channels.list.len() as u64;
         let stored = header.channels.bytes_per_pixel as u64;
@@ -389,12 +375,10 @@ fn check_headers(meta: &MetaData, held: usize, most: u64) -> Result<(), ImageErr
         let shown = (size.0 as u64 * size.1 as u64).saturating_mul(channels * 4);
         if size != header.layer_size && shown > MOST_EMPTY.max(held as u64 * MOST_EXPANSION) {
             let (width, height) = (size.0, size.1);
-            return Err(ImageError::Malformed {
-                what: format!(
-                    "its display window of {width} × {height} pixels is too large for {held} bytes: save it \
+            return Err(ImageError::malformed(format_args!(
+                "its display window of {width} × {height} pixels is too large for {held} bytes: save it \
                      with a smaller one, or with pixels in all of it"
-                ),
-            });
+            )));
         }
         // The values of the file become those of the picture where both have one size.
         let size = header.layer_size;

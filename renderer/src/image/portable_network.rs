@@ -7,13 +7,12 @@ use image::metadata::Orientation;
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use png::{BitDepth, ColorType, ScaledFloat, SourceChromaticities};
 
+use super::atomic;
 use super::encoding::{Encoding, Stored};
+use super::error::{ImageError, MOST_BYTES, MOST_TEXTURE_BYTES, check_held, check_size};
+use super::picture::{Layer, Picture, REC709_POINTS};
 use super::pixels::{Depth, Pixels};
 use super::tone::from_srgb;
-use super::{
-    ImageError, Layer, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, REC709_POINTS, atomic, check_held,
-    check_size,
-};
 
 /// The exponent 1/2.2 times 100 000, which stands for the curve of sRGB where it is not known.
 const GAMMA: u32 = 45455;
@@ -37,13 +36,8 @@ pub fn write(path: &Path, width: u32, height: u32, rgb: &[u8]) -> Result<(), Ima
 ///
 /// [`ImageError::Inconsistent`] unless there are 3 · width · height values.
 pub fn encoded(width: u32, height: u32, rgb: &[u8]) -> Result<Vec<u8>, ImageError> {
-    let values = rgb.len() as u64;
-    encode(
-        [width, height],
-        rgb,
-        values,
-        (ColorType::Rgb, BitDepth::Eight),
-    )
+    let kind = (ColorType::Rgb, BitDepth::Eight);
+    encode([width, height], rgb, rgb.len() as u64, kind)
 }
 
 /// The bytes of a file with the pixels of a display: 8 or 16 bits, with or without alpha.
@@ -87,33 +81,28 @@ pub(super) fn encoder<W: Write>(
 
 /// White D65 and the primaries of Rec. 709, which sRGB has.
 fn rec709() -> SourceChromaticities {
-    let [red, green, blue, white] = [
-        [64000, 33000],
-        [30000, 60000],
-        [15000, 6000],
-        [31270, 32900],
-    ]
-    .map(|point: [u32; 2]| point.map(ScaledFloat::from_scaled).into());
+    let point = |x, y| [x, y].map(ScaledFloat::from_scaled).into();
     SourceChromaticities {
-        red,
-        green,
-        blue,
-        white,
+        red: point(64000, 33000),
+        green: point(30000, 60000),
+        blue: point(15000, 6000),
+        white: point(31270, 32900),
     }
 }
 
+/// A whole file of `count` values in their bytes.
 fn encode(
     [width, height]: [u32; 2],
     values: &[u8],
     count: u64,
     kind: (ColorType, BitDepth),
 ) -> Result<Vec<u8>, ImageError> {
-    check_size(u64::from(width), u64::from(height), 3, 12, MOST_BYTES)?;
+    check_size(width, height, 3, 12, MOST_BYTES)?;
     let channels = kind.0.samples() as u64;
     if count != u64::from(width) * u64::from(height) * channels {
-        return Err(ImageError::Inconsistent {
-            what: format!("{count} values for {width} × {height} pixels of {channels}"),
-        });
+        return Err(ImageError::inconsistent(format_args!(
+            "{count} values for {width} × {height} pixels of {channels}"
+        )));
     }
     let mut bytes = Vec::new();
     let written = encoder(&mut bytes, [width, height], kind).and_then(|mut encoder| {
@@ -126,9 +115,7 @@ fn encode(
         writer.write_image_data(values)?;
         writer.finish()
     });
-    written.map_err(|error| ImageError::Inconsistent {
-        what: error.to_string(),
-    })?;
+    written.map_err(ImageError::inconsistent)?;
     Ok(bytes)
 }
 
@@ -139,7 +126,7 @@ fn encode(
 /// As [`decode`], with the path; [`ImageError::File`] if there is no such file or it is larger than
 /// 4 GiB.
 pub fn read(path: &Path) -> Result<Picture, ImageError> {
-    super::read_file(path, decode)
+    super::error::read_file(path, decode)
 }
 
 /// Reads the bytes of a PNG file: layers R, G and B in linear light, 0 to 1, and their primaries as
@@ -173,7 +160,7 @@ fn encoding(bytes: &[u8]) -> Result<Encoding, ImageError> {
         bytes: MOST_PROFILE as usize,
     };
     let reader = png::Decoder::new_with_limits(Cursor::new(bytes), limits).read_info();
-    let reader = reader.map_err(|error| damaged(&error))?;
+    let reader = reader.map_err(ImageError::malformed)?;
     let info = reader.info();
     if let Some(points) = info.coding_independent_code_points {
         let codes = [
@@ -188,12 +175,10 @@ fn encoding(bytes: &[u8]) -> Result<Encoding, ImageError> {
     }
     // The decoder passes over a profile that it cannot use.
     if has_profile(bytes) {
-        return Err(ImageError::Malformed {
-            what: format!(
-                "its profile of colours (iCCP) is damaged or larger than {} MiB: save it without, in sRGB",
-                MOST_PROFILE >> 20
-            ),
-        });
+        return Err(ImageError::malformed(format_args!(
+            "its profile of colours (iCCP) is damaged or larger than {} MiB: save it without, in sRGB",
+            MOST_PROFILE >> 20
+        )));
     }
     if info.srgb.is_some() {
         return Ok(Encoding::srgb());
@@ -227,12 +212,6 @@ fn has_profile(mut chunks: &[u8]) -> bool {
     false
 }
 
-fn damaged(error: &png::DecodingError) -> ImageError {
-    ImageError::Malformed {
-        what: error.to_string(),
-    }
-}
-
 /// Reads grey or alpha of a PNG file as written, 0 to 1, as a picture with one layer, `grey` or
 /// `A`.
 ///
@@ -240,7 +219,7 @@ fn damaged(error: &png::DecodingError) -> ImageError {
 ///
 /// As [`read`].
 pub fn read_weights(path: &Path, alpha: bool) -> Result<Picture, ImageError> {
-    super::read_file(path, |bytes| Ok(weights(decode_stored(bytes, 4)?, alpha)))
+    super::error::read_file(path, |bytes| Ok(weights(decode_stored(bytes, 4)?, alpha)))
 }
 
 /// Grey or alpha of pixels.
@@ -248,15 +227,9 @@ fn weights(stored: DynamicImage, alpha: bool) -> Picture {
     let pixels = stored.into_luma_alpha16();
     let (width, height) = pixels.dimensions();
     let share = |pixel: &image::LumaA<u16>| f32::from(pixel.0[usize::from(alpha)]) / 65535.0;
-    Picture {
-        width,
-        height,
-        layers: vec![Layer {
-            name: if alpha { "A" } else { "grey" }.to_owned(),
-            data: pixels.pixels().map(share).collect(),
-        }],
-        attributes: Vec::new(),
-    }
+    let name = if alpha { "A" } else { "grey" };
+    let shares = pixels.pixels().map(share).collect();
+    Picture::new([width, height], [Layer::new(name, shares)])
 }
 
 /// Alpha of the bytes of a PNG file as written, 0 to 1, unturned: one layer, `A`.
@@ -278,11 +251,8 @@ fn decode_stored(bytes: &[u8], channels: u64) -> Result<DynamicImage, ImageError
 
 /// Pixels as stored, and how they have to be turned to be upright.
 fn decode_unturned(bytes: &[u8], channels: u64) -> Result<(DynamicImage, Orientation), ImageError> {
-    let malformed = |error: image::ImageError| ImageError::Malformed {
-        what: error.to_string(),
-    };
     let mut header = png::Decoder::new(Cursor::new(bytes));
-    let header = header.read_header_info().map_err(|error| damaged(&error))?;
+    let header = header.read_header_info().map_err(ImageError::malformed)?;
     let (across, down) = (u64::from(header.width), u64::from(header.height));
     check_size(across, down, channels, 12, MOST_TEXTURE_BYTES)?;
     let stored = header.bits_per_pixel() as u64;
@@ -292,7 +262,7 @@ fn decode_unturned(bytes: &[u8], channels: u64) -> Result<(DynamicImage, Orienta
     // The decoder holds a row at a time, besides what stands before the pixels.
     limits.max_alloc = Some(8 * across + MOST_PROFILE);
     reader.limits(limits);
-    super::turned(reader).map_err(malformed)
+    super::error::turned(reader).map_err(ImageError::malformed)
 }
 
 #[cfg(test)]

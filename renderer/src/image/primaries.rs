@@ -7,8 +7,9 @@
 
 use glam::{DMat3, DVec3};
 
+use super::error::ImageError;
+use super::picture::REC709_POINTS;
 use super::white::srgb_seen_under;
-use super::{ImageError, REC709_POINTS};
 
 /// Differences of x and y that are only rounding: files hold three to five digits.
 const ROUNDING: f32 = 1e-3;
@@ -42,11 +43,9 @@ pub(super) fn to_rec709(points: [[f32; 2]; 4]) -> Result<Option<DMat3>, ImageErr
     let scales = unscaled.inverse() * white;
     let map = srgb_seen_under(white) * unscaled * DMat3::from_diagonal(scales);
     if unscaled.determinant().abs() < 1e-6 || !map.is_finite() {
-        return Err(ImageError::Malformed {
-            what: format!(
-                "no colours have the chromaticities {points:?} of red, green, blue and white"
-            ),
-        });
+        return Err(ImageError::malformed(format_args!(
+            "no colours have the chromaticities {points:?} of red, green, blue and white"
+        )));
     }
     Ok(Some(map))
 }

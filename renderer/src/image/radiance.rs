@@ -10,7 +10,8 @@ use image::ImageDecoder;
 use image::codecs::hdr::HdrDecoder;
 use leafmodel::document::source::escaped;
 
-use super::{Attribute, ImageError, Layer, MOST_TEXTURE_BYTES, Picture, REC709_POINTS, check_size};
+use super::error::{ImageError, MOST_TEXTURE_BYTES, check_size};
+use super::picture::{Picture, REC709_POINTS};
 
 /// What files begin with.
 const SIGNATURES: [&str; 2] = ["#?RADIANCE", "#?RGBE"];
@@ -110,7 +111,7 @@ impl Order {
 /// As [`decode`], with the path; [`ImageError::File`] if there is no such file or it is larger than
 /// 4 GiB.
 pub fn read(path: &Path) -> Result<Picture, ImageError> {
-    super::read_file(path, decode)
+    super::error::read_file(path, decode)
 }
 
 /// Reads the bytes of a Radiance file, upright: layers R, G and B as the file has them, with its
@@ -122,7 +123,6 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
 /// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`], also for a file of
 /// XYZE.
 pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
-    let malformed = |what: String| ImageError::Malformed { what };
     let Header {
         factors,
         points,
@@ -134,7 +134,7 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     check_size(across, down, 3, BYTES_A_PIXEL, MOST_TEXTURE_BYTES)?;
     if across * down > bytes.len() as u64 * MOST_PIXELS_A_BYTE {
         let length = bytes.len();
-        return Err(malformed(format!(
+        return Err(ImageError::malformed(format_args!(
             "{width} × {height} pixels in {length} bytes: it is cut short"
         )));
     }
@@ -143,41 +143,30 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     let mut values = vec![0_u8; (across * down * BYTES_A_PIXEL) as usize];
     HdrDecoder::new(Cursor::new(plain).chain(&bytes[pixels..]))
         .and_then(|decoder| decoder.read_image(&mut values))
-        .map_err(|error| malformed(error.to_string()))?;
+        .map_err(ImageError::malformed)?;
     let (values, _) = values.as_chunks::<4>();
-    let layer = |number: usize, name: &str| {
+    let channel = |number: usize| {
         let value = |pixel: usize| f32::from_ne_bytes(values[3 * pixel + number]) / factors[number];
-        Layer {
-            name: name.to_owned(),
-            data: order.upright().map(value).collect(),
-        }
+        order.upright().map(value).collect()
     };
-    Ok(Picture {
-        width,
-        height,
-        layers: vec![layer(0, "R"), layer(1, "G"), layer(2, "B")],
-        attributes: vec![(
-            "chromaticities".to_owned(),
-            Attribute::Chromaticities(points),
-        )],
-    })
+    let channels = [0, 1, 2].map(channel);
+    Ok(Picture::of_colours([width, height], channels, points))
 }
 
 /// Reads the header.
 fn header(bytes: &[u8]) -> Result<Header, ImageError> {
-    let malformed = |what: String| ImageError::Malformed { what };
     let mut at = 0;
     let mut line = || {
         let rest = &bytes[at..];
         let end = rest.iter().take(MOST_LINE).position(|&byte| byte == b'\n');
-        let end = end.ok_or_else(|| malformed("its header is cut short".to_owned()))?;
+        let end = end.ok_or_else(|| ImageError::malformed("its header is cut short"))?;
         at += end + 1;
         let text = String::from_utf8_lossy(&rest[..end]);
         Ok((text.trim_end_matches('\r').to_owned(), at))
     };
     if !SIGNATURES.contains(&line()?.0.as_str()) {
-        return Err(malformed(
-            "it does not begin with #?RADIANCE or #?RGBE".to_owned(),
+        return Err(ImageError::malformed(
+            "it does not begin with #?RADIANCE or #?RGBE",
         ));
     }
     let (mut factors, mut points) = ([1.0_f32; 3], REC709_POINTS);
@@ -190,11 +179,11 @@ fn header(bytes: &[u8]) -> Result<Header, ImageError> {
             continue;
         };
         let (name, value) = (name.trim(), value.trim());
-        let wrong = || malformed(format!("its {name} is {}", escaped(value, 60)));
+        let wrong = || ImageError::malformed(format_args!("its {name} is {}", escaped(value, 60)));
         match name {
             "FORMAT" if value != "32-bit_rle_rgbe" => {
                 let shown = escaped(value, 60);
-                return Err(malformed(format!(
+                return Err(ImageError::malformed(format_args!(
                     "its format is `{shown}`; only 32-bit_rle_rgbe is read: convert it, for example \
                      by `ra_xyze -r`"
                 )));
@@ -217,7 +206,7 @@ fn header(bytes: &[u8]) -> Result<Header, ImageError> {
             }
             "GAMMA" if numbers::<1>(value) != Some([1.0]) => {
                 let shown = escaped(value, 60);
-                return Err(malformed(format!(
+                return Err(ImageError::malformed(format_args!(
                     "its GAMMA is {shown}: only light itself, 1, is read"
                 )));
             }
@@ -233,7 +222,9 @@ fn header(bytes: &[u8]) -> Result<Header, ImageError> {
     let (size, pixels) = line()?;
     let order = Order::parse(&size).ok_or_else(|| {
         let shown = escaped(&size, 60);
-        malformed(format!("`{shown}` is no size such as `-Y 512 +X 1024`"))
+        ImageError::malformed(format_args!(
+            "`{shown}` is no size such as `-Y 512 +X 1024`"
+        ))
     })?;
     Ok(Header {
         factors,
@@ -388,7 +379,7 @@ mod tests {
         let points = |line: &str| {
             let picture = decode(&file(line)).expect("it is a picture");
             match picture.attribute("chromaticities") {
-                Some(Attribute::Chromaticities(points)) => *points,
+                Some(crate::image::Attribute::Chromaticities(points)) => *points,
                 other => panic!("{other:?}"),
             }
         };

@@ -6,9 +6,9 @@ use std::path::Path;
 use image::{ImageFormat, ImageReader, Limits};
 use tiff::decoder::Decoder as TiffDecoder;
 
+use super::error::{ImageError, MOST_BYTES, MOST_PIXELS, check_held, check_size, read_file};
 use super::jpeg::check_scans;
-use super::{Attribute, Layer, Picture};
-use super::{ImageError, MOST_BYTES, MOST_PIXELS, check_held, check_size, read_file};
+use super::picture::{Attribute, Layer, Picture};
 
 /// Formats by what files begin with.
 const KNOWN: &str = "PNG, TIFF and JPEG can be read";
@@ -59,7 +59,7 @@ pub fn decode_grey(bytes: &[u8]) -> Result<Picture, ImageError> {
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MOST_PIXELS * BYTES_A_PIXEL);
     reader.limits(limits);
-    let (mut decoded, orientation) = super::turned(reader).map_err(|error| malformed(&error))?;
+    let (mut decoded, orientation) = super::error::turned(reader).map_err(ImageError::malformed)?;
     decoded.apply_orientation(orientation);
     let pixels = decoded.into_luma_alpha16();
     let (width, height) = pixels.dimensions();
@@ -67,18 +67,13 @@ pub fn decode_grey(bytes: &[u8]) -> Result<Picture, ImageError> {
         let [grey, alpha] = pixel.0.map(|value| f32::from(value) / 65535.0);
         1.0 - alpha * (1.0 - grey)
     });
-    Ok(Picture {
-        width,
-        height,
-        layers: vec![Layer {
-            name: "grey".to_owned(),
-            data: grey.collect(),
-        }],
-        attributes: has_more_pages(bytes)
-            .then(|| (MORE_PAGES.to_owned(), Attribute::Int(1)))
-            .into_iter()
-            .collect(),
-    })
+    let grey = Layer::new("grey", grey.collect());
+    let mut picture = Picture::new([width, height], [grey]);
+    if has_more_pages(bytes) {
+        let more = (MORE_PAGES.to_owned(), Attribute::Int(1));
+        picture.attributes.push(more);
+    }
+    Ok(picture)
 }
 
 /// Whether a file is a TIFF with more than one page.
@@ -86,36 +81,29 @@ fn has_more_pages(bytes: &[u8]) -> bool {
     TiffDecoder::new(Cursor::new(bytes)).is_ok_and(|decoder| decoder.more_images())
 }
 
-fn malformed(error: &dyn std::fmt::Display) -> ImageError {
-    ImageError::Malformed {
-        what: error.to_string(),
-    }
-}
-
 /// A reader of a file whose first bytes say that it is known.
 fn reader(bytes: &[u8]) -> Result<ImageReader<Cursor<&[u8]>>, ImageError> {
     let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
-    let reader = reader.map_err(|error| malformed(&error))?;
+    let reader = reader.map_err(ImageError::malformed)?;
     let what = match reader.format() {
         Some(ImageFormat::Png | ImageFormat::Tiff | ImageFormat::Jpeg) => return Ok(reader),
         Some(other) => format!("it is of the kind {other:?}; {KNOWN}"),
         None => format!("its format is not known; {KNOWN}"),
     };
-    Err(ImageError::Malformed { what })
+    Err(ImageError::malformed(what))
 }
 
 /// Width and height, if the bytes can hold so many pixels.
 fn size_of_picture(bytes: &[u8]) -> Result<(u32, u32), ImageError> {
     let is_jpeg = reader(bytes)?.format() == Some(ImageFormat::Jpeg);
     let size = reader(bytes)?.into_dimensions();
-    let (width, height) = size.map_err(|error| malformed(&error))?;
-    let (across, down) = (u64::from(width), u64::from(height));
-    check_size(across, down, 1, BYTES_A_PIXEL, MOST_BYTES)?;
+    let (width, height) = size.map_err(ImageError::malformed)?;
+    check_size(width, height, 1, BYTES_A_PIXEL, MOST_BYTES)?;
     if is_jpeg {
         check_scans(bytes, width, height)?;
     } else {
         // A pixel takes a bit at least before it is compressed.
-        check_held(across * down / 8, bytes.len())?;
+        check_held(u64::from(width) * u64::from(height) / 8, bytes.len())?;
     }
     Ok((width, height))
 }

@@ -8,6 +8,7 @@
 mod agx;
 mod gamut;
 mod oklab;
+use leafmodel::document::limits::Limits;
 use serde::{Deserialize, Serialize};
 
 use self::gamut::Gamut;
@@ -32,9 +33,17 @@ const MOST_LIGHT: f64 = 1e9;
 
 impl Tone {
     /// Least and most contrast.
-    pub const CONTRASTS: [f64; 2] = [0.6, 2.0];
+    pub(super) const CONTRASTS: Limits = Limits::closed(0.6, 2.0);
+    /// Its words; of `none` the second is the older one.
+    pub(super) const WORDS: [(&str, Self); 5] = [
+        ("agx", Self::Agx),
+        ("standard", Self::Standard),
+        ("filmic", Self::Filmic),
+        ("none", Self::Linear),
+        ("linear", Self::Linear),
+    ];
 
-    /// Prepares for many colours; `contrast`, within [`Tone::CONTRASTS`], is that of [`Tone::Agx`].
+    /// Prepares for many colours; `contrast`, within its limits, is that of [`Tone::Agx`].
     pub fn prepared(self, contrast: f64) -> PreparedTone {
         PreparedTone {
             tone: self,

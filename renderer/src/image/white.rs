@@ -4,6 +4,12 @@
 //! - **Out**: linear sRGB in which the light of [`White`] is neutral.
 
 use glam::{DMat3, DVec3};
+use leafmodel::document::context::Context;
+use leafmodel::document::limits::Limits;
+use leafmodel::document::schema::Type;
+use leafmodel::document::tree::{Node, Value};
+use leafmodel::document::value_kind::{Kind, Number, Word};
+use leafmodel::document::values::wrong_type;
 use serde::{Deserialize, Serialize};
 
 use crate::spectrum::cie::{XYZ_TO_SRGB, xyz_of};
@@ -36,6 +42,47 @@ impl White {
             Self::D65 => DMat3::IDENTITY,
             Self::Kelvin(kelvin) => adaptation_to(white_of(kelvin)),
         }
+    }
+}
+
+/// A word or a temperature.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WhiteKind;
+
+const WORDS: [(&str, White); 1] = [("d65", White::D65)];
+const WANTED: &str = "\"d65\", or a number: the colour temperature in K";
+const KELVIN: Limits = Limits::closed(White::LEAST, White::MOST);
+
+impl Kind for WhiteKind {
+    type Of = White;
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<White> {
+        match &node.value {
+            Value::Integer(_) | Value::Number(_) => {
+                Number(KELVIN).read(cx, node, key).map(White::Kelvin)
+            }
+            Value::Text(text) if text == "d65" => Some(White::D65),
+            Value::Text(_)
+            | Value::Flag(_)
+            | Value::Other(..)
+            | Value::List(_)
+            | Value::Table(_) => {
+                wrong_type(cx, node, key, WANTED);
+                None
+            }
+        }
+    }
+
+    fn write(&self, value: &White) -> Value {
+        match value {
+            White::D65 => Word(&WORDS).write(value),
+            White::Kelvin(kelvin) => Number(KELVIN).write(kelvin),
+        }
+    }
+
+    fn describe(&self) -> Type {
+        let types = vec![Word(&WORDS).describe(), Number(KELVIN).describe()];
+        Type::AnyOf(types, WANTED)
     }
 }
 

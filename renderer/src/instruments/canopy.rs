@@ -6,22 +6,23 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::batches::{Effort, Experiment, estimates};
+use super::batches::{Experiment, estimates};
 use super::detector::{self, Detectors, angles};
 use super::error::{InstrumentError, Problem};
 use super::fluorescence::{self, Illumination, Manner};
 use super::flux::{Escaped, Event, Flux, LANES, Scattering, Witness};
 use super::lamp::{directions, towards};
 use super::ledger::{Ledger, REFLECTED, TRANSMITTED, UNCOLLIDED, add};
+use super::measurement::Measurement;
 use super::period::Period;
 use super::row::{Direction, Reading};
-use super::spectral::{Series, by_wavelength, plain, rows};
+use super::spectral::Series;
 use super::stage::Stage;
 use crate::geometry::Ray;
 use crate::geometry::frame::Frame;
 use crate::sampling::stream::Stream;
 use crate::sampling::warp;
-use crate::scene::description::{Canopy, Description, Instrument, Named};
+use crate::scene::description::{Canopy, Description};
 use crate::spectrum::Wavelengths;
 use trace::world::World;
 
@@ -39,14 +40,14 @@ struct Lit<'a> {
     ledger: &'a Ledger,
     direction: Direction,
     azimuth: f64,
-    detectors: Option<Detectors>,
+    detectors: Option<&'a Detectors>,
     wavelengths: Wavelengths<LANES>,
     stream: u32,
 }
 
 impl Experiment for Lit<'_> {
     fn sums(&self) -> usize {
-        let seen = self.detectors.as_ref().map_or(0, Detectors::len);
+        let seen = self.detectors.map_or(0, Detectors::len);
         1 + (self.ledger.quantities.len() + seen) * LANES
     }
 
@@ -61,12 +62,7 @@ impl Experiment for Lit<'_> {
     fn shoot(&self, stream: &mut Stream, sums: &mut [f64]) {
         let ray = self.ray(stream);
         sums[0] += 1.0;
-        let flux = Flux {
-            stage: self.stage,
-            course: &self.period,
-            wavelengths: &self.wavelengths,
-            ways: 1,
-        };
+        let flux = Flux::new(self.stage, &self.period, &self.wavelengths, 1);
         let mut tally = Tally {
             lit: self,
             sums,
@@ -101,17 +97,11 @@ struct Tally<'a> {
 
 impl Witness<'_> for Tally<'_> {
     fn scattering(&mut self, at: &Scattering<'_>) {
-        let Lit {
-            stage,
-            period,
-            ledger,
-            detectors,
-            ..
-        } = self.lit;
-        if let Some(detectors) = detectors {
-            let first = ledger.quantities.len();
-            detectors.see((stage, period), at, |number, seen| {
-                add(self.sums, first + number, |lane| f64::from(seen.0[lane]));
+        let lit = self.lit;
+        if let Some(detectors) = lit.detectors {
+            let first = lit.ledger.quantities.len();
+            detectors.see((lit.stage, &lit.period), at, |number, seen| {
+                add(self.sums, first + number, &seen);
             });
         }
     }
@@ -120,21 +110,19 @@ impl Witness<'_> for Tally<'_> {
         self.is_untouched &= !event.is_scattered;
         let ledger = self.lit.ledger;
         if event.is_first && Some(event.object) == ledger.soil {
-            add(self.sums, UNCOLLIDED, |lane| {
-                f64::from(event.before.0[lane])
-            });
+            add(self.sums, UNCOLLIDED, &event.before);
         }
         ledger.add(self.lit.stage, event, &self.lit.wavelengths, self.sums);
     }
 
     fn escape(&mut self, escaped: &Escaped) {
-        if let Some(detectors) = &self.lit.detectors {
+        if let Some(detectors) = self.lit.detectors {
             let first = self.lit.ledger.quantities.len();
             detectors.gather(escaped, |number, seen| {
-                add(self.sums, first + number, |lane| f64::from(seen.0[lane]));
+                add(self.sums, first + number, &seen);
             });
         }
-        let weight = |lane: usize| f64::from(escaped.weight.0[lane]);
+        let weight = &escaped.weight;
         if escaped.direction.z > 0.0 {
             add(self.sums, REFLECTED, weight);
             return;
@@ -170,85 +158,65 @@ pub(super) fn notes(world: &World, scene: &Description, canopy: &Canopy) -> Vec<
 
 /// Measures.
 pub(super) fn read_out(
-    world: &World,
-    scene: &Description,
-    (instrument, canopy): (&Named<Instrument>, &Canopy),
-    first_set: usize,
-    effort: &Effort<'_>,
+    measurement: &Measurement<'_>,
+    canopy: &Canopy,
 ) -> Result<Reading, InstrumentError> {
-    let at = &instrument.value.at;
-    let (stage, period) = Period::stage(canopy.within, world, scene, at)?;
+    let scene = measurement.scene;
+    let (stage, period) = Period::stage(measurement, canopy.within)?;
     let ground = (canopy.within[1] - canopy.within[0]).element_product();
     let ledger = Ledger::new(scene, &stage, canopy, ground);
-    check(scene, (&stage, &period), canopy, &ledger, at)?;
-    detector::check_layers(scene, &stage, &instrument.value, canopy.constituents)?;
-    let count = instrument.value.measured_nm().len();
-    let sets = count.div_ceil(LANES);
+    check(measurement, (&stage, &period), canopy, &ledger)?;
+    detector::check_layers(measurement, &stage, canopy.constituents)?;
     let directions = directions(&canopy.incidence);
-    check_size(at, canopy, &ledger, sets * directions.len())?;
+    let sets = measurement.sets();
+    let figures = ledger.quantities.len() * sets * directions.len();
+    if canopy.instances && figures > MOST_FIGURES {
+        let most = MOST_FIGURES;
+        return Err(measurement.refuse(Problem::TooManyInstances { figures, most }));
+    }
     let azimuth = canopy.incidence.azimuth;
     // +x along x, the normal upwards.
     let upwards = Frame::new(Vec3::Z, Vec3::Y);
-    let mut lit = Vec::new();
-    for (number, &direction) in directions.iter().enumerate() {
-        for set in 0..sets {
-            lit.push(Lit {
-                stage: &stage,
-                period,
-                ledger: &ledger,
-                direction,
-                azimuth,
-                detectors: canopy
-                    .detector
-                    .as_ref()
-                    .map(|detector| Detectors::new(detector, &upwards, azimuth, [1.0; 2])),
-                wavelengths: world.wavelengths.grid().set(first_set + set),
-                stream: number as u32,
-            });
-        }
-    }
-    let found = estimates(&lit, effort);
+    let detectors = canopy.detector.as_ref();
+    let detectors = detectors.map(|own| Detectors::new(own, &upwards, azimuth, [1.0; 2]));
+    let numbered = (0..).zip(&directions);
+    let lit = measurement.lit(numbered, |(stream, &direction), wavelengths| Lit {
+        stage: &stage,
+        period,
+        ledger: &ledger,
+        direction,
+        azimuth,
+        detectors: detectors.as_ref(),
+        wavelengths,
+        stream,
+    });
+    let found = estimates(&lit, measurement.effort);
     let seen = canopy.detector.as_ref().map(angles).unwrap_or_default();
     let mut all = Vec::new();
     for (figures, &direction) in found.chunks(sets).zip(&directions) {
         let mut series = Vec::new();
         for (number, quantity) in ledger.quantities.iter().enumerate() {
-            let mut row = plain(&instrument.name, quantity.word, direction).row;
+            let mut row = measurement.row(quantity.word, direction);
             row.part.clone_from(&quantity.part);
             series.push(Series {
                 row,
                 photons: quantity.photons,
-                figures: by_wavelength(figures, number, count),
+                figures: measurement.by_wavelength(figures, number),
             });
         }
         for (number, &view) in seen.iter().enumerate() {
-            let mut row = plain(&instrument.name, factor_of(direction), direction).row;
+            let mut row = measurement.row(factor_of(direction), direction);
             row.view = Some(view);
             let number = ledger.quantities.len() + number;
-            series.push(Series {
-                row,
-                photons: None,
-                figures: by_wavelength(figures, number, count),
-            });
+            series.push(Series::new(row, measurement.by_wavelength(figures, number)));
         }
-        all.extend(rows(&instrument.value, &series));
+        all.extend(measurement.rows(&series));
     }
-    if let Some(reading) = &instrument.value.fluorescence {
-        let lights: Vec<_> = lit
-            .iter()
-            .step_by(sets)
-            .map(|lit| (lit, lit.direction, None))
-            .collect();
-        let read = (instrument.name.as_str(), reading);
-        let (sample, manner) = ((&stage, &period), fluorescence_of(canopy));
-        all.extend(fluorescence::read_out(
-            sample, &lights, read, &manner, effort,
-        ));
-    }
-    Ok(Reading {
-        rows: all,
-        cut: stage.cuts.paths(),
-    })
+    let lights = lit.iter().step_by(sets);
+    let lights = lights.map(|lit| (lit, lit.direction, None));
+    let (sample, manner) = ((&stage, &period), fluorescence_of(canopy));
+    all.extend(fluorescence::read_out(measurement, sample, lights, &manner));
+    Ok(stage.reading(all))
 }
 
 /// How fluorescence is shown.
@@ -269,14 +237,13 @@ fn fluorescence_of(canopy: &Canopy) -> Manner {
 
 /// Fails if a canopy cannot be measured as it is asked for.
 fn check(
-    scene: &Description,
+    measurement: &Measurement<'_>,
     (stage, period): (&Stage<'_>, &Period),
     canopy: &Canopy,
     ledger: &Ledger,
-    at: &str,
 ) -> Result<(), InstrumentError> {
     if ledger.objects.1.is_empty() {
-        return Err(Problem::NoLeaves.at(at));
+        return Err(measurement.refuse(Problem::NoLeaves));
     }
     let untold = [
         (
@@ -289,38 +256,18 @@ fn check(
         ),
     ];
     if let Some(detector) = &canopy.detector {
-        detector::check(scene, stage, detector, at)?;
+        detector::check(measurement, stage, detector)?;
     }
     for (asked, problem) in untold {
         if let (true, Some(object)) = (asked, stage.filled()) {
-            return Err(Problem::inside(&scene.objects[object].name, problem).at(at));
+            return Err(measurement.inside(object, problem));
         }
     }
     if let Some(soil) = canopy.soil
         && !is_covered(stage, period, soil)
     {
-        return Err(Problem::SoilTooSmall {
-            object: scene.objects[soil].name.clone(),
-        }
-        .at(at));
-    }
-    Ok(())
-}
-
-/// Fails if there are more sums of instances than there is memory for.
-fn check_size(
-    at: &str,
-    canopy: &Canopy,
-    ledger: &Ledger,
-    experiments: usize,
-) -> Result<(), InstrumentError> {
-    let figures = ledger.quantities.len() * experiments;
-    if canopy.instances && figures > MOST_FIGURES {
-        return Err(Problem::TooManyInstances {
-            figures,
-            most: MOST_FIGURES,
-        }
-        .at(at));
+        let object = measurement.object(soil);
+        return Err(measurement.refuse(Problem::SoilTooSmall { object }));
     }
     Ok(())
 }

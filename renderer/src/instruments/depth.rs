@@ -4,6 +4,7 @@
 //! [`LayeredLeaf`](leafmodel::optics::layers::LayeredLeaf). Nothing is followed at random here, so
 //! figures have no statistical error.
 
+use glam::DVec2;
 use leafmodel::optics::Contents;
 use leafmodel::optics::layers::{Face, Incidence, LayeredLeaf};
 use rayon::prelude::*;
@@ -11,11 +12,11 @@ use rayon::prelude::*;
 use super::batches::Estimate;
 use super::error::{InstrumentError, Problem};
 use super::lamp::{FACES, directions};
-use super::row::{Direction, Reading};
-use super::spectral::{Series, plain, rows};
-use super::stage::CutPaths;
+use super::measurement::Measurement;
+use super::row::{CutPaths, Direction, Reading};
+use super::spectral::Series;
 use crate::material::Tissue;
-use crate::scene::description::{DepthProfile, Description, Instrument, Named};
+use crate::scene::description::DepthProfile;
 use trace::world::World;
 
 /// Optical depth of absorption of a slice from which on its fluence can be told from what it absorbs.
@@ -40,23 +41,19 @@ fn tissue_of(world: &World, object: usize) -> Option<Tissue<'_>> {
 
 /// Measures.
 pub(super) fn read_out(
-    world: &World,
-    scene: &Description,
-    (instrument, depth): (&Named<Instrument>, &DepthProfile),
+    measurement: &Measurement<'_>,
+    depth: &DepthProfile,
 ) -> Result<Reading, InstrumentError> {
     let refuse = |problem: String| {
-        Problem::NoContents {
-            object: scene.objects[depth.object].name.clone(),
-            problem,
-        }
-        .at(&instrument.value.at)
+        let object = measurement.object(depth.object);
+        measurement.refuse(Problem::NoContents { object, problem })
     };
-    let tissue = tissue_of(world, depth.object);
+    let tissue = tissue_of(measurement.world, depth.object);
     let Some((tissue, held)) = tissue.and_then(|tissue| Some((tissue, tissue.held?))) else {
         return Err(refuse("is not tissue of known contents".to_owned()));
     };
     let contents = match depth.uv {
-        Some(uv) => Contents::from_texel(held.at(uv.as_vec2())),
+        Some(uv) => Contents::from_texel(held.at(DVec2::from(uv).as_vec2())),
         None => held.mean(),
     };
     let contents = contents
@@ -67,7 +64,7 @@ pub(super) fn read_out(
         let problem = "has neither water nor dry matter, so that its layers have no thickness";
         return Err(refuse(problem.to_owned()));
     }
-    let nm = instrument.value.measured_nm();
+    let nm = measurement.instrument.value.measured_nm();
     let mut all = Vec::new();
     for (face, lit) in [Face::First, Face::Last].into_iter().enumerate() {
         if !depth.faces[face] {
@@ -85,8 +82,8 @@ pub(super) fn read_out(
                 .map(|&nm| profile(&leaf, tissue, nm, (lit, incidence), depth.slices))
                 .collect::<Result<_, _>>()
                 .map_err(&refuse)?;
-            let series = series(&instrument.name, &profiles, light, FACES[face]);
-            all.extend(rows(&instrument.value, &series));
+            let series = series(measurement, &profiles, light, FACES[face]);
+            all.extend(measurement.rows(&series));
         }
     }
     Ok(Reading {
@@ -111,47 +108,45 @@ fn profile(
         let depth = layer.depth * (1.0 - layer.albedo) / count as f64;
         std::iter::repeat_n(depth, count)
     });
+    // What is absorbed is the coefficient of absorption times the fluence rate.
+    let fluence = |absorbed: f64, depth: f64| match depth {
+        depth if depth > LEAST_DEPTH => absorbed / depth,
+        _ => f64::NAN,
+    };
+    let all = || slices.iter();
     Ok(Profile {
-        slices: slices
-            .iter()
+        slices: all()
             .map(|slice| (slice.tissue.name(), slice.depth_um))
             .collect(),
-        absorbed_per_um: slices
-            .iter()
+        absorbed_per_um: all()
             .map(|slice| slice.absorbed / slice.thickness_um)
             .collect(),
-        // What is absorbed is the coefficient of absorption times the fluence rate.
-        fluence: slices
-            .iter()
+        fluence: all()
             .zip(absorbing)
-            .map(|(slice, depth)| {
-                if depth > LEAST_DEPTH {
-                    slice.absorbed / depth
-                } else {
-                    f64::NAN
-                }
-            })
+            .map(|(slice, depth)| fluence(slice.absorbed, depth))
             .collect(),
     })
 }
 
 /// The figures of one light, by slices from the adaxial face on.
-fn series(name: &str, profiles: &[Profile], light: Direction, face: &'static str) -> Vec<Series> {
+fn series(
+    measurement: &Measurement<'_>,
+    profiles: &[Profile],
+    light: Direction,
+    face: &'static str,
+) -> Vec<Series> {
     let Some(first) = profiles.first() else {
         return Vec::new();
     };
     let of = |slice: usize, quantity, unit, value: &dyn Fn(&Profile) -> f64| {
         let (layer, depth_um) = first.slices[slice];
-        let mut series = plain(name, quantity, light);
-        series.row.part = Some(layer.to_owned());
-        series.row.face = Some(face);
-        series.row.depth_um = Some(depth_um);
-        series.row.unit = unit;
-        series.figures = profiles
-            .iter()
-            .map(|one| Estimate::exact(value(one)))
-            .collect();
-        series
+        let mut row = measurement.row(quantity, light);
+        row.part = Some(layer.to_owned());
+        row.face = Some(face);
+        row.depth_um = Some(depth_um);
+        row.unit = unit;
+        let figures = profiles.iter().map(|one| Estimate::exact(value(one)));
+        Series::new(row, figures.collect())
     };
     let mut all = Vec::new();
     for slice in 0..first.slices.len() {

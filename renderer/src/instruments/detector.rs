@@ -13,29 +13,29 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, Vec2};
 
-use super::error::{InstrumentError, Problem};
+use super::error::InstrumentError;
 use super::flux::{Course, Escaped, LANES, Scattering, Staged};
+use super::measurement::Measurement;
 use super::row::ViewAngles;
 use super::stage::Stage;
 use crate::bsdf::Scattered;
 use crate::geometry::frame::Frame;
 use crate::sampling::warp;
-use crate::scene::description::{Description, Detector, Estimator, Instrument};
+use crate::scene::description::{Detector, Estimator};
 use crate::spectrum::Lanes;
 
 /// Fails if a leaf of layers is measured in a way that it has no figures for.
 pub(super) fn check_layers(
-    scene: &Description,
+    measurement: &Measurement<'_>,
     stage: &Stage<'_>,
-    instrument: &Instrument,
     constituents: bool,
 ) -> Result<(), InstrumentError> {
     match stage.layered() {
-        Some(object) if constituents => {
-            let problem = "is a leaf of layers, whose absorption is not split by constituents: leave out \
-                           `constituents`";
-            Err(Problem::inside(&scene.objects[object].name, problem).at(&instrument.at))
-        }
+        Some(object) if constituents => Err(measurement.inside(
+            object,
+            "is a leaf of layers, whose absorption is not split by constituents: leave out \
+             `constituents`",
+        )),
         Some(_) | None => Ok(()),
     }
 }
@@ -43,10 +43,9 @@ pub(super) fn check_layers(
 /// Fails if next events are asked for where they would miss light: that which a medium scatters, and
 /// that which leaves a leaf of layers elsewhere than it came in.
 pub(super) fn check(
-    scene: &Description,
+    measurement: &Measurement<'_>,
     stage: &Stage<'_>,
     detector: &Detector,
-    at: &str,
 ) -> Result<(), InstrumentError> {
     let unseen = [
         (
@@ -67,7 +66,7 @@ pub(super) fn check(
     ];
     for (object, problem) in unseen {
         if let (true, Some(object)) = (detector.has_next_events(), object) {
-            return Err(Problem::inside(&scene.objects[object].name, problem).at(at));
+            return Err(measurement.inside(object, problem));
         }
     }
     Ok(())

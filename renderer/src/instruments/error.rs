@@ -115,13 +115,7 @@ pub enum Problem {
 }
 
 impl Problem {
-    /// An object whose inside scatters or absorbs what a figure does not count.
-    pub(super) fn inside(object: &str, problem: &'static str) -> Self {
-        let object = object.to_owned();
-        Self::Inside { object, problem }
-    }
-
-    /// The error of the block that stands there.
+    /// What is wrong with the block of an instrument.
     pub(super) fn at(self, at: &str) -> InstrumentError {
         InstrumentError {
             at: at.to_owned(),

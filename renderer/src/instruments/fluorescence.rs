@@ -7,8 +7,10 @@
 
 use glam::{Vec2, Vec3};
 
-use super::batches::{Effort, Experiment, estimates};
+use super::batches::{Experiment, estimates};
 use super::flux::{Course, Escaped, Event, Flux, LANES, Passage, Staged, Struck, Witness};
+use super::ledger::add_each;
+use super::measurement::Measurement;
 use super::row::{Direction, Row};
 use super::stage::Stage;
 use crate::bsdf::fluorescence::{sent_out, taken_in};
@@ -19,7 +21,7 @@ use crate::material::leaf::LeafMaterial;
 use crate::sampling::dimensions::instrument as sets;
 use crate::sampling::stream::Stream;
 use crate::sampling::warp;
-use crate::scene::description::{ExcitationLight, FluorescenceReading};
+use crate::scene::description::ExcitationLight;
 use crate::spectrum::{Curve, Lanes, Share, Wavelengths};
 use crate::walk::facet::{Facet, Surroundings};
 
@@ -85,22 +87,21 @@ fn excitations(light: &ExcitationLight) -> Vec<(String, Vec<Packet>)> {
             let middles: Vec<f64> = (0..count)
                 .map(|i| first + STEP_NM * (i as f64 + 0.5))
                 .collect();
-            let packets: Vec<Packet> = middles
-                .chunks(LANES)
-                .map(|own| {
-                    let nm = std::array::from_fn(|i| own[i.min(own.len() - 1)]);
-                    let photons = std::array::from_fn(|i| {
-                        // Energy times wavelength is a number of photons but for hc.
-                        let mean = curve.over(&Share::around(nm[i], STEP_NM));
-                        let energy = f64::from(mean) * STEP_NM;
-                        if i < own.len() { energy * nm[i] } else { 0.0 }
-                    });
-                    Packet {
-                        wavelengths: Wavelengths::new(nm.map(|nm| nm as f32)),
-                        photons,
-                    }
-                })
-                .collect();
+            let packet = |own: &[f64]| {
+                let nm = std::array::from_fn(|i| own[i.min(own.len() - 1)]);
+                let photons = std::array::from_fn(|i| {
+                    // Energy times wavelength is a number of photons but for hc.
+                    let mean = curve.over(&Share::around(nm[i], STEP_NM));
+                    let energy = f64::from(mean) * STEP_NM;
+                    if i < own.len() { energy * nm[i] } else { 0.0 }
+                });
+                let wavelengths = Wavelengths::new(nm.map(|nm| nm as f32));
+                Packet {
+                    wavelengths,
+                    photons,
+                }
+            };
+            let packets = middles.chunks(LANES).map(packet).collect();
             vec![("excited by the spectrum".to_owned(), packets)]
         }
     }
@@ -119,12 +120,7 @@ struct Reading<'a, L, C> {
 
 impl<L: Illumination, C: Course + Sync> Reading<'_, L, C> {
     fn flux<'w>(&'w self, wavelengths: &'w Wavelengths<LANES>, ways: u32) -> Flux<'w, C> {
-        Flux {
-            stage: self.stage,
-            course: self.course,
-            wavelengths,
-            ways,
-        }
+        Flux::new(self.stage, self.course, wavelengths, ways)
     }
 }
 
@@ -278,10 +274,8 @@ struct Emitted<'a, L> {
 
 impl<L> Emitted<'_, L> {
     fn add(&mut self, quantity: usize, weight: impl Fn(usize) -> f64) {
-        let lanes = self.sums[1 + quantity * LANES..].iter_mut().take(LANES);
-        for (lane, sum) in lanes.enumerate() {
-            *sum += self.scale * weight(lane);
-        }
+        let scaled = std::array::from_fn(|lane| self.scale * weight(lane));
+        add_each(self.sums, quantity, &scaled);
     }
 }
 
@@ -304,14 +298,17 @@ impl<L: Illumination> Witness<'_> for Emitted<'_, L> {
 /// A light with its direction and, of a sphere, the face that it falls on.
 pub(super) type Lit<'a, L> = (&'a L, Direction, Option<&'static str>);
 
-/// Measures, for each light.
-pub(super) fn read_out<L: Illumination, C: Course + Sync>(
+/// Measures, for each light, if the instrument measures fluorescence.
+pub(super) fn read_out<'l, L: Illumination + 'l, C: Course + Sync>(
+    measurement: &Measurement<'_>,
     (stage, course): (&Stage<'_>, &C),
-    lights: &[Lit<'_, L>],
-    (name, reading): (&str, &FluorescenceReading),
+    lights: impl Iterator<Item = Lit<'l, L>>,
     manner: &Manner,
-    effort: &Effort<'_>,
 ) -> Vec<Row> {
+    let Some(reading) = &measurement.instrument.value.fluorescence else {
+        return Vec::new();
+    };
+    let lights: Vec<Lit<'_, L>> = lights.collect();
     let excitations = excitations(&reading.light);
     let unit = match reading.light {
         ExcitationLight::Monochromatic(_) => "1/nm",
@@ -326,7 +323,7 @@ pub(super) fn read_out<L: Illumination, C: Course + Sync>(
         })
         .collect();
     let mut readings = Vec::new();
-    for (number, (light, ..)) in lights.iter().enumerate() {
+    for (stream, (light, ..)) in (0..).zip(&lights) {
         for (_, packets) in &excitations {
             for emission in &emissions {
                 readings.push(Reading {
@@ -336,15 +333,15 @@ pub(super) fn read_out<L: Illumination, C: Course + Sync>(
                     manner,
                     packets,
                     emission: *emission,
-                    stream: number as u32,
+                    stream,
                 });
             }
         }
     }
-    let found = estimates(&readings, effort);
+    let found = estimates(&readings, measurement.effort);
     let mut found = found.chunks(emissions.len());
     let mut rows = Vec::new();
-    for (_, incidence, face) in lights {
+    for (_, incidence, face) in &lights {
         for (excitation, _) in &excitations {
             let figures = found
                 .next()
@@ -370,7 +367,7 @@ pub(super) fn read_out<L: Illumination, C: Course + Sync>(
                         value: figure.value * per_photon,
                         error: figure.error * per_photon,
                         unit,
-                        ..Row::new(name, word, *incidence)
+                        ..measurement.row(word, *incidence)
                     });
                 }
             }

@@ -183,6 +183,21 @@ fn passing(
 }
 
 impl<'m, C: Course> Flux<'m, C> {
+    /// Light at some wavelengths that goes on in `ways` from where it first meets something.
+    pub(super) fn new(
+        stage: &'m Stage<'m>,
+        course: &'m C,
+        wavelengths: &'m Wavelengths<LANES>,
+        ways: u32,
+    ) -> Self {
+        Self {
+            stage,
+            course,
+            wavelengths,
+            ways,
+        }
+    }
+
     /// Follows light of weight 1 from a lamp in the open, until all of it is absorbed or leaves. The
     /// first set of the stream is the caller's.
     pub(super) fn of_lamp(&self, ray: Ray, stream: &Stream, witness: &mut impl Witness<'m>) {

@@ -6,18 +6,19 @@
 
 use std::f64::consts::FRAC_1_PI;
 
-use super::batches::{Effort, Estimate, Experiment, estimates};
+use super::batches::{Estimate, Experiment};
 use super::detector::{self, Detectors, angles};
-use super::error::{InstrumentError, Problem};
+use super::error::InstrumentError;
 use super::flux::{Escaped, Event, Flux, LANES, Scattering, Straight, Witness};
 use super::lamp::{Bench, FACES, Lamp};
+use super::ledger::add;
+use super::measurement::Measurement;
 use super::row::{Direction, Reading};
-use super::spectral::{Series, by_wavelength, plain, rows};
+use super::spectral::Series;
 use super::stage::Stage;
 use crate::sampling::stream::Stream;
-use crate::scene::description::{Description, Gonio, Instrument, Named};
+use crate::scene::description::Gonio;
 use crate::spectrum::{Lanes, Wavelengths};
-use trace::world::World;
 
 /// One light on one face, at one set of wavelengths.
 struct Lit<'a> {
@@ -43,12 +44,7 @@ impl Experiment for Lit<'_> {
 
     fn shoot(&self, stream: &mut Stream, sums: &mut [f64]) {
         let ray = self.lamp.ray(stream);
-        let flux = Flux {
-            stage: self.stage,
-            course: &Straight,
-            wavelengths: &self.wavelengths,
-            ways: 1,
-        };
+        let flux = Flux::new(self.stage, &Straight, &self.wavelengths, 1);
         let mut tally = Tally {
             lit: self,
             sums,
@@ -71,10 +67,11 @@ struct Tally<'a> {
 
 impl Tally<'_> {
     fn add(&mut self, side: usize, number: usize, seen: Lanes<LANES>) {
-        let first = 1 + (side * self.lit.detectors[0].len() + number) * LANES;
-        for (sum, seen) in self.sums[first..].iter_mut().zip(seen.0) {
-            *sum += f64::from(seen);
-        }
+        add(
+            self.sums,
+            side * self.lit.detectors[0].len() + number,
+            &seen,
+        );
     }
 }
 
@@ -117,16 +114,12 @@ fn quantities(light: Direction) -> [&'static [(&'static str, f64, &'static str)]
 
 /// Measures.
 pub(super) fn read_out(
-    world: &World,
-    scene: &Description,
-    (instrument, gonio): (&Named<Instrument>, &Gonio),
-    first_set: usize,
-    effort: &Effort<'_>,
+    measurement: &Measurement<'_>,
+    gonio: &Gonio,
 ) -> Result<Reading, InstrumentError> {
-    let at = &instrument.value.at;
-    let bench = Bench::new(world, scene, &gonio.sample, at)?;
-    detector::check(scene, &bench.stage, &gonio.detector, at)?;
-    detector::check_layers(scene, &bench.stage, &instrument.value, false)?;
+    let bench = Bench::new(measurement, &gonio.sample)?;
+    detector::check(measurement, &bench.stage, &gonio.detector)?;
+    detector::check_layers(measurement, &bench.stage, false)?;
     let lamps = bench.lamps(&gonio.sample);
     let detectors: Vec<[Detectors; 2]> = lamps
         .iter()
@@ -137,54 +130,33 @@ pub(super) fn read_out(
             })
         })
         .collect();
-    let count = instrument.value.measured_nm().len();
-    let sets = count.div_ceil(LANES);
-    let grid = world.wavelengths.grid();
     let pairs = lamps.iter().zip(&detectors);
-    let lit: Vec<Lit<'_>> = pairs
-        .flat_map(|pair| (0..sets).map(move |set| (pair, grid.set(first_set + set))))
-        .map(|((lamp, detectors), wavelengths)| Lit {
-            stage: &bench.stage,
-            lamp,
-            detectors,
-            wavelengths,
-        })
-        .collect();
-    let found = estimates(&lit, effort);
-    if found.iter().any(|figures| figures[0].value.is_nan()) {
-        return Err(Problem::NothingLit {
-            object: scene.objects[gonio.sample.object].name.clone(),
-        }
-        .at(at));
-    }
+    let lit = measurement.lit(pairs, |(lamp, detectors), wavelengths| Lit {
+        stage: &bench.stage,
+        lamp,
+        detectors,
+        wavelengths,
+    });
+    let found = measurement.estimates(&lit, gonio.sample.object)?;
     let views = angles(&gonio.detector);
     let mut all = Vec::new();
-    for (figures, lamp) in found.chunks(sets).zip(&lamps) {
+    for (figures, lamp) in found.chunks(measurement.sets()).zip(&lamps) {
         let mut series = Vec::new();
         for (side, quantities) in quantities(lamp.direction).into_iter().enumerate() {
             for (number, &view) in views.iter().enumerate() {
                 let number = side * views.len() + number;
-                let factors = by_wavelength(figures, number, count);
+                let factors = measurement.by_wavelength(figures, number);
                 for &(quantity, times, unit) in quantities {
-                    let mut row = plain(&instrument.name, quantity, lamp.direction).row;
+                    let mut row = measurement.row(quantity, lamp.direction);
                     row.face = Some(FACES[lamp.face]);
                     row.view = Some(view);
                     row.unit = unit;
-                    let figures = factors.iter();
-                    series.push(Series {
-                        row,
-                        photons: None,
-                        figures: figures
-                            .map(|factor| Estimate::weighted([(factor, times)].into_iter()))
-                            .collect(),
-                    });
+                    let scaled = |factor| Estimate::weighted([(factor, times)].into_iter());
+                    series.push(Series::new(row, factors.iter().map(scaled).collect()));
                 }
             }
         }
-        all.extend(rows(&instrument.value, &series));
+        all.extend(measurement.rows(&series));
     }
-    Ok(Reading {
-        rows: all,
-        cut: bench.stage.cuts.paths(),
-    })
+    Ok(bench.stage.reading(all))
 }

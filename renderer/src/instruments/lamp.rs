@@ -3,6 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use super::error::{InstrumentError, Problem};
+use super::measurement::Measurement;
 use super::row::Direction;
 use super::spot::{Port, axes_of, ports};
 use super::stage::Stage;
@@ -10,8 +11,7 @@ use crate::geometry::Ray;
 use crate::geometry::frame::Frame;
 use crate::sampling::stream::Stream;
 use crate::sampling::warp;
-use crate::scene::description::{Description, Incidence, Sample};
-use trace::world::World;
+use crate::scene::description::{Incidence, Sample};
 
 /// Names of the faces.
 pub(super) const FACES: [&str; 2] = ["adaxial", "abaxial"];
@@ -50,24 +50,20 @@ pub(super) struct Lamp<'b> {
 }
 
 impl<'w> Bench<'w> {
-    /// The sample of an instrument whose block stands `at`.
+    /// The sample of an instrument.
     pub(super) fn new(
-        world: &'w World,
-        scene: &Description,
+        measurement: &Measurement<'w>,
         sample: &Sample,
-        at: &str,
     ) -> Result<Self, InstrumentError> {
-        let object = &scene.objects[sample.object];
-        let stage = Stage::of_object(world, sample.object)
-            .map_err(|source| Problem::Geometry(source).at(at))?;
+        let object = &measurement.scene.objects[sample.object];
+        let stage = Stage::of_object(measurement.world, sample.object);
+        let stage = stage.map_err(|source| measurement.refuse(Problem::Geometry(source)))?;
         let [x, _, z] = axes_of(&object.value);
         let openings = if let Some(spot) = &sample.spot {
             let ports = ports(&stage, (&object.name, &object.value), spot)?;
             if sample.faces[1] && ports[1].faces_a_surface(&stage.geometry) {
-                return Err(Problem::PortInside {
-                    object: object.name.clone(),
-                }
-                .at(&spot.at));
+                let object = object.name.clone();
+                return Err(Problem::PortInside { object }.at(&spot.at));
             }
             ports.map(Opening::Port)
         } else {

@@ -6,7 +6,7 @@ use super::constituents;
 use super::flux::{Event, LANES};
 use super::stage::Stage;
 use crate::scene::description::{Canopy, Description};
-use crate::spectrum::Wavelengths;
+use crate::spectrum::{Lanes, Wavelengths};
 
 /// Fraction of the light at an event within which it may be rounded: some units of the last place of
 /// single precision.
@@ -56,6 +56,11 @@ impl Ledger {
             part: None,
             photons,
         };
+        let in_parts = |word, part, photons| Quantity {
+            word,
+            part: Some(part),
+            photons: Some((photons, 1.0)),
+        };
         let mut quantities = vec![
             own("reflected", Some(("reflected_photon_flux", 1.0))),
             own("transmitted", Some(("transmitted_photon_flux", 1.0))),
@@ -72,11 +77,11 @@ impl Ledger {
             .filter(|object| Some(*object) != canopy.soil)
             .collect();
         let objects = (quantities.len(), numbers.into_iter().collect::<Vec<_>>());
-        quantities.extend(objects.1.iter().map(|&object| Quantity {
-            word: "absorbed",
-            part: Some(scene.objects[object].name.clone()),
-            photons: Some(("absorbed_photon_flux", 1.0)),
-        }));
+        let names = objects
+            .1
+            .iter()
+            .map(|&object| scene.objects[object].name.clone());
+        quantities.extend(names.map(|name| in_parts("absorbed", name, "absorbed_photon_flux")));
         let first_layer = quantities.len();
         let borders = &canopy.layers;
         if let [lowest, .., highest] | [lowest @ highest] = borders.as_slice() {
@@ -84,19 +89,15 @@ impl Ledger {
             let between = between.map(|pair| format!("{} to {} m", pair[0], pair[1]));
             let below = std::iter::once(format!("below {lowest} m"));
             let names = below.chain(between).chain([format!("above {highest} m")]);
-            quantities.extend(names.map(|name| Quantity {
-                word: "absorbed_in_layer",
-                part: Some(name),
-                photons: Some(("photon_flux_absorbed_in_layer", 1.0)),
-            }));
+            let photons = "photon_flux_absorbed_in_layer";
+            quantities.extend(names.map(|name| in_parts("absorbed_in_layer", name, photons)));
         }
         let constituents = canopy.constituents.then(|| {
             let first = quantities.len();
-            quantities.extend(constituents::names().map(|name| Quantity {
-                word: "absorbed_by_constituent",
-                part: Some(name.to_owned()),
-                photons: Some(("photon_flux_absorbed_by_constituent", 1.0)),
-            }));
+            let word = "absorbed_by_constituent";
+            let photons = "photon_flux_absorbed_by_constituent";
+            let names = constituents::names().map(str::to_owned);
+            quantities.extend(names.map(|name| in_parts(word, name, photons)));
             first
         });
         let instances = canopy.instances.then(|| {
@@ -127,7 +128,7 @@ impl Ledger {
         wavelengths: &Wavelengths<LANES>,
         sums: &mut [f64],
     ) {
-        let absorbed = |lane: usize| {
+        let absorbed = std::array::from_fn(|lane| {
             let [before, after] =
                 [event.before, event.after].map(|weight| f64::from(weight.0[lane]));
             // What is within rounding is nothing: of many events it would be something.
@@ -137,41 +138,45 @@ impl Ledger {
             } else {
                 absorbed
             }
-        };
+        });
         if Some(event.object) == self.soil {
             if event.is_scattered {
-                add(sums, ARRIVING, |lane| f64::from(event.before.0[lane]));
+                add(sums, ARRIVING, &event.before);
             }
-            add(sums, BY_SOIL, absorbed);
+            add_each(sums, BY_SOIL, &absorbed);
             return;
         }
         let (first, objects) = &self.objects;
         let place = objects.partition_point(|object| *object < event.object);
-        add(sums, first + place, absorbed);
+        add_each(sums, first + place, &absorbed);
         let (first, borders) = &self.layers;
         if !borders.is_empty() {
             let layer = borders.partition_point(|border| *border < event.position.z);
-            add(sums, first + layer, absorbed);
+            add_each(sums, first + layer, &absorbed);
         }
         if let Some(first) = self.constituents {
             let parts = constituents::absorbed(stage, event, wavelengths);
             for (part, absorbed) in parts.iter().enumerate() {
-                add(sums, first + part, |lane| f64::from(absorbed.0[lane]));
+                add(sums, first + part, absorbed);
             }
         }
         // No medium stands where instances are told.
         if let (Some((first, numbers)), Some(instance)) = (&self.instances, event.instance) {
             let number = numbers[stage.numbers[instance as usize] as usize];
-            add(sums, first + number as usize, absorbed);
+            add_each(sums, first + number as usize, &absorbed);
         }
     }
 }
 
 /// Adds to the lanes of a quantity.
-pub(super) fn add(sums: &mut [f64], quantity: usize, value: impl Fn(usize) -> f64) {
-    let lanes = sums[1 + quantity * LANES..].iter_mut().take(LANES);
-    for (lane, sum) in lanes.enumerate() {
-        *sum += value(lane);
+pub(super) fn add(sums: &mut [f64], quantity: usize, values: &Lanes<LANES>) {
+    add_each(sums, quantity, &values.0.map(f64::from));
+}
+
+/// Adds numbers to the lanes of a quantity.
+pub(super) fn add_each(sums: &mut [f64], quantity: usize, values: &[f64; LANES]) {
+    for (sum, value) in sums[1 + quantity * LANES..].iter_mut().zip(values) {
+        *sum += value;
     }
 }
 

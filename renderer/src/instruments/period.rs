@@ -7,9 +7,9 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use super::error::{InstrumentError, Problem};
 use super::flux::{Course, LANES, Straight};
+use super::measurement::Measurement;
 use super::stage::Stage;
-use crate::geometry::{GeometryError, Ray, origin_near};
-use crate::scene::description::Description;
+use crate::geometry::{Ray, origin_near};
 use crate::spectrum::Lanes;
 use crate::walk::Ahead;
 use trace::world::World;
@@ -208,11 +208,10 @@ impl Period {
     /// box, the same is not counted twice. What reaches beyond two opposite sides, as ground does,
     /// stands in it and is not repeated across them.
     pub(super) fn stage<'w>(
+        measurement: &Measurement<'w>,
         within: [DVec2; 2],
-        world: &'w World,
-        scene: &Description,
-        at: &str,
     ) -> Result<(Stage<'w>, Self), InstrumentError> {
+        let world = measurement.world;
         let mut heights = [f64::INFINITY, f64::NEG_INFINITY];
         let mut places: Vec<(u32, DVec3)> = Vec::new();
         // Its own height, m, and number.
@@ -227,22 +226,21 @@ impl Period {
             places.extend(own.into_iter().map(|by| (number, by)));
         }
         if places.is_empty() {
-            return Err(Problem::NoLeaves.at(at));
+            return Err(measurement.refuse(Problem::NoLeaves));
         }
         let side = (within[1] - within[0]).min_element();
         if heights[1] - heights[0] > MOST_HEIGHT * side {
             let object = world.objects[tallest.1 as usize].object;
-            return Err(Problem::TooHigh {
+            return Err(measurement.refuse(Problem::TooHigh {
                 heights,
                 side,
                 most: MOST_HEIGHT,
-                object: scene.objects[object].name.clone(),
-            }
-            .at(at));
+                object: measurement.object(object),
+            }));
         }
         let middle = 0.5 * (within[0] + within[1]);
         let middle = middle.extend(0.5 * (heights[0] + heights[1]));
-        let refuse = |source: GeometryError| Problem::Geometry(source).at(at);
+        let refuse = |source| measurement.refuse(Problem::Geometry(source));
         let stage = Stage::new(world, &places, middle).map_err(refuse)?;
         let (low, high) = stage.geometry.bounds();
         let origin = stage.geometry.origin().truncate();

@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use super::stage::CutPaths;
-
 /// The light of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Direction {
@@ -91,6 +89,23 @@ impl Row {
             unit: "1",
         }
     }
+}
+
+/// Paths that a limit cut in a measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CutPaths {
+    /// Their number.
+    pub paths: u64,
+    /// The most that they could change a figure by, as a fraction of the light.
+    pub at_most: f64,
+}
+
+impl CutPaths {
+    /// No path was cut.
+    pub(super) const NONE: Self = Self {
+        paths: 0,
+        at_most: 0.0,
+    };
 }
 
 /// What an instrument reads.

@@ -4,8 +4,7 @@
 //! they are made of, so their errors count how those move together.
 
 use super::batches::Estimate;
-use super::flux::LANES;
-use super::row::{Direction, Row};
+use super::row::Row;
 use crate::scene::description::{Amount, Incident, Instrument};
 use crate::spectrum::{Curve, Share};
 
@@ -20,12 +19,16 @@ pub(super) struct Series {
     pub(super) figures: Vec<Estimate>,
 }
 
-/// The figure with this number at each of `count` wavelengths, of experiments by sets of wavelengths
-/// whose sums are in the order of quantities, lanes within each.
-pub(super) fn by_wavelength(sets: &[Vec<Estimate>], number: usize, count: usize) -> Vec<Estimate> {
-    (0..count)
-        .map(|i| sets[i / LANES][number * LANES + i % LANES])
-        .collect()
+impl Series {
+    /// The figures of rows that are no fractions of a flux.
+    pub(super) fn new(row: Row, figures: Vec<Estimate>) -> Self {
+        let photons = None;
+        Self {
+            row,
+            photons,
+            figures,
+        }
+    }
 }
 
 /// Whether a quantity is one of which indices are made.
@@ -182,15 +185,6 @@ fn photons(incident: &Incident, curve: &Curve, series: &[Series], first: usize) 
         });
     }
     rows
-}
-
-/// A series without absolute terms, of a quantity in a light.
-pub(super) fn plain(instrument: &str, quantity: &'static str, light: Direction) -> Series {
-    Series {
-        row: Row::new(instrument, quantity, light),
-        photons: None,
-        figures: Vec::new(),
-    }
 }
 
 #[cfg(test)]

@@ -7,21 +7,21 @@
 
 use glam::Vec3;
 
-use super::batches::{Effort, Estimate, Experiment, estimates};
+use super::batches::{Estimate, Experiment};
 use super::constituents::{self, PARTS};
 use super::detector::check_layers;
-use super::error::{InstrumentError, Problem};
+use super::error::InstrumentError;
 use super::fluorescence::{self, Illumination, Manner};
 use super::flux::{Escaped, Event, Flux, LANES, Straight, Witness};
 use super::lamp::{Bench, FACES, Lamp};
+use super::measurement::Measurement;
 use super::row::Reading;
-use super::spectral::{Series, by_wavelength, plain, rows};
+use super::spectral::Series;
 use super::stage::Stage;
 use crate::geometry::Ray;
 use crate::sampling::stream::Stream;
-use crate::scene::description::{Description, Instrument, Named, Sample};
+use crate::scene::description::Sample;
 use crate::spectrum::Wavelengths;
-use trace::world::World;
 
 /// Ways in which light goes on from where it first meets the sample. Whether it is reflected or
 /// transmitted is most of what differs between rays, and costs less than another ray.
@@ -86,12 +86,7 @@ impl Experiment for Lit<'_> {
             is_lit: false,
             flux: [[0.0; LANES]; 2],
         };
-        let flux = Flux {
-            stage: self.stage,
-            course: &Straight,
-            wavelengths: &self.wavelengths,
-            ways: WAYS,
-        };
+        let flux = Flux::new(self.stage, &Straight, &self.wavelengths, WAYS);
         flux.of_lamp(ray, stream, &mut gathered);
         if !gathered.is_lit {
             return;
@@ -141,78 +136,53 @@ impl Witness<'_> for Gathered<'_> {
 
 /// Measures.
 pub(super) fn read_out(
-    world: &World,
-    scene: &Description,
-    (instrument, sample): (&Named<Instrument>, &Sample),
-    first_set: usize,
-    effort: &Effort<'_>,
+    measurement: &Measurement<'_>,
+    sample: &Sample,
 ) -> Result<Reading, InstrumentError> {
-    let at = &instrument.value.at;
-    let bench = Bench::new(world, scene, sample, at)?;
-    check_layers(scene, &bench.stage, &instrument.value, sample.constituents)?;
+    let bench = Bench::new(measurement, sample)?;
+    check_layers(measurement, &bench.stage, sample.constituents)?;
     let lamps = bench.lamps(sample);
-    let count = instrument.value.measured_nm().len();
-    let sets = count.div_ceil(LANES);
-    let grid = world.wavelengths.grid();
-    let lit: Vec<Lit<'_>> = lamps
-        .iter()
-        .flat_map(|lamp| (0..sets).map(move |set| (lamp, grid.set(first_set + set))))
-        .map(|(lamp, wavelengths)| Lit {
-            stage: &bench.stage,
-            lamp,
-            constituents: sample.constituents,
-            wavelengths,
-        })
-        .collect();
-    let found = estimates(&lit, effort);
-    if found.iter().any(|figures| figures[0].value.is_nan()) {
-        return Err(Problem::NothingLit {
-            object: scene.objects[sample.object].name.clone(),
-        }
-        .at(at));
+    let lit = measurement.lit(lamps.iter(), |lamp, wavelengths| Lit {
+        stage: &bench.stage,
+        lamp,
+        constituents: sample.constituents,
+        wavelengths,
+    });
+    let found = measurement.estimates(&lit, sample.object)?;
+    let told = QUANTITIES.map(|quantity| (quantity, None));
+    let mut told = told.to_vec();
+    if sample.constituents {
+        told.extend(constituents::names().map(|name| (BY_CONSTITUENT, Some(name))));
     }
     let mut all = Vec::new();
-    for (figures, lamp) in found.chunks(sets).zip(&lamps) {
-        let parts = constituents::names().map(|name| (BY_CONSTITUENT, Some(name)));
-        let told = QUANTITIES.into_iter().map(|quantity| (quantity, None));
-        let told: Vec<_> = if sample.constituents {
-            told.chain(parts).collect()
-        } else {
-            told.collect()
-        };
-        let series = told.into_iter().enumerate();
-        let series: Vec<Series> = series
-            .map(|(number, ((quantity, photons), part))| {
-                let mut row = plain(&instrument.name, quantity, lamp.direction).row;
-                row.face = Some(FACES[lamp.face]);
-                row.part = part.map(str::to_owned);
-                let mut figures = by_wavelength(figures, number, count);
-                if quantity == ABSORPTANCE {
-                    figures = figures.iter().map(Estimate::beyond_rounding).collect();
-                }
-                Series {
-                    row,
-                    photons: Some((photons, 1.0)),
-                    figures,
-                }
-            })
-            .collect();
-        all.extend(rows(&instrument.value, &series));
+    for (figures, lamp) in found.chunks(measurement.sets()).zip(&lamps) {
+        let series = told.iter().enumerate();
+        let series = series.map(|(number, ((quantity, photons), part))| {
+            let mut row = measurement.row(quantity, lamp.direction);
+            row.face = Some(FACES[lamp.face]);
+            row.part = part.map(str::to_owned);
+            let mut figures = measurement.by_wavelength(figures, number);
+            if *quantity == ABSORPTANCE {
+                figures = figures.iter().map(Estimate::beyond_rounding).collect();
+            }
+            Series {
+                row,
+                photons: Some((photons, 1.0)),
+                figures,
+            }
+        });
+        all.extend(measurement.rows(&series.collect::<Vec<_>>()));
     }
-    if let Some(reading) = &instrument.value.fluorescence {
-        let lights: Vec<_> = lamps
-            .iter()
-            .map(|lamp| (lamp, lamp.direction, Some(FACES[lamp.face])))
-            .collect();
-        let read = (instrument.name.as_str(), reading);
-        let sample = (&bench.stage, &Straight);
-        let own = fluorescence::read_out(sample, &lights, read, &FLUORESCENCE, effort);
-        all.extend(own);
-    }
-    Ok(Reading {
-        rows: all,
-        cut: bench.stage.cuts.paths(),
-    })
+    let lights = lamps.iter();
+    let lights = lights.map(|lamp| (lamp, lamp.direction, Some(FACES[lamp.face])));
+    let sample = (&bench.stage, &Straight);
+    all.extend(fluorescence::read_out(
+        measurement,
+        sample,
+        lights,
+        &FLUORESCENCE,
+    ));
+    Ok(bench.stage.reading(all))
 }
 
 impl Illumination for Lamp<'_> {

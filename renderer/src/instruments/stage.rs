@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::DVec3;
 
+use super::row::{CutPaths, Reading, Row};
 use crate::geometry::{Geometry, GeometryError, origin_near};
 use crate::material::Material;
 use crate::spectrum::Lanes;
@@ -18,23 +19,6 @@ pub(super) struct Cuts {
     carried: AtomicU64,
     /// Fewest rays of a figure.
     rays: AtomicU64,
-}
-
-/// Paths that a limit cut in a measurement.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CutPaths {
-    /// Their number.
-    pub paths: u64,
-    /// The most that they could change a figure by, as a fraction of the light.
-    pub at_most: f64,
-}
-
-impl CutPaths {
-    /// No path was cut.
-    pub(super) const NONE: Self = Self {
-        paths: 0,
-        at_most: 0.0,
-    };
 }
 
 impl Cuts {
@@ -119,29 +103,33 @@ impl<'w> Stage<'w> {
 
     /// The first object that a medium fills.
     pub(super) fn filled(&self) -> Option<usize> {
-        let bodies = (0..self.objects.len()).filter(|&number| {
+        self.first(|number| {
             let body = self.objects[number].body;
             body.is_some_and(|body| body.medium.is_some())
-        });
-        bodies.map(|number| self.objects[number].object).next()
+        })
     }
 
     /// The first object that light passes straight through, changed by nothing.
     pub(super) fn passed(&self) -> Option<usize> {
-        let mut numbers = 0..self.objects.len();
-        let matched = |number: &usize| self.objects[*number].body.is_some_and(|own| own.is_matched);
-        numbers
-            .find(matched)
-            .map(|number| self.objects[number].object)
+        let body = |number: usize| self.objects[number].body;
+        self.first(|number| body(number).is_some_and(|body| body.is_matched))
     }
 
     /// The first object that is a leaf of layers.
     pub(super) fn layered(&self) -> Option<usize> {
-        let mut numbers = 0..self.objects.len();
-        let layered = |number: &usize| self.material_of(*number as u32).inside().is_some();
-        numbers
-            .find(layered)
-            .map(|number| self.objects[number].object)
+        self.first(|number| self.material_of(number as u32).inside().is_some())
+    }
+
+    /// The object of the first instance of a kind.
+    fn first(&self, is_it: impl Fn(usize) -> bool) -> Option<usize> {
+        let number = (0..self.objects.len()).find(|&number| is_it(number));
+        number.map(|number| self.objects[number].object)
+    }
+
+    /// The rows that were measured on it, with what was cut.
+    pub(super) fn reading(&self, rows: Vec<Row>) -> Reading {
+        let cut = self.cuts.paths();
+        Reading { rows, cut }
     }
 
     /// The material of an instance.

@@ -17,58 +17,28 @@ use std::collections::BTreeMap;
 use leafmodel::document::rows::{Field, Guess, Row, Rows};
 
 use super::columns::listed;
-use super::known::{AngleUnit, Known, WavelengthUnit};
-use super::units::{are_micrometres, micrometres};
+use super::known::{AngleUnit, Known};
+use super::units::{guess, ignored, in_micrometres};
 use super::{Fault, of_ragged};
 
 mod energy;
+mod sample;
 
 pub use self::energy::Energy;
+pub use self::sample::{Direction, Sample};
+use self::sample::{SAME_DEG, Steps, steps, wavelength_steps};
 
-/// Directions that differ by less are the same, degrees.
-const SAME_DEG: f64 = 0.01;
 /// The greatest θ in radians, half a turn and what rounding adds to it.
 const MOST_RADIANS: f64 = std::f64::consts::PI + 1e-3;
 /// Columns, by what they hold.
-const COLUMNS: [&[&str]; 6] = [
-    &["theta_i", "theta_i_deg", "theta_in"],
-    &["phi_i", "phi_i_deg", "phi_in"],
-    &["theta_o", "theta_o_deg", "theta_out", "theta_r"],
-    &["phi_o", "phi_o_deg", "phi_out", "phi_r"],
-    &[
-        "wavelength",
-        "wavelength_nm",
-        "wavelength_um",
-        "nm",
-        "um",
-        "wl",
-    ],
-    &["value", "f", "brdf", "bsdf", "btdf"],
+const COLUMNS: [&str; 6] = [
+    "theta_i theta_i_deg theta_in",
+    "phi_i phi_i_deg phi_in",
+    "theta_o theta_o_deg theta_out theta_r",
+    "phi_o phi_o_deg phi_out phi_r",
+    "wavelength wavelength_nm wavelength_um nm um wl",
+    "value f brdf bsdf btdf",
 ];
-
-/// A direction, degrees: θ from the normal, φ around it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Direction {
-    /// 0 to 180.
-    pub theta: f64,
-    /// Any.
-    pub phi: f64,
-}
-
-/// A row of a table.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// Whence light comes.
-    pub incident: Direction,
-    /// Whither it goes.
-    pub scattered: Direction,
-    /// Wavelength, nm.
-    pub nm: f64,
-    /// sr⁻¹, ≥ 0.
-    pub value: f64,
-    /// Line of the file.
-    pub line: usize,
-}
 
 /// A table.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,10 +99,8 @@ pub struct Check {
 pub fn read(text: &str, known: &Known) -> Result<Table, Fault> {
     let table = Rows::written(text, known.form);
     let mut rows = table.records();
-    let names = rows
-        .next()
-        .transpose()
-        .map_err(|ragged| of_ragged(&ragged))?;
+    let names = rows.next().transpose();
+    let names = names.map_err(|ragged| of_ragged(&ragged))?;
     let names = names.map_or_else(Vec::new, |row| row.fields);
     let mut places = [0; 6];
     // Whether names of angles say radians, or degrees.
@@ -141,22 +109,18 @@ pub fn read(text: &str, known: &Known) -> Result<Table, Fault> {
         let found = names.iter().position(|name| {
             let lower = name.text.to_ascii_lowercase();
             let plain = lower.strip_suffix("_rad").unwrap_or(&lower);
-            words.contains(&plain)
+            words.split(' ').any(|word| word == plain)
         });
         *place = found.ok_or_else(|| {
-            let problem = format!(
-                "has no column `{}`; it has {}",
-                words[0],
-                listed(names.iter())
-            );
+            let (wanted, _) = words.split_once(' ').unwrap_or((words, ""));
+            let problem = format!("has no column `{wanted}`; it has {}", listed(names.iter()));
             let help = "columns are theta_i, phi_i, theta_o, phi_o, wavelength, value";
             Fault::of_file(problem, help)
         })?;
         let lower = names[*place].text.to_ascii_lowercase();
         let units = [("_rad", AngleUnit::Radians), ("_deg", AngleUnit::Degrees)];
-        *said = units
-            .into_iter()
-            .find_map(|(end, unit)| lower.ends_with(end).then_some(unit));
+        let mut units = units.into_iter();
+        *said = units.find_map(|(end, unit)| lower.ends_with(end).then_some(unit));
     }
     let any = said.into_iter().flatten().next();
     let is_radian = said.map(|own| known.angles.or(own).or(any) == Some(AngleUnit::Radians));
@@ -199,17 +163,9 @@ pub fn read(text: &str, known: &Known) -> Result<Table, Fault> {
         return Err(Fault::of_file("there are no lines of numbers", ""));
     }
     let mut notes = table.guesses();
-    let others = names
-        .iter()
-        .enumerate()
-        .filter(|(at, name)| !places.contains(at) && !name.text.is_empty());
-    let others = others.map(|(_, name)| name);
-    if others.clone().next().is_some() {
-        notes.push(Guess {
-            what: format!("columns that are not read: {}", listed(others)),
-            otherwise: None,
-        });
-    }
+    let others = names.iter().enumerate();
+    let others = others.filter(|(at, _)| !places.contains(at));
+    notes.extend(ignored(others.map(|(_, name)| name)));
     let said = any.map(|_| AngleUnit::Degrees);
     notes.extend(to_degrees_and_nm(&mut samples, known, said));
     let thetas = |sample: &Sample| [sample.incident.theta, sample.scattered.theta];
@@ -260,14 +216,8 @@ fn to_degrees_and_nm(samples: &mut [Sample], known: &Known, said: Option<AngleUn
             }
         }
     }
-    let is_um = known.wavelengths.map_or_else(
-        || {
-            let is_guess = are_micrometres(samples.iter().map(|sample| sample.nm));
-            notes.extend(is_guess.then(micrometres));
-            is_guess
-        },
-        |unit| unit == WavelengthUnit::Micrometres,
-    );
+    let nm = samples.iter().map(|sample| sample.nm);
+    let is_um = in_micrometres(known.wavelengths, false, nm, &mut notes);
     if is_um {
         for sample in samples {
             sample.nm *= 1000.0;
@@ -300,31 +250,8 @@ fn angles(samples: &[Sample]) -> (AngleUnit, Option<Guess>) {
     } else {
         (AngleUnit::Radians, "radians", "degrees")
     };
-    let note = Guess {
-        what: format!("angles, θ up to {theta}, are taken for {word}"),
-        otherwise: Some(("angles", other)),
-    };
-    (unit, Some(note))
-}
-
-/// A direction and a wavelength in whole steps, to be compared.
-type Steps = [i64; 2];
-
-fn steps(direction: Direction) -> Steps {
-    let step = |angle: f64| (angle / SAME_DEG).round() as i64;
-    let theta = step(direction.theta);
-    // At a pole there is no azimuth.
-    let is_pole = theta == 0 || theta == step(180.0);
-    let phi = if is_pole {
-        0
-    } else {
-        step(direction.phi.rem_euclid(360.0)) % step(360.0)
-    };
-    [theta, phi]
-}
-
-fn wavelength_steps(nm: f64) -> i64 {
-    (nm * 1000.0).round() as i64
+    let what = format!("angles, θ up to {theta}, are taken for {word}");
+    (unit, Some(guess(what, "angles", other)))
 }
 
 fn refuse_twins(text: &str, samples: &[Sample]) -> Result<(), Fault> {

@@ -152,21 +152,8 @@ fn band(name: &str) -> Option<(Option<Measure>, f64)> {
         .find(|c: char| !c.is_ascii_digit() && c != '.')
         .unwrap_or(rest.len());
     let unit = rest[end..].trim_matches(|c: char| !c.is_alphanumeric());
-    let is_known = [
-        "",
-        "x",
-        "v",
-        "w",
-        "b",
-        "nm",
-        "wl",
-        "wvl",
-        "wave",
-        "wavelength",
-        "band",
-        "lambda",
-    ]
-    .contains(&before);
+    let is_known =
+        before.is_empty() || is_of("x v w b nm wl wvl wave wavelength band lambda", before);
     let measured = measure(before);
     let is_unit = ["", "nm", "um", "µm", "μm"].contains(&unit);
     let is_band = is_unit && (is_known || measured.is_some());
@@ -180,14 +167,14 @@ pub(super) fn column(name: &str) -> Named {
     let lower = name.to_ascii_lowercase();
     let words = words(&lower);
     let is_percent = lower.contains('%') || words.iter().any(|(_, word)| PERCENT.contains(word));
-    let says = |of: &[&str]| words.iter().any(|(_, word)| of.contains(word));
-    let unit = if says(&MICROMETRES) {
+    let says = |of: &str| words.iter().any(|(_, word)| is_of(of, word));
+    let unit = if says(MICROMETRES) {
         Some(WavelengthUnit::Micrometres)
     } else {
-        says(&NANOMETRES).then_some(WavelengthUnit::Nanometres)
+        says(NANOMETRES).then_some(WavelengthUnit::Nanometres)
     };
     let is_unit = words.len() == 1 && unit.is_some();
-    let holds = if says(&WAVELENGTHS) || is_unit {
+    let holds = if says(WAVELENGTHS) || is_unit {
         Column::Wavelength(unit)
     } else if matches!(
         words[..],
@@ -208,9 +195,8 @@ pub(super) fn column(name: &str) -> Named {
 /// Whether a name says wavelengths, perhaps with a unit, and nothing else.
 fn is_plain(name: &str) -> bool {
     let lower = name.to_lowercase();
-    let known = |word: &str| {
-        WAVELENGTHS.contains(&word) || NANOMETRES.contains(&word) || MICROMETRES.contains(&word)
-    };
+    let lists = [WAVELENGTHS, NANOMETRES, MICROMETRES];
+    let known = |word: &str| lists.iter().any(|list| is_of(list, word));
     let words = words(&lower);
     !words.is_empty() && words.iter().all(|(_, word)| known(word))
 }
@@ -221,30 +207,16 @@ pub(super) fn is_wavelength(name: &str) -> bool {
 }
 
 /// Words of wavelengths.
-const WAVELENGTHS: [&str; 10] = [
-    "wavelength",
-    "wavelengths",
-    "wavelen",
-    "wl",
-    "wls",
-    "wvl",
-    "wave",
-    "waves",
-    "lambda",
-    "λ",
-];
+const WAVELENGTHS: &str = "wavelength wavelengths wavelen wl wls wvl wave waves lambda λ";
 /// Words of units.
-const NANOMETRES: [&str; 5] = ["nm", "nanometer", "nanometers", "nanometre", "nanometres"];
-const MICROMETRES: [&str; 8] = [
-    "um",
-    "µm",
-    "μm",
-    "micron",
-    "microns",
-    "micrometer",
-    "micrometers",
-    "micrometres",
-];
+const NANOMETRES: &str = "nm nanometer nanometers nanometre nanometres";
+const MICROMETRES: &str = "um µm μm micron microns micrometer micrometers micrometres";
+
+/// Whether a word is one of a list.
+fn is_of(list: &str, word: &str) -> bool {
+    list.split(' ').any(|known| known == word)
+}
+
 const PERCENT: [&str; 2] = ["percent", "pct"];
 
 /// What a column of values holds.

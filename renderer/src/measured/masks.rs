@@ -1,6 +1,8 @@
 //! Bands that were masked: wavelengths without a value.
 
-use leafmodel::document::rows::{Field, Rows};
+use leafmodel::document::rows::{Field, Guess, Rows};
+
+use super::units::note;
 
 /// Words for no value, in lower case.
 const WORDS: [&str; 10] = [
@@ -26,6 +28,19 @@ pub(super) fn is_masked(rows: &Rows<'_>, field: &Field, known: Option<f64>) -> b
         || number < LEAST || NUMBERS.contains(&number),
         |known| number == known,
     )
+}
+
+/// What is said about wavelengths that are masked; nothing if none is. `name` stands before it.
+pub(super) fn left_out(name: &str, nm: &[f64], masked: &[bool]) -> Option<Guess> {
+    let ranges = masked_ranges(nm, masked);
+    let count = masked.iter().filter(|masked| **masked).count();
+    (count > 0).then(|| {
+        note(format!(
+            "{name}{count} of {} wavelengths have no value (empty, NA, NaN, -9999 or such) and are \
+             left out: {ranges}",
+            nm.len()
+        ))
+    })
 }
 
 /// The ranges of wavelengths that are marked, in words; empty if none is.

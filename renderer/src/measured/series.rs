@@ -13,9 +13,9 @@ use leafmodel::document::rows::{self, Field, Guess, Rows, Separator};
 
 use super::columns::{Column, column, is_wavelength};
 use super::known::{Known, Overlap, ValueUnit, WavelengthUnit};
-use super::masks::{is_masked, masked_ranges};
+use super::masks::{is_masked, left_out};
 use super::misnomers::{other_axis, other_value};
-use super::units::{are_micrometres, are_percent, contradiction, falling, micrometres, percent};
+use super::units::{are_percent, contradiction, falling, guess, in_micrometres, note, percent};
 use super::{Fault, Slack, What};
 
 /// How a file of one spectrum is laid out.
@@ -109,17 +109,8 @@ impl Series {
             return Err(Fault::at(field.span.clone(), problem, help));
         }
         let mut notes = self.notes.clone();
-        let is_um = known.wavelengths.map_or_else(
-            || {
-                if self.is_um {
-                    return true;
-                }
-                let is_guess = are_micrometres(self.points.iter().map(|point| point.0));
-                notes.extend(is_guess.then(micrometres));
-                is_guess
-            },
-            |unit| unit == WavelengthUnit::Micrometres,
-        );
+        let wavelengths = self.points.iter().map(|point| point.0);
+        let is_um = in_micrometres(known.wavelengths, self.is_um, wavelengths, &mut notes);
         let percent_name = name.filter(|field| column(&field.text).is_percent);
         let is_percent = known.values.map_or_else(
             || {
@@ -129,14 +120,12 @@ impl Series {
                     notes.extend(contradiction(&name.text, &values));
                     return true;
                 }
-                if self.is_percent {
-                    notes.push(Guess {
-                        what: "values are percent, as in every .sig file".to_owned(),
-                        otherwise: Some(("values", "fraction")),
-                    });
+                notes.extend(if self.is_percent {
+                    let what = "values are percent, as in every .sig file";
+                    Some(guess(what, "values", "fraction"))
                 } else {
-                    notes.extend(is_guess.then(percent));
-                }
+                    is_guess.then(percent)
+                });
                 is_guess || self.is_percent
             },
             |unit| unit == ValueUnit::Percent,
@@ -171,10 +160,10 @@ impl Series {
             return Err(Fault::at(first.span, problem, help));
         }
         if !first.text.is_empty() {
-            self.notes.push(Guess {
-                what: format!("the column `{}` is taken for wavelengths", first.shown()),
-                otherwise: None,
-            });
+            let name = first.shown();
+            self.notes.push(note(format!(
+                "the column `{name}` is taken for wavelengths"
+            )));
         }
         Ok(())
     }
@@ -211,22 +200,24 @@ impl Series {
                 };
             }
             if overlap.is_none() {
-                self.notes.push(Guess {
-                    what: format!(
-                        "two detectors have measured from {from} to {to} nm: values up to {cut} nm are \
-                         those of the first, above those of the second"
-                    ),
-                    otherwise: Some(("overlap", "first")),
-                });
+                let what = format!(
+                    "two detectors have measured from {from} to {to} nm: values up to {cut} nm are \
+                     those of the first, above those of the second"
+                );
+                self.notes.push(guess(what, "overlap", "first"));
             }
             start = middle;
         }
-        let mut kept = keep.iter();
-        self.points.retain(|_| *kept.next().unwrap_or(&true));
-        let mut kept = keep.iter();
-        self.spans.retain(|_| *kept.next().unwrap_or(&true));
+        retain(&mut self.points, &keep);
+        retain(&mut self.spans, &keep);
         Ok(())
     }
+}
+
+/// Keeps the elements of a list for which it is said.
+pub fn retain<T>(list: &mut Vec<T>, keep: &[bool]) {
+    let mut keep = keep.iter();
+    list.retain(|_| *keep.next().unwrap_or(&true));
 }
 
 /// The text of a file, in any usual encoding.
@@ -293,18 +284,7 @@ pub fn series(text: &str, known: &Known) -> Result<Series, Fault> {
     }
     found.notes.extend(table.guesses());
     let (all, is_masked): (Vec<f64>, Vec<bool>) = masked.into_iter().unzip();
-    let bands = masked_ranges(&all, &is_masked);
-    if !bands.is_empty() {
-        let count = is_masked.iter().filter(|masked| **masked).count();
-        found.notes.push(Guess {
-            what: format!(
-                "{count} of {} wavelengths have no value (empty, NA, NaN, -9999 or such) and are left \
-                 out: {bands}",
-                all.len()
-            ),
-            otherwise: None,
-        });
-    }
+    found.notes.extend(left_out("", &all, &is_masked));
     if found.points.windows(2).all(|pair| pair[1].0 < pair[0].0) {
         found.points.reverse();
         found.spans.reverse();

@@ -12,34 +12,18 @@ mod leaves;
 use std::collections::BTreeMap;
 
 use leafmodel::document::rows::{Field, Guess, Rows, without_mark};
-use leafmodel::document::source::quoted;
 
 use self::leaves::{Draft, Leaves};
-use super::columns::{Column, Named, columns, is_wavelength, listed};
-use super::known::{Known, Measure, ValueUnit, WavelengthUnit};
+use super::columns::{Column, Named, columns, is_wavelength};
+use super::known::{Known, ValueUnit, WavelengthUnit};
+pub use super::leaf::Leaf;
 use super::misnomers;
 use super::series::Series;
 use super::units::{
-    self, are_micrometres, are_percent, contradiction, greatest_fraction, micrometres, percent,
+    self, are_percent, contradiction, greatest_fraction, guess, ignored, in_micrometres, note,
+    percent,
 };
-use super::{Fault, Slack, of_ragged};
-
-/// A leaf's spectra, by rising wavelength.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Leaf {
-    /// Its name; empty if the table has but one.
-    pub name: String,
-    /// Wavelengths, nm.
-    pub nm: Vec<f64>,
-    /// Of the adaxial face; as long as the wavelengths, or empty.
-    pub reflectance: Vec<f64>,
-    /// Of the abaxial face; as long as the wavelengths, or empty.
-    pub abaxial: Vec<f64>,
-    /// As long as the wavelengths, or empty.
-    pub transmittance: Vec<f64>,
-    /// The line of the file of each wavelength; empty if it is of several files.
-    pub lines: Vec<usize>,
-}
+use super::{Fault, of_ragged};
 
 /// Leaves of a table, and what was taken for granted about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,73 +32,6 @@ pub struct Spectra {
     pub leaves: Vec<Leaf>,
     /// What was guessed, left out or passed over.
     pub notes: Vec<Guess>,
-}
-
-impl Leaf {
-    fn values(&mut self, measure: Measure) -> &mut Vec<f64> {
-        match measure {
-            Measure::Reflectance => &mut self.reflectance,
-            Measure::Abaxial => &mut self.abaxial,
-            Measure::Transmittance => &mut self.transmittance,
-        }
-    }
-
-    fn all(&self) -> [(&'static str, &Vec<f64>); 3] {
-        [
-            ("R", &self.reflectance),
-            ("abaxial R", &self.abaxial),
-            ("T", &self.transmittance),
-        ]
-    }
-
-    /// Refuses what no leaf has: values below 0 or above 1, R + T above 1.
-    ///
-    /// # Errors
-    ///
-    /// A [`Fault`] with line, value and wavelength, the first along the file.
-    pub fn check(&self, text: &str, Slack(slack): Slack) -> Result<(), Fault> {
-        let name = if self.name.is_empty() {
-            String::new()
-        } else {
-            format!("{}: ", quoted(&self.name))
-        };
-        let fault = |i: usize, problem: String| {
-            let problem = format!("{name}{problem}");
-            let line = self.lines.get(i);
-            line.map_or_else(
-                || Fault::of_file(problem.clone(), ""),
-                |line| Fault::in_line(text, *line, problem.clone(), ""),
-            )
-        };
-        for (what, values) in self.all() {
-            if !values.is_empty() && values.len() != self.nm.len() {
-                let (has, all) = (values.len(), self.nm.len());
-                let problem = format!("{name}{what} has {has} values at {all} wavelengths");
-                return Err(Fault::of_file(problem, ""));
-            }
-        }
-        for (i, nm) in self.nm.iter().enumerate() {
-            for (what, values) in self.all() {
-                if let Some(value) = values.get(i)
-                    && !(-slack..=1.0 + slack).contains(value)
-                {
-                    let problem = format!("{what} is {value} at {nm} nm, allowed is 0 to 1");
-                    return Err(fault(i, problem));
-                }
-            }
-            let Some(through) = self.transmittance.get(i) else {
-                continue;
-            };
-            for (what, values) in &self.all()[..2] {
-                let sum = values.get(i).map(|back| back + through);
-                if let Some(sum) = sum.filter(|sum| *sum > 1.0 + slack) {
-                    let problem = format!("{what} + T is {sum} at {nm} nm, allowed is up to 1");
-                    return Err(fault(i, problem));
-                }
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Reads a table.
@@ -152,14 +69,13 @@ pub fn read(text: &str, known: &Known) -> Result<Spectra, Fault> {
             "lines above the names of columns that are not read: {lines}"
         )));
     }
-    notes.extend(ignored(&names, &columns));
+    let others = names.iter().zip(&columns);
+    let others = others.filter(|(_, column)| column.holds == Column::Other);
+    notes.extend(ignored(others.map(|(name, _)| name)));
     if leaves.is_guess {
-        notes.push(Guess {
-            what:
-                "values in columns that are named by wavelengths alone are taken for reflectances"
-                    .to_owned(),
-            otherwise: Some(("quantity", "transmittance")),
-        });
+        let what =
+            "values in columns that are named by wavelengths alone are taken for reflectances";
+        notes.push(guess(what, "quantity", "transmittance"));
     }
     let mut drafts = leaves.found;
     to_nm_and_fractions(&mut drafts, (&names, &columns), known, &mut notes)?;
@@ -192,25 +108,6 @@ fn names_at(text: &str) -> usize {
     0
 }
 
-/// The columns that are passed over.
-fn ignored(names: &[Field], columns: &[Named]) -> Option<Guess> {
-    let ignored = names.iter().zip(columns);
-    let ignored =
-        ignored.filter(|(name, column)| column.holds == Column::Other && !name.text.is_empty());
-    let ignored = ignored.map(|(name, _)| name);
-    ignored.clone().next()?;
-    Some(note(format!(
-        "columns that are not read: {}",
-        listed(ignored)
-    )))
-}
-
-/// Something that a person should know, and that no flag changes.
-fn note(what: String) -> Guess {
-    let otherwise = None;
-    Guess { what, otherwise }
-}
-
 /// Brings wavelengths into nm and values into fractions, by what the columns or a person say, or else
 /// by their sizes.
 fn to_nm_and_fractions(
@@ -222,16 +119,9 @@ fn to_nm_and_fractions(
     let says_um = columns
         .iter()
         .any(|column| column.holds == Column::Wavelength(Some(WavelengthUnit::Micrometres)));
-    let all = || drafts.iter().flat_map(|draft| &draft.points);
-    let is_um = match known.wavelengths {
-        Some(unit) => unit == WavelengthUnit::Micrometres,
-        None if says_um => true,
-        None => {
-            let is_guess = are_micrometres(all().map(|point| point.nm));
-            notes.extend(is_guess.then(micrometres));
-            is_guess
-        }
-    };
+    let points = drafts.iter().flat_map(|draft| &draft.points);
+    let nm = points.map(|point| point.nm);
+    let is_um = in_micrometres(known.wavelengths, says_um, nm, notes);
     if is_um {
         for point in drafts.iter_mut().flat_map(|draft| &mut draft.points) {
             point.nm *= 1000.0;
@@ -298,13 +188,11 @@ fn which_are_percent(
         return Err(Fault::of_file(problem, help));
     }
     if let Some((small, greatest)) = small.filter(|_| is_any_named) {
-        notes.push(Guess {
-            what: format!(
-                "{} is taken for fractions, up to {greatest}: only other columns are named percent",
-                small.name
-            ),
-            otherwise: Some(("values", "percent")),
-        });
+        let name = &small.name;
+        let what = format!(
+            "{name} is taken for fractions, up to {greatest}: only other columns are named percent"
+        );
+        notes.push(guess(what, "values", "percent"));
     }
     for (draft, found) in drafts.iter().zip(&mut found) {
         for measured in draft.measures().filter(|own| own.percent.is_none()) {

@@ -1,7 +1,10 @@
 //! Units of measured spectra, guessed where a file does not say them, and gaps.
 
-use leafmodel::document::rows::Guess;
+use leafmodel::document::rows::{Field, Guess};
 use leafmodel::document::source::quoted;
+
+use super::columns::listed;
+use super::known::WavelengthUnit;
 
 /// Wavelengths below this are micrometres: 0.4 to 2.5 against 400 to 2500.
 const MOST_UM: f64 = 30.0;
@@ -14,20 +17,50 @@ pub const WIDE_GAP: f64 = 10.0;
 /// A step this many times as long as its neighbours is a gap that is reported.
 pub const GAP: f64 = 2.5;
 
-/// What is said where wavelengths are taken for micrometres.
-pub fn micrometres() -> Guess {
+/// Something that a person should know, and that no flag changes.
+pub(super) fn note(what: impl Into<String>) -> Guess {
+    let (what, otherwise) = (what.into(), None);
+    Guess { what, otherwise }
+}
+
+/// Something that was guessed, and the flag with its value that says otherwise.
+pub(super) fn guess(what: impl Into<String>, flag: &'static str, value: &'static str) -> Guess {
+    let otherwise = Some((flag, value));
     Guess {
-        what: "wavelengths are taken for µm".to_owned(),
-        otherwise: Some(("wavelengths", "nm")),
+        otherwise,
+        ..note(what)
     }
 }
 
-/// What is said where values are taken for percent.
-pub fn percent() -> Guess {
-    Guess {
-        what: "values are taken for percent".to_owned(),
-        otherwise: Some(("values", "fraction")),
+/// The columns that are passed over.
+pub(super) fn ignored<'f>(names: impl Iterator<Item = &'f Field> + Clone) -> Option<Guess> {
+    let names = names.filter(|name| !name.text.is_empty());
+    names.clone().next()?;
+    Some(note(format!(
+        "columns that are not read: {}",
+        listed(names)
+    )))
+}
+
+/// Whether wavelengths are micrometres: as a person says, as the file says, or by their sizes, with a
+/// note.
+pub(super) fn in_micrometres(
+    known: Option<WavelengthUnit>,
+    says_so: bool,
+    wavelengths: impl Iterator<Item = f64>,
+    notes: &mut Vec<Guess>,
+) -> bool {
+    if let Some(unit) = known {
+        return unit == WavelengthUnit::Micrometres;
     }
+    let is_guess = !says_so && are_micrometres(wavelengths);
+    notes.extend(is_guess.then(|| guess("wavelengths are taken for µm", "wavelengths", "nm")));
+    says_so || is_guess
+}
+
+/// What is said where values are taken for percent.
+pub(super) fn percent() -> Guess {
+    guess("values are taken for percent", "values", "fraction")
 }
 
 /// Whether wavelengths must be micrometres.
@@ -61,13 +94,11 @@ pub(super) fn greatest_fraction(values: &[f64]) -> Option<f64> {
 /// What is said where a column's name says percent and its values are fractions.
 pub(super) fn contradiction(name: &str, values: &[f64]) -> Option<Guess> {
     let greatest = greatest_fraction(values)?;
-    Some(Guess {
-        what: format!(
-            "the column {} says percent, but its values are at most {greatest}; they are divided by 100",
-            quoted(name)
-        ),
-        otherwise: Some(("values", "fraction")),
-    })
+    let what = format!(
+        "the column {} says percent, but its values are at most {greatest}; they are divided by 100",
+        quoted(name)
+    );
+    Some(guess(what, "values", "fraction"))
 }
 
 /// What to do about a wavelength behind a greater one if it may be a thousand that was written as

@@ -1,6 +1,7 @@
 //! A chart: lines with error bars over two straight axes, and a legend.
 
-use super::{Anchor, Axis, Canvas};
+use super::axis::Axis;
+use super::canvas::{Anchor, Canvas};
 
 /// Size of a chart, px, and its margins: left, top, right (for the legend) and bottom.
 pub(crate) const CHART_SIZE: [f64; 2] = [760.0, 340.0];

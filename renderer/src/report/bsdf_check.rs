@@ -8,16 +8,7 @@ use crate::measured::bsdf::Check;
 
 /// The rows with their reciprocal part and its error.
 pub(crate) fn rows(check: &Check) -> String {
-    let mut table = Table::new([
-        "theta_i",
-        "phi_i",
-        "theta_o",
-        "phi_o",
-        "wavelength",
-        "value",
-        "reciprocal",
-        "error",
-    ]);
+    let mut table = Table::new("theta_i,phi_i,theta_o,phi_o,wavelength,value,reciprocal,error");
     for row in &check.rows {
         let (i, o) = (row.sample.incident, row.sample.scattered);
         let angles = [i.theta, i.phi, o.theta, o.phi];
@@ -61,7 +52,20 @@ pub(crate) fn report(check: &Check) -> String {
 
 /// What a reader of the terminal sees.
 pub(crate) fn human(check: &Check) -> String {
-    let head = [
+    let none = || "–".to_owned();
+    let bands = check.bands.iter().map(|band| {
+        let worst = band.worst;
+        [
+            band.nm.to_string(),
+            band.rows.to_string(),
+            band.paired.to_string(),
+            format!("{:.4}", band.rms),
+            format!("{:.2e}", band.error_rms),
+            worst.map_or_else(none, |(error, _)| format!("{error:.2e}")),
+            worst.map_or_else(none, |(_, line)| line.to_string()),
+        ]
+    });
+    let heads = [
         "nm",
         "rows",
         "paired",
@@ -70,34 +74,17 @@ pub(crate) fn human(check: &Check) -> String {
         "most",
         "line",
     ];
-    let mut bands = vec![head.map(str::to_owned)];
-    for band in &check.bands {
-        let (most, line) = band.worst.map_or_else(
-            || ("–".to_owned(), "–".to_owned()),
-            |(error, line)| (format!("{error:.2e}"), line.to_string()),
-        );
-        bands.push([
-            band.nm.to_string(),
-            band.rows.to_string(),
-            band.paired.to_string(),
-            format!("{:.4}", band.rms),
-            format!("{:.2e}", band.error_rms),
-            most,
-            line,
-        ]);
-    }
-    let head = ["nm", "theta_i", "phi_i", "reflected", "transmitted"];
-    let mut energy = vec![head.map(str::to_owned)];
-    for of in &check.energy {
-        let share =
-            |share: Option<f64>| share.map_or("–".to_owned(), |share| format!("{share:.4}"));
-        energy.push([
+    let bands = in_columns(heads, bands);
+    let share = |share: Option<f64>| share.map_or_else(none, |share| format!("{share:.4}"));
+    let energy = check.energy.iter().map(|of| {
+        [
             of.nm.to_string(),
             of.incident.theta.to_string(),
             of.incident.phi.to_string(),
             share(of.reflected),
             share(of.transmitted),
-        ]);
-    }
-    format!("{}\n\n{}", in_columns(&bands), in_columns(&energy))
+        ]
+    });
+    let heads = ["nm", "theta_i", "phi_i", "reflected", "transmitted"];
+    format!("{bands}\n\n{}", in_columns(heads, energy))
 }

@@ -1,5 +1,6 @@
 //! Contents that were found from spectra: CSV, JSON, a drawing, and words.
 
+mod fitted;
 mod plot;
 
 use std::fmt;
@@ -9,25 +10,10 @@ use leafmodel::optics::faces::CONTRASTS;
 use leafmodel::optics::inversion::{Determined, Found, INTERVAL, Inversion};
 use serde_json::{Map, Value as Json, json};
 
+pub(crate) use self::fitted::{Fitted, shown};
 pub(crate) use self::plot::svg;
-use super::table::{Table, cell, in_columns};
+use super::table::{Table, aligned, cell};
 use crate::checkpoint::PROGRAM;
-use crate::measured::spectra::Leaf;
-
-/// A leaf and what it was found to hold.
-pub(crate) struct Fitted<'a> {
-    pub(crate) leaf: &'a Leaf,
-    pub(crate) found: Found,
-}
-
-/// A leaf's name in messages and tables.
-pub(crate) fn shown(leaf: &Leaf) -> &str {
-    if leaf.name.is_empty() {
-        "the leaf"
-    } else {
-        &leaf.name
-    }
-}
 
 fn have_faces(fitted: &[Fitted<'_>]) -> bool {
     fitted.iter().any(|fitted| fitted.found.contrast.is_some())
@@ -214,7 +200,7 @@ pub(crate) fn human(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
             .contrast
             .map(|contrast| told("contrast of the faces", contrast.value, "", contrast.known));
         let rows: Vec<[String; 3]> = contents.chain(contrast).collect();
-        lines.push(in_columns(&rows));
+        lines.push(aligned(&rows));
     }
     lines.push("± is half of the interval of 95 %".to_owned());
     lines.join("\n")

@@ -12,21 +12,10 @@ use crate::scene::description::Description;
 
 /// A row for each figure.
 pub(crate) fn csv(rows: &[Row]) -> String {
-    let mut table = Table::new([
-        "instrument",
-        "quantity",
-        "part",
-        "face",
-        "incidence_deg",
-        "view_zenith_deg",
-        "view_azimuth_deg",
-        "depth_um",
-        "band",
-        "wavelength_nm",
-        "value",
-        "standard_error",
-        "unit",
-    ]);
+    let mut table = Table::new(
+        "instrument,quantity,part,face,incidence_deg,view_zenith_deg,view_azimuth_deg,depth_um,band,\
+         wavelength_nm,value,standard_error,unit",
+    );
     for row in rows {
         let [zenith, azimuth] = view_of(row);
         // Shares of the incident flux are of the order of 1, other figures of any.

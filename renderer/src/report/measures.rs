@@ -97,16 +97,7 @@ impl Report<'_> {
 
     /// A row for each number: measures, and what veins of each order cost.
     pub(crate) fn csv(&self) -> String {
-        let columns = [
-            "measure",
-            "part",
-            "value",
-            "low",
-            "high",
-            "unit",
-            "definition",
-        ];
-        let mut table = Table::new(columns);
+        let mut table = Table::new("measure,part,value,low,high,unit,definition");
         let mut add = |row: &Row, interval: Option<&Interval>| {
             table.row([
                 row.key,
@@ -186,8 +177,7 @@ impl Report<'_> {
 
     /// The structure factor, a row for each bin.
     pub(crate) fn structure_table(&self) -> String {
-        let columns = ["k_rad_per_mm", "structure_factor", "error", "wavevectors"];
-        let mut table = Table::new(columns);
+        let mut table = Table::new("k_rad_per_mm,structure_factor,error,wavevectors");
         for bin in self.structure.iter().flat_map(|found| &found.bins) {
             let numbers = [bin.k_per_mm, bin.value, bin.error].map(|number| number.to_string());
             table.row(numbers.into_iter().chain([bin.wavevectors.to_string()]));
@@ -197,59 +187,34 @@ impl Report<'_> {
 
     /// The tree of loops, a row for each that two others make.
     pub(crate) fn loops(&self) -> String {
-        let columns = [
-            "loop",
-            "first",
-            "second",
-            "areoles",
-            "strahler",
-            "radius_mm",
-        ];
-        let mut table = Table::new(columns);
+        let mut table = Table::new("loop,first,second,areoles,strahler,radius_mm");
         let areoles = self.subject.areoles().len();
         for (merge, number) in self.subject.loop_tree().iter().zip(areoles..) {
-            let [first, second] = merge.branches;
-            table.row([
-                number.to_string(),
-                first.to_string(),
-                second.to_string(),
-                merge.areoles.to_string(),
-                merge.strahler.to_string(),
-                merge.radius_mm.to_string(),
-            ]);
+            let [first, second] = merge.branches.map(|branch| branch.to_string());
+            let [areoles, strahler] = [merge.areoles.to_string(), merge.strahler.to_string()];
+            let radius = merge.radius_mm.to_string();
+            table.row([number.to_string(), first, second, areoles, strahler, radius]);
         }
         table.text()
     }
 
     /// What is lost by each vein that is cut.
     pub(crate) fn cuts(&self) -> String {
-        let columns = [
-            "x_mm",
-            "y_mm",
-            "order",
-            "radius_mm",
-            "length_mm",
-            "cut_off_share",
-            "conductance_lost",
-        ];
-        let mut table = Table::new(columns);
+        let mut table =
+            Table::new("x_mm,y_mm,order,radius_mm,length_mm,cut_off_share,conductance_lost");
         for cut in self.supply.iter().flat_map(|found| &found.cuts) {
-            table.row([
-                cut.place.x.to_string(),
-                cut.place.y.to_string(),
-                cell(Some(cut.order).filter(|_| self.known.orders)),
-                cut.radius_mm.to_string(),
-                cut.length_mm.to_string(),
-                cut.cut_off.to_string(),
-                cut.lost.to_string(),
-            ]);
+            let order = cell(Some(cut.order).filter(|_| self.known.orders));
+            let numbers = [cut.radius_mm, cut.length_mm, cut.cut_off, cut.lost];
+            let place = cut.place.to_array().map(|length| length.to_string());
+            let rest = numbers.map(|number| number.to_string());
+            table.row(place.into_iter().chain([order]).chain(rest));
         }
         table.text()
     }
 
     /// A row for each single value.
     pub(crate) fn samples(&self) -> String {
-        let mut table = Table::new(["kind", "order", "value", "unit", "x_mm", "y_mm"]);
+        let mut table = Table::new("kind,order,value,unit,x_mm,y_mm");
         for sample in self.subject.distributions() {
             table.row([
                 sample.kind,

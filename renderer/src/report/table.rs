@@ -9,8 +9,13 @@ use csv::{Writer, WriterBuilder};
 pub(crate) struct Table(Writer<Vec<u8>>);
 
 impl Table {
+    /// A table with the columns that its first line names.
+    pub(crate) fn new(first_line: &str) -> Self {
+        Self::of(first_line.split(','))
+    }
+
     /// A table with these columns.
-    pub(crate) fn new(header: impl IntoIterator<Item = impl Display>) -> Self {
+    pub(crate) fn of(header: impl IntoIterator<Item = impl Display>) -> Self {
         Self::with(&WriterBuilder::new(), header)
     }
 
@@ -51,16 +56,23 @@ pub(crate) fn quoted(text: &str) -> String {
     line
 }
 
+/// Rows below their heads, in columns that are two spaces apart.
+pub(crate) fn in_columns<const N: usize>(
+    heads: [&str; N],
+    rows: impl IntoIterator<Item = [String; N]>,
+) -> String {
+    let heads = [heads.map(str::to_owned)].into_iter();
+    aligned(&heads.chain(rows).collect::<Vec<_>>())
+}
+
 /// Rows in columns that are two spaces apart.
-pub(crate) fn in_columns<const N: usize>(rows: &[[String; N]]) -> String {
+pub(crate) fn aligned<const N: usize>(rows: &[[String; N]]) -> String {
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
     let widths: [usize; N] = std::array::from_fn(|column| width(column).unwrap_or(0));
     let lines = rows.iter().map(|row| {
         let cells = row.iter().zip(widths);
-        let line: String = cells
-            .map(|(cell, width)| format!("  {cell:<width$}"))
-            .collect();
-        line.trim_end().to_owned()
+        let cells = cells.map(|(cell, width)| format!("  {cell:<width$}"));
+        cells.collect::<String>().trim_end().to_owned()
     });
     lines.collect::<Vec<_>>().join("\n")
 }

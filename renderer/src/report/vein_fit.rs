@@ -20,7 +20,7 @@ const FEW: f64 = 50.0;
 /// The posterior: a column for each free key, and the weight of each row.
 pub(crate) fn sample(problem: &Problem, found: &Fit) -> String {
     let keys = problem.parameters().iter().map(Parameter::name);
-    let mut table = Table::new(keys.chain(["weight"]));
+    let mut table = Table::of(keys.chain(["weight"]));
     for (values, weight) in &found.sample {
         let numbers = values.iter().chain([weight]);
         table.row(numbers.map(|number| format!("{number:?}")));
@@ -185,10 +185,9 @@ pub(crate) fn sentences(found: &Fit) -> Vec<String> {
 
 /// Parameters, predictions and sentences in columns.
 pub(crate) fn table(found: &Fit) -> String {
-    let mut rows = vec![["", "median", "mean", "sd", "50 %", "90 %", "95 %"].map(str::to_owned)];
-    for told in &found.parameters {
+    let rows = found.parameters.iter().map(|told| {
         let [half, most, nearly_all] = told.intervals.map(|[low, high]| interval(low, high));
-        rows.push([
+        [
             told.parameter.name().to_owned(),
             short(told.median),
             short(told.mean),
@@ -196,30 +195,29 @@ pub(crate) fn table(found: &Fit) -> String {
             half,
             most,
             nearly_all,
-        ]);
-    }
-    let mut text = in_columns(&rows);
-    text += "\n\n";
-    let mut rows = vec![["", "observed", "foretold", "95 %", ""].map(str::to_owned)];
-    for one in &found.predictions {
-        let dash = || "–".to_owned();
+        ]
+    });
+    let heads = ["", "median", "mean", "sd", "50 %", "90 %", "95 %"];
+    let parameters = in_columns(heads, rows);
+    let dash = || "–".to_owned();
+    let rows = found.predictions.iter().map(|one| {
         let mark = match (one.role, one.is_within()) {
             (Role::HeldOut, Some(true) | None) => "held out",
             (Role::HeldOut, Some(false)) => "held out, outside",
             (Role::Fitted, Some(true) | None) => "",
             (Role::Fitted, Some(false)) => "outside",
         };
-        rows.push([
+        let nearly_all = one.intervals.map(|[_, _, [low, high]]| interval(low, high));
+        [
             one.key.clone(),
             short(one.observed),
             one.median.map_or_else(dash, short),
-            one.intervals
-                .map_or_else(dash, |[_, _, [low, high]]| interval(low, high)),
+            nearly_all.unwrap_or_else(dash),
             mark.to_owned(),
-        ]);
-    }
-    text += &in_columns(&rows);
-    text += "\n\n";
+        ]
+    });
+    let predictions = in_columns(["", "observed", "foretold", "95 %", ""], rows);
+    let mut text = format!("{parameters}\n\n{predictions}\n\n");
     for line in sentences(found) {
         text += &format!("{line}\n");
     }

@@ -1,4 +1,4 @@
-//! Sine and cosine of angles in degrees, exact at quarter turns.
+//! Angles: sine and cosine of degrees, exact at quarter turns.
 
 /// Sine and cosine of an angle in degrees: 90° gives exactly 1 and 0, so that a turned floor
 /// stays level. The same bits on every machine.

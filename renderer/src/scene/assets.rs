@@ -15,7 +15,7 @@ use leafmodel::optics::{Constituent, Texel};
 use crate::geometry;
 use crate::image::{ImageError, Picture, colours, openexr, portable_network};
 use crate::material::contents_texture::ContentsTexture;
-use crate::scene::model::{self, Claims, Container, Files, Model, ModelError, Wanted};
+use crate::scene::model::{self, Claims, Container, Files, Model, ModelError, ModelFile, Wanted};
 
 /// Largest file that is read, bytes.
 const MOST_BYTES: u64 = 4 << 30;
@@ -214,17 +214,10 @@ pub fn mask(file: &Path, channel: Option<&str>) -> Result<(usize, Vec<f32>), Str
         let picture =
             portable_network::read_weights(file, alpha).map_err(|error| said(file, &error))?;
         let width = picture.width as usize;
-        let mut values: Vec<f32> = picture
-            .layers
-            .into_iter()
-            .flat_map(|layer| layer.data)
-            .collect();
-        let rows = values.len() / width.max(1);
-        for row in 0..rows / 2 {
-            let (low, high) = values.split_at_mut((rows - 1 - row) * width);
-            low[row * width..(row + 1) * width].swap_with_slice(&mut high[..width]);
-        }
-        return Ok((width, values));
+        let layers = picture.layers.into_iter();
+        let values: Vec<f32> = layers.flat_map(|layer| layer.data).collect();
+        let upwards = values.chunks(width.max(1)).rev();
+        return Ok((width, upwards.flatten().copied().collect()));
     }
     let picture = openexr::read_texture(file).map_err(|error| said(file, &error))?;
     let found = match channel {
@@ -391,20 +384,14 @@ fn stored(
     Ok((picture, map))
 }
 
-/// The model of a glTF file; `beside` are the files that it names, as written there and where they
-/// are. Only what is `wanted` of its pictures is read.
+/// The model of a glTF file. Only what is `wanted` of its pictures is read.
 ///
 /// # Errors
 ///
 /// [`AssetError`] if a file cannot be read or the model is not valid.
-pub fn model(
-    file: &Path,
-    beside: &[(String, PathBuf)],
-    scale: f64,
-    wanted: Wanted,
-) -> Result<Model, AssetError> {
-    opened(file, beside, |container, files| {
-        model::read(container, files, scale, wanted)
+pub fn model(named: &ModelFile, wanted: Wanted) -> Result<Model, AssetError> {
+    opened(named, |container, files| {
+        model::read(container, files, named.scale, wanted)
     })
 }
 
@@ -413,30 +400,25 @@ pub fn model(
 /// # Errors
 ///
 /// As [`model()`].
-pub fn claims_of_model(
-    file: &Path,
-    beside: &[(String, PathBuf)],
-    wanted: Wanted,
-) -> Result<Claims, AssetError> {
-    opened(file, beside, |container, files| {
+pub fn claims_of_model(named: &ModelFile, wanted: Wanted) -> Result<Claims, AssetError> {
+    opened(named, |container, files| {
         model::claims(container, files, wanted)
     })
 }
 
 /// What `read_model` makes of a glTF file and the files beside it.
 fn opened<T>(
-    file: &Path,
-    beside: &[(String, PathBuf)],
+    named: &ModelFile,
     read_model: impl for<'a> FnOnce(&Container<'a>, Files<'a>) -> Result<T, ModelError>,
 ) -> Result<T, AssetError> {
-    let bytes = read(file)?;
-    let others = beside.iter();
+    let bytes = read(&named.path.file)?;
+    let others = named.beside.iter();
     let others = others.map(|(name, file)| Ok((name, read(file)?)));
     let others = others.collect::<Result<BTreeMap<_, _>, AssetError>>()?;
     let bytes_of = |name: &str| others.get(&name.to_owned()).map(Vec::as_slice);
     let found = Container::open(&bytes).and_then(|container| read_model(&container, &bytes_of));
     found.map_err(|source| AssetError::Model {
-        file: file.to_owned(),
+        file: named.path.file.clone(),
         source,
     })
 }

@@ -3,11 +3,21 @@
 //! them.
 
 use glam::DVec3;
+use leafmodel::document::coverage::require_coverage;
+use leafmodel::document::declared::{Declared, Defaults, Kinds, Words};
+use leafmodel::document::keys::{Keys, Variant};
+use leafmodel::document::names::NameIn;
+use leafmodel::plan_file;
 use leafmodel::plant::PlantPlan;
 
+use super::blocks::spectrum::D65_NM;
+use super::description::light::constant::Constant;
+use super::description::name_list::{IndicesIn, NamesIn};
+use super::description::object::refuse_ages_of_one;
 use super::description::{
     self, Camera, Film, Instrument, Integrator, Leaf, Material, Medium, Mesh, Named, Picture, Solid,
 };
+use crate::geometry::instance::COORDINATES_M;
 
 /// A whole scene.
 #[derive(Clone, Debug)]
@@ -76,8 +86,39 @@ pub(super) enum Light {
     Rig(Rig),
 }
 
+const RIG: Variant<Rig> = Variant {
+    name: "rig",
+    about: "Lights as photographers set them up, around what the camera looks at.",
+    new: Rig::default,
+    is: |_| true,
+    declare: Rig::declare,
+};
+
+impl Default for Light {
+    fn default() -> Self {
+        Self::Single(description::Light::Constant(Constant::default()))
+    }
+}
+
+impl Declared for Light {
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        let rig = RIG.within(Self::Rig, |light| match light {
+            Self::Single(_) => None,
+            Self::Rig(own) => Some(own),
+        });
+        let kinds = description::Light::KINDS.iter();
+        let kinds = kinds.map(|kind| {
+            kind.within(Self::Single, |light| match light {
+                Self::Single(own) => Some(own),
+                Self::Rig(_) => None,
+            })
+        });
+        keys.choose(self, &kinds.chain([rig]).collect::<Vec<_>>());
+    }
+}
+
 /// One of `[objects]`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Object {
     /// The plant that it is, index into [`Authored::plants`]; it has no shapes then.
     pub(super) plant: Option<usize>,
@@ -86,47 +127,100 @@ pub(super) struct Object {
 }
 
 /// A bough or shoot.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Declared, Defaults)]
+#[key(last = Self::declare_plan)]
 pub(super) struct Plant {
     /// Its numbers.
+    #[key(with = Self::declare_preset, default = plan_file::usual_plant())]
     pub(super) plan: PlantPlan,
     /// The leaves that it bears, from the foot of each axis to its tip: indices into
     /// [`Authored::leaves`].
+    #[key(with = Self::declare_leaves)]
     pub(super) leaves: Vec<usize>,
-    /// The days of ageing of its youngest and its oldest leaves; `None` leaves them as they are.
+    /// Days of ageing of its youngest and its oldest individuals, the others between; young and old stand
+    /// mixed. The leaves need `senescence` by `day`.
+    ///
+    /// `None` leaves them as they are.
+    #[key("days", within(plan_file::DAYS))]
     pub(super) days: Option<[f64; 2]>,
-    /// What its axes are made of: index into [`Authored::materials`]; `None` is young bark, or
-    /// green tissue.
+    /// What its axes and buds are made of; left out, young brown bark.
+    ///
+    /// Index into [`Authored::materials`]; `None` is young bark, or green tissue.
+    #[key("bark", MATERIAL)]
     pub(super) bark: Option<usize>,
-    /// The leaves that are the sepals and the petals of its flower: indices into
-    /// [`Authored::leaves`].
-    pub(super) perianth: [Option<usize>; 2],
-    /// The materials of its pot and of the soil in it: indices into [`Authored::materials`];
-    /// `None` is fired clay, and soil of the pot's moisture.
-    pub(super) potting: [Option<usize>; 2],
-    /// The objects on which it climbs: indices into [`Authored::objects`].
+    /// The objects on which it climbs, each a mesh in one place; left out, an even wall.
+    ///
+    /// Indices into [`Authored::objects`].
+    #[key("wall", IndicesIn(NamesIn("objects", "the name of an object")))]
     pub(super) walls: Vec<usize>,
+    /// The leaf that is a sepal of its flower.
+    #[key("sepal", NameIn("leaves", "the name of a leaf"), at = 0)]
+    /// The leaf that is a petal of its flower.
+    #[key("petal", NameIn("leaves", "the name of a leaf"), at = 1)]
+    pub(super) perianth: [Option<usize>; 2],
+    /// What its pot and dish are made of; left out, fired clay.
+    #[key("pot_material", MATERIAL, at = 0)]
+    /// What the soil in its pot is made of; left out, measured soil of its moisture.
+    #[key("soil_material", MATERIAL, at = 1)]
+    pub(super) potting: [Option<usize>; 2],
+}
+
+const MATERIAL: NameIn = NameIn("materials", "the name of a material");
+
+impl Plant {
+    fn declare_preset(&mut self, keys: &mut Keys<'_>) {
+        plan_file::plant_preset(&mut self.plan, keys);
+    }
+
+    fn declare_leaves(&mut self, keys: &mut Keys<'_>) {
+        let kind = IndicesIn(NamesIn("leaves", "the name of a leaf"));
+        let about =
+            "The leaf that it bears; of a list, those from the foot of each axis to its tip.";
+        keys.needed("leaf", &mut self.leaves, kind, about);
+    }
+
+    fn declare_plan(&mut self, keys: &mut Keys<'_>) {
+        plan_file::plant(&mut self.plan, keys);
+        refuse_ages_of_one(self.plan.individuals, self.days, keys);
+        if self.plan.flower.is_some() && !self.perianth.iter().all(Option::is_some) {
+            let help = "name a leaf as `sepal` and one as `petal`, such as of the presets \
+                `trillium-sepal` and `trillium-petal`";
+            keys.refuse(&[], "its flower lacks sepals or petals".to_owned(), help);
+        }
+        if !self.walls.is_empty() && self.plan.climbing.is_none() {
+            let help = "give it a block `climbing`, or leave `wall` out";
+            keys.refuse(&["wall"], "the plant does not climb".to_owned(), help);
+        }
+    }
 }
 
 /// Lights as photographers set them up.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Declared, Defaults, PartialEq)]
+#[key(last = require_d65)]
 pub(super) struct Rig {
-    /// How they stand.
+    /// How the lights stand.
+    #[key("preset", required, word)]
     pub(super) preset: RigPreset,
-    /// What is lit, m; `None` is what the camera looks at.
+    /// What is lit; left out, the point that the camera looks at.
+    #[key("subject_m", within(COORDINATES_M))]
     pub(super) subject: Option<DVec3>,
-    /// Size of the subject, m, > 0.
+    /// Size of the subject, of which sizes and distances of lamps are multiples.
+    #[key("size_m", 1e-4..=1e4, default = 0.1)]
     pub(super) size: f64,
-    /// Azimuth in which the camera is taken to look, rad; `None` is that in which it does.
+    /// Direction along the ground in which the camera is taken to look, from +x towards +y; left out, that in
+    /// which it does.
+    #[key("azimuth_deg", degrees(-360.0..=360.0))]
     pub(super) azimuth: Option<f64>,
-    /// Light more or less than usual, as a power of 2.
+    /// Light more or less than for a picture with `exposure_ev = 0`, as a power of 2.
+    #[key("ev", -30.0..=30.0)]
     pub(super) ev: f64,
 }
 
 /// The arrangements of lights.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Words)]
 pub(super) enum RigPreset {
     /// Three soft boxes.
+    #[default]
     Studio,
     /// A tent of white cloth that is lit from outside.
     Tent,
@@ -135,7 +229,18 @@ pub(super) enum RigPreset {
     /// A sky covered with cloud.
     Overcast,
     /// A low sun before the camera.
+    #[word("golden-hour")]
     GoldenHour,
     /// The sun on open land, a forest behind the subject.
+    #[word("forest-edge")]
     ForestEdge,
+}
+
+/// Reports a film that records more than the spectrum of lamps or of an overcast sky, D65, covers.
+fn require_d65(rig: &mut Rig, keys: &mut Keys<'_>) {
+    let is_day = matches!(rig.preset, RigPreset::GoldenHour | RigPreset::ForestEdge);
+    if let Some(block) = keys.reader().filter(|_| !is_day) {
+        let at = block.node("preset").map_or(&block.at, |node| &node.at);
+        require_coverage(block.cx, at, "the lamps' D65", D65_NM);
+    }
 }

@@ -7,38 +7,23 @@
 //!   and in range, indices are valid, files lie in the scene's folder.
 
 mod camera;
-mod daylight;
-mod film;
+pub(in crate::scene) mod film;
 mod fluorescence;
-mod gltf;
 mod instances;
-mod instrument;
-mod integrator;
 mod leaf;
-mod light;
-mod material;
-mod measured;
-mod medium;
-mod mesh;
-mod name_list;
 mod object;
-mod picture;
 mod placement;
-mod plant;
 mod references;
-mod reflectance;
-mod rig;
-mod scatter;
 mod sensitivities;
 mod solid;
-mod spectrum;
-mod table_file;
+pub(in crate::scene) mod spectrum;
+pub(in crate::scene) mod table_file;
 mod volume;
 
-use std::path::PathBuf;
 use std::rc::Rc;
 
 use leafmodel::document::context::Context;
+use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, NamedList};
 use leafmodel::document::names::{Named, require_title};
@@ -47,15 +32,11 @@ use leafmodel::document::schema::BlockSchema;
 use leafmodel::document::sections::Names;
 use leafmodel::document::source::Place;
 use leafmodel::document::tree::Table;
-use leafmodel::document::value_kind::{FilePath, Flag, NamedFile, Text};
+use leafmodel::document::value_kind::{Flag, Text};
 use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 
-pub(crate) use self::solid::solid;
-use super::authored::{Authored, Light, Object, Plant};
-use super::description::{
-    self, Instrument, InstrumentKind, Leaf, Material, Medium, Mesh, Picture, Reflectance, Sample,
-    Solid, Spectrum,
-};
+use super::authored::{Authored, Light};
+use super::description::{Leaf, Material, Medium, Picture};
 
 /// All keys at the top of a scene file.
 const SECTIONS: [&str; 16] = [
@@ -121,7 +102,7 @@ pub(crate) fn refuse(cx: &Context, tree: &Table, path: &[String], problem: Strin
 /// Reads only the leaves of a file, which may lack everything else. Errors are left in the context.
 pub(crate) fn read_only_leaves(cx: &Context, tree: &Table) -> Option<Vec<Named<Leaf>>> {
     // The other sections of a scene are not checked here.
-    read_leaves(cx, tree, &plan_file::SECTIONS, leaf::leaf)
+    read_leaves(cx, tree, &plan_file::SECTIONS, Leaf::declare)
 }
 
 /// Reads only `[picture]` of a file. Errors are left in the context.
@@ -129,9 +110,7 @@ pub(crate) fn read_only_picture(cx: &Context, tree: &Table) -> Option<Picture> {
     let mut picture = Picture::default();
     Keys::read(root(cx, tree), None, |keys| {
         let about = "How the picture to look at is made from the film.";
-        keys.block("picture", about, |keys| {
-            picture::picture(&mut picture, keys);
-        });
+        keys.block("picture", about, |keys| picture.declare(keys));
         keys.leave(&SECTIONS);
     });
     (cx.error_count() == 0).then_some(picture)
@@ -174,34 +153,39 @@ fn scene(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
     });
     fluorescence::tell_range(keys);
     let about = "How the picture to look at is made from the film.";
-    keys.block("picture", about, |keys| {
-        picture::picture(&mut scene.picture, keys);
-    });
+    keys.block("picture", about, |keys| scene.picture.declare(keys));
     let about = "Where the scene is seen from.";
     keys.required_block("camera", about, &camera::NAMES, |keys| {
         camera::camera(&mut scene.camera, keys);
     });
     let about = "How light is followed.";
-    keys.block("integrator", about, |keys| {
-        integrator::integrator(&mut scene.integrator, keys);
-    });
-    let about = "Instruments, which `lamina instruments` reads out.";
-    let new = || Instrument::usual(InstrumentKind::Sphere(Sample::usual()));
-    section(
+    keys.block("integrator", about, |keys| scene.integrator.declare(keys));
+    named(
         keys,
         "instruments",
         &mut scene.instruments,
-        &new,
-        about,
-        instrument::instrument,
+        "Instruments, which `lamina instruments` reads out.",
     );
     if purpose == Purpose::Instruments {
-        instrument::tell_range(scene, keys);
+        set_range(scene, keys);
     }
     sections(scene, keys, purpose);
     if keys.reader().is_some() {
         references::check(scene, keys, purpose);
     }
+}
+
+/// From here on spectra must cover what the instruments need, if they are what the scene is read
+/// for; `None` if there is none.
+fn set_range(scene: &Authored, keys: &Keys<'_>) {
+    let Some(block) = keys.reader() else {
+        return;
+    };
+    let ranges = scene.instruments.iter();
+    let ranges = ranges.filter_map(|Named { value, .. }| value.range_nm());
+    let all = ranges.reduce(|[low, high], [from, to]| [low.min(from), high.max(to)]);
+    block.cx.range_nm.set(all);
+    block.cx.needed_by.set("an instrument");
 }
 
 /// The named blocks.
@@ -211,75 +195,58 @@ fn sections(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
         keys,
         "media",
         &mut scene.media,
-        &Medium::clear,
+        &Medium::default,
         about,
-        medium::medium,
+        Medium::declare,
     );
     let about = "What surfaces are made of.";
-    let new = || Material::Diffuse {
-        reflectance: Reflectance::Even(Spectrum::Constant(0.0)),
-    };
     section(
         keys,
         "materials",
         &mut scene.materials,
-        &new,
+        &Material::default,
         about,
-        material::material,
+        Material::declare,
     );
-    let about = "Shapes as triangles.";
-    section(
+    named(keys, "meshes", &mut scene.meshes, "Shapes as triangles.");
+    named(keys, "leaves", &mut scene.leaves, "Leaves that are grown.");
+    named(keys, "solids", &mut scene.solids, "Bodies of solid tissue.");
+    named(
         keys,
-        "meshes",
-        &mut scene.meshes,
-        &Mesh::unit_sphere,
-        about,
-        mesh::mesh,
+        "plants",
+        &mut scene.plants,
+        "Boughs and shoots that bear leaves.",
     );
-    let about = "Leaves that are grown.";
-    let new = || Leaf::from(plan_file::usual_leaf(100.0));
-    section(keys, "leaves", &mut scene.leaves, &new, about, leaf::leaf);
-    let about = "Bodies of solid tissue.";
-    section(
-        keys,
-        "solids",
-        &mut scene.solids,
-        &Solid::usual,
-        about,
-        solid,
-    );
-    let about = "Boughs and shoots that bear leaves.";
-    let new = || Plant {
-        plan: plan_file::usual_plant(),
-        leaves: Vec::new(),
-        days: None,
-        bark: None,
-        perianth: [None; 2],
-        potting: [None; 2],
-        walls: Vec::new(),
-    };
-    section(keys, "plants", &mut scene.plants, &new, about, plant::plant);
     if purpose == Purpose::Instruments
         && let Some(root) = keys.reader()
     {
         root.cx.range_nm.set(None);
     }
     let about = "Lights; there is one at least.";
-    let new = || {
-        Light::Single(description::Light::Constant {
-            radiance: Spectrum::Constant(0.0),
-        })
-    };
-    section(keys, "lights", &mut scene.lights, &new, about, light::light);
-    let about = "What stands in the scene; there is one at least.";
     section(
+        keys,
+        "lights",
+        &mut scene.lights,
+        &Light::default,
+        about,
+        Light::declare,
+    );
+    named(
         keys,
         "objects",
         &mut scene.objects,
-        &Object::nowhere,
-        about,
-        object::object,
+        "What stands in the scene; there is one at least.",
     );
+}
+
+/// A section of blocks with names.
+fn named<T: Declared + Default>(
+    keys: &mut Keys<'_>,
+    name: &'static str,
+    blocks: &mut Vec<Named<T>>,
+    about: &'static str,
+) {
+    section(keys, name, blocks, &T::default, about, T::declare);
 }
 
 fn section<T>(
@@ -306,25 +273,4 @@ fn section<T>(
 /// Reports an error at a key of the present block, or at the block if the key is missing.
 fn report(keys: &Keys<'_>, key: &str, error: DocumentError) {
     keys.report(&[key], error);
-}
-
-/// The key `layer` of a picture.
-fn picture_layer(layer: &mut Option<String>, keys: &mut Keys<'_>) {
-    const LAYER: Text = Text("the name of a layer of the EXR");
-    let about = "The layer of an EXR whose channels R, G and B, or Y alone, are used: `sky` has `sky.R`. \
-        Without it the channels without a layer are.";
-    keys.optional("layer", layer, LAYER, about);
-}
-
-/// A key with the path of a file that must exist.
-fn file(
-    keys: &mut Keys<'_>,
-    key: &'static str,
-    file: &mut PathBuf,
-    path: FilePath,
-    about: &'static str,
-) {
-    let mut named = NamedFile::default();
-    keys.required(key, &mut named, path, about);
-    *file = named.file;
 }

@@ -5,21 +5,26 @@
 //! same input. `scene::expand` makes it of what the file says.
 
 mod camera;
-mod instrument;
-mod light;
-mod material;
+pub(in crate::scene) mod instrument;
+pub mod layer;
+pub mod light;
+pub mod material;
 mod medium;
-mod object;
-mod reflectance;
+mod mesh;
+pub(in crate::scene) mod name_list;
+pub(in crate::scene) mod object;
+pub mod reflectance;
+pub mod tissue;
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use leafmodel::blade::stalk::StalkMesh;
+use leafmodel::document::declared::Declared;
 pub use leafmodel::document::names::Named;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::solid::SolidPlan;
 
+use crate::film::MOST_SAMPLES;
 use crate::scene::model::Wanted;
 
 pub use self::camera::{Camera, FocusObject};
@@ -27,14 +32,13 @@ pub use self::instrument::{
     Amount, Canopy, DepthProfile, Detector, Estimator, ExcitationLight, FluorescenceReading, Gonio,
     Incidence, Incident, Index, Instrument, InstrumentKind, Response, Sample, Spot, SpotMiddle,
 };
-pub use self::light::{AreaPattern, Light};
-pub use self::material::{
-    Coat, Fluorescence, Held, LeafFaces, LeafOptics, LeafTissue, Material, SolidOptics,
-};
+pub use self::light::Light;
+pub use self::material::Material;
 pub use self::medium::{Medium, MediumPhase};
+pub use self::mesh::{FileMesh, Mesh};
 pub use self::object::{InstancePlace, Object, ObjectShape, StrewnOn};
 pub use self::reflectance::Reflectance;
-pub use crate::geometry::shapes::{Drop, Lump, Masonry, MasonryPart, Terrain};
+pub use self::tissue::{Coat, Fluorescence, Held, LeafFaces, LeafOptics, SolidOptics};
 pub use crate::image::display::Display as Picture;
 pub use crate::image::pixels::Depth;
 pub use crate::image::tone::Tone;
@@ -96,86 +100,38 @@ impl Description {
         };
         of_it.fold(nothing, |wanted, material| Wanted {
             colours: true,
-            finishes: wanted.finishes || matches!(material, Material::Model { .. }),
+            finishes: wanted.finishes || matches!(material, Material::Model(_)),
             emission,
         })
     }
 }
 
 /// What is recorded, and how well.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Declared)]
 pub struct Film {
     /// Pixels across.
+    #[key(with = Self::declare_size)]
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Samples per pixel, or their greatest number if there is a target noise.
+    /// Samples a pixel; with `noise` the most.
+    #[key("spp", required, 1..=MOST_SAMPLES.into())]
     pub spp: u32,
     /// Relative error at which a part of the picture has enough samples; `None` if all parts get
     /// the same number.
+    #[key(with = Self::declare_noise)]
     pub noise: Option<f64>,
-    /// Seed of every random number.
+    /// Seed of every random number; same file, same seed, same bytes.
+    #[key("seed")]
     pub seed: u64,
-    /// Radius of the Gaussian reconstruction filter in pixels; 0 is a box of one pixel.
+    /// Radius of the Gaussian reconstruction filter; 0 is a box of one pixel, which keeps pixels
+    /// independent of each other.
+    ///
+    /// In pixels.
+    #[key("filter_radius_px", 0.0..=8.0)]
     pub filter_radius: f64,
     /// Colour or bands.
     pub kind: FilmKind,
-}
-
-/// A shape.
-#[derive(Clone, Debug)]
-pub enum Mesh {
-    /// A rectangle in the xy plane around the origin, normal +z, uv from 0 to 1.
-    Rectangle {
-        /// Extent along x, m.
-        width: f64,
-        /// Extent along y, m.
-        height: f64,
-    },
-    /// A sphere around the origin, as triangles.
-    Sphere {
-        /// Radius, m.
-        radius: f64,
-        /// Triangles around the equator and half as many from pole to pole.
-        segments: u32,
-    },
-    /// A closed box around the origin.
-    Box {
-        /// Extent along x, y and z, m.
-        size: [f64; 3],
-    },
-    /// A disc in the xy plane around the origin, normal +z, uv from 0 to 1 over the square around
-    /// it.
-    Disc {
-        /// Radius of the disc that has its area, m.
-        radius: f64,
-        /// Corners.
-        segments: u32,
-    },
-    /// A drop of water on z = 0.
-    Drop(Drop),
-    /// A pebble or crumb around the origin.
-    Lump(Lump),
-    /// Uneven ground around the origin.
-    Terrain(Terrain),
-    /// A wall of bricks.
-    Masonry(Masonry),
-    /// A PLY or OBJ file, resolved and inside the scene's folder.
-    File {
-        /// The file.
-        file: PathBuf,
-        /// Metres per unit of the file.
-        scale: f64,
-    },
-    /// A glTF 2.0 file, resolved and inside the scene's folder.
-    Gltf {
-        /// The file.
-        file: PathBuf,
-        /// The files that it names, as written there and resolved.
-        beside: Vec<(String, PathBuf)>,
-        /// Metres per unit of the file.
-        scale: f64,
-    },
 }
 
 /// What a scene's triangles are made from.
@@ -203,7 +159,7 @@ pub struct Leaf {
 }
 
 /// A grown body of solid tissue: mesh and map of contents.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Solid {
     /// The plan from which it is grown.
     pub plan: SolidPlan,

@@ -74,6 +74,12 @@ pub(super) fn expand(authored: Authored) -> Result<Description, Fault> {
     Ok(scene)
 }
 
+/// Adds a block to a section; its number.
+fn add<T>(blocks: &mut Vec<Named<T>>, name: String, value: T) -> usize {
+    blocks.push(Named { name, value });
+    blocks.len() - 1
+}
+
 /// Other values by the same names.
 fn renamed<A, B>(blocks: Vec<Named<A>>, other: impl Fn(A) -> B) -> Vec<Named<B>> {
     let blocks = blocks.into_iter();

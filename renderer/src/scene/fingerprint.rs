@@ -8,8 +8,6 @@ use leafmodel::plan_file;
 
 use super::assets::{self, AssetError};
 use super::authored::Authored;
-use super::blocks;
-use super::description::Solid;
 
 /// The 64-bit FNV-1a hash of everything that samples depend on: what the scene's file says, the numbers
 /// of presets, both in [`identity`], and the bytes of the files that it names. It distinguishes scenes of one version of the
@@ -41,8 +39,7 @@ pub(super) fn identity(tree: &Table, authored: &Authored) -> String {
         text += &plan_file::leaf_to_toml(&leaf.name, &leaf.value.plan, Extent::All);
     }
     for solid in &authored.solids {
-        let (mut own, mut plain) = (solid.value.clone(), Solid::usual());
-        text += &plan_file::solid_to_toml(&solid.name, &mut own, &mut plain, blocks::solid);
+        text += &solid.value.to_toml(&solid.name);
     }
     for plant in &authored.plants {
         text += &plan_file::plant_to_toml(&plant.name, &plant.value.plan);

@@ -199,8 +199,7 @@ pub fn parse_picture(
 /// the mesh and the pictures that it names. Keys with default values are left out; the order of
 /// keys is fixed.
 pub fn solid_to_toml(name: &str, solid: &Solid) -> String {
-    let (mut own, mut usual) = (solid.clone(), Solid::usual());
-    plan_file::solid_to_toml(name, &mut own, &mut usual, blocks::solid)
+    solid.to_toml(name)
 }
 
 /// The schema of a scene file.
@@ -248,20 +247,16 @@ fn into_leaves(mut opened: Opened) -> Result<Vec<Named<Leaf>>, DocumentErrors> {
 /// The folder's name for `scene.toml`, else the file's without its ending; characters that a
 /// scene's name cannot have become `-`.
 fn default_name(path: &Path) -> String {
-    let of_file = path.file_stem();
-    let name = if path.file_name().is_some_and(|name| name == "scene.toml") {
+    let is_scene = path.file_name().is_some_and(|name| name == "scene.toml");
+    let folder = is_scene.then(|| {
         let folder = path
             .parent()
             .filter(|folder| !folder.as_os_str().is_empty());
-        let folder = fs::canonicalize(folder.unwrap_or(Path::new("."))).ok();
-        folder
-            .as_deref()
-            .and_then(Path::file_name)
-            .or(of_file)
-            .map(std::ffi::OsStr::to_os_string)
-    } else {
-        of_file.map(std::ffi::OsStr::to_os_string)
-    };
+        fs::canonicalize(folder.unwrap_or(Path::new("."))).ok()
+    });
+    let folder = folder.flatten();
+    let of_folder = folder.as_deref().and_then(Path::file_name);
+    let name = of_folder.or(path.file_stem());
     let mut name: String = name
         .map(|name| name.to_string_lossy().into_owned())
         .unwrap_or_default()

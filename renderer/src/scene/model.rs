@@ -15,6 +15,7 @@
 mod accessors;
 mod container;
 mod cut_out;
+mod file;
 mod left_out;
 mod masks;
 mod parts;
@@ -37,6 +38,7 @@ use crate::material::colour_map::ColourMap;
 use crate::material::model::Finish;
 
 pub use container::{Container, FileKind};
+pub use file::ModelFile;
 
 /// Why a glTF file cannot be used.
 #[derive(Debug, Error)]
@@ -198,18 +200,12 @@ pub fn read<'a>(
         };
         return Err(ModelError::NoTriangles(only.to_owned()));
     }
-    if !wanted.colours {
-        for patch in &mut patches {
-            patch.colours = None;
-        }
-    }
-    if !wanted.finishes {
-        for patch in &mut patches {
-            patch.tangents = None;
-        }
+    for patch in &mut patches {
+        patch.has_colours &= wanted.colours;
+        patch.has_tangents &= wanted.finishes;
     }
     let parts = parts::side_by_side(&mut patches, &mut left_out);
-    let mesh = surfaces::joined(patches)?;
+    let mesh = surfaces::joined(&patches)?;
     let mut colours = None;
     if wanted.colours {
         let map = parts::colours(&parts, &mut pictures, &mut left_out)?;

@@ -1,7 +1,7 @@
 //! A cache of grown leaves in a folder, for scenes that are rendered repeatedly with other light or
 //! other cameras.
 //!
-//! A file holds one leaf and is named by a digest of its plan. It begins with the whole plan and
+//! A file holds one leaf and is named by a digest of its plan. It begins with all that the plan says and
 //! the identity of the program that wrote it, and ends with a checksum, so it is never used for
 //! another leaf.
 //!
@@ -17,15 +17,17 @@
 mod tests;
 
 use std::fs::File;
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::UNIX_EPOCH;
 
+use leafmodel::document::written::Extent;
 use leafmodel::leaf::LeafPlan;
+use leafmodel::plan_file;
 use thiserror::Error;
 
+use super::fingerprint::fnv1a;
 use super::plants::parts::{LeafParts, MapParts, Piece, PlantError, SurfaceParts};
 use crate::codec::{self, SectionHead, write_section};
 use crate::image::atomic;
@@ -114,9 +116,9 @@ impl PlantCache {
         plan: &LeafPlan,
         grow: impl FnOnce() -> Result<LeafParts, PlantError>,
     ) -> Result<LeafParts, PlantError> {
-        // The complete plan, each number with all its digits.
-        let key = format!("{}\n{plan:?}\n", self.program).into_bytes();
-        let path = self.path(plan);
+        let identity = identity(plan);
+        let key = format!("{}\n{identity}", self.program).into_bytes();
+        let path = self.path(&identity);
         match read(&path, &key) {
             Ok(parts) => return Ok(parts),
             Err(Refused::Missing) => {}
@@ -133,12 +135,19 @@ impl PlantCache {
         Ok(parts)
     }
 
-    /// The file for the leaf of a plan.
-    fn path(&self, plan: &LeafPlan) -> PathBuf {
-        let mut digest = DefaultHasher::new();
-        format!("{plan:?}").hash(&mut digest);
-        self.folder.join(format!("{:016x}.leaf", digest.finish()))
+    /// The file for the leaf of a plan with this identity.
+    fn path(&self, identity: &str) -> PathBuf {
+        let digest = fnv1a(identity.as_bytes());
+        self.folder.join(format!("{digest:016x}.leaf"))
     }
+}
+
+/// All that a plan says, each number with all its digits, and a hash of the pictures that it names.
+fn identity(plan: &LeafPlan) -> String {
+    let pictures = plan.pictures().into_iter();
+    let pictures: Vec<u8> = pictures.flat_map(f64::to_le_bytes).collect();
+    let said = plan_file::leaf_to_toml("leaf", plan, Extent::All);
+    format!("{said}\npictures {:016x}\n", fnv1a(&pictures))
 }
 
 /// Version and build: another build of the same version may grow another leaf.

@@ -5,14 +5,15 @@ pub(super) mod parts;
 
 use std::sync::Arc;
 
-use glam::{DAffine3, Vec2};
+use glam::{DAffine3, DVec3, Vec2};
 use leafmodel::blade::BladeMesh;
 use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::blade::surface::stomata::StomataPlan;
 use leafmodel::compound::WholeLeaf;
 use leafmodel::leaf::LeafPlan;
+use leafmodel::not_grown::NotGrown;
 use leafmodel::optics::solid::ReflectanceTable;
-use leafmodel::solid::{Solid, SolidError as GrowthError};
+use leafmodel::solid::Solid;
 use thiserror::Error;
 
 use self::parts::{LeafParts, MapParts, MeshParts, SurfaceParts};
@@ -46,7 +47,7 @@ pub struct GrownLeaf {
 pub enum SolidError {
     /// The plan cannot be carried out.
     #[error(transparent)]
-    Growth(#[from] GrowthError),
+    Growth(#[from] NotGrown),
     /// Its mesh is refused.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -64,12 +65,14 @@ pub fn grow_solid(
     table: Arc<ReflectanceTable>,
 ) -> Result<(TriangleMesh, SolidMaterial), SolidError> {
     let grown = Solid::grow(&solid.plan, &|| false)?;
-    let mesh = TriangleMesh::new(
-        metres(&grown.positions),
-        Some(directions(&grown.normals)),
-        Some(grown.uvs.iter().map(|uv| uv.as_vec2()).collect()),
-        grown.triangles,
-    )?;
+    let uvs = grown.uvs.iter().map(|uv| uv.as_vec2()).collect();
+    let mesh = mesh_parts(
+        &grown.positions,
+        &grown.normals,
+        Some(uvs),
+        &grown.triangles,
+    );
+    let mesh = mesh.into_mesh()?;
     let map = grown.contents;
     let held = Held::Map(ContentsTexture::new(
         map.width as usize,
@@ -95,18 +98,14 @@ pub fn grow(
         None => grow()?,
     };
     let faces = leaf.faces_by_age();
-    let material = |held| {
+    let material = |held, faces: &LeafFaces| {
         let held = LeafTissue::Held(held);
-        tissue::leaf(held, palette.clone(), &faces, leaf.fluorescence)
+        tissue::leaf(held, palette.clone(), faces, leaf.fluorescence)
     };
     // Stalks and hairs are no sheets, through which light could be followed from face to face.
     let round = LeafFaces {
         optics: LeafOptics::Plates,
         ..faces.clone()
-    };
-    let round = |held| {
-        let held = LeafTissue::Held(held);
-        tissue::leaf(held, palette.clone(), &round, leaf.fluorescence)
     };
     let spread_mm = leaf.light_spread * leaf.plan.form.thickness_mm;
     let surface = leaf.plan.surface.as_ref();
@@ -115,7 +114,7 @@ pub fn grow(
         let size = [map.width, map.height];
         let spread_uv = map.size_mm.map(|side_mm| (spread_mm / side_mm) as f32);
         let texture = ContentsTexture::new(map.width, map.height, map.texels);
-        let mut blade = material(Held::Map(texture));
+        let mut blade = material(Held::Map(texture), &faces);
         // In a closed blade light spreads on its way from one face to the other.
         if spread_mm > 0.0 && half.is_none() {
             blade = blade.spreading(Vec2::from(spread_uv));
@@ -144,12 +143,10 @@ pub fn grow(
             vec![blade(map, None)]
         }
     });
-    let uniform = |contents| round(Held::Uniform(contents));
+    let uniform = |contents| material(Held::Uniform(contents), &round);
     let stalk = parts.stalk.map(uniform);
     let hairs = parts.hairs.into_iter().map(uniform);
-    let meshes = parts.meshes.into_iter().map(|mesh| {
-        TriangleMesh::new(mesh.positions, Some(mesh.normals), mesh.uvs, mesh.triangles)
-    });
+    let meshes = parts.meshes.into_iter().map(MeshParts::into_mesh);
     Ok(GrownLeaf {
         meshes: meshes.collect::<Result<_, _>>()?,
         materials: blades.chain(stalk).chain(hairs).collect(),
@@ -191,12 +188,11 @@ impl LeafParts {
                 meshes.push(stalk(petiole));
             }
             let hairs = grown.hairs.iter().filter(|hairs| hairs.count() > 0);
-            meshes.extend(hairs.map(|hairs| MeshParts {
-                positions: metres(&hairs.positions),
-                normals: directions(&hairs.normals),
-                uvs: None,
-                triangles: hairs.triangles.clone(),
-            }));
+            meshes.extend(
+                hairs.map(|hairs| {
+                    mesh_parts(&hairs.positions, &hairs.normals, None, &hairs.triangles)
+                }),
+            );
             maps.push(MapParts {
                 width: grown.contents.width as usize,
                 height: grown.contents.height as usize,
@@ -260,39 +256,33 @@ impl LeafParts {
 }
 
 fn blade(blade: &BladeMesh) -> MeshParts {
+    let uvs = blade.uvs.iter();
+    let uvs = uvs.map(|uv| Vec2::new(uv.x as f32, uv.y as f32)).collect();
+    mesh_parts(
+        &blade.positions,
+        &blade.normals,
+        Some(uvs),
+        &blade.triangles,
+    )
+}
+
+/// Tubes, such as stalks and the axes of plants.
+pub(super) fn stalk(tubes: &StalkMesh) -> MeshParts {
+    mesh_parts(&tubes.positions, &tubes.normals, None, &tubes.triangles)
+}
+
+/// A mesh in metres from places in millimetres.
+fn mesh_parts(
+    positions_mm: &[DVec3],
+    normals: &[DVec3],
+    uvs: Option<Vec<Vec2>>,
+    triangles: &[[u32; 3]],
+) -> MeshParts {
+    let positions = positions_mm.iter();
     MeshParts {
-        positions: metres(&blade.positions),
-        normals: directions(&blade.normals),
-        uvs: Some(
-            blade
-                .uvs
-                .iter()
-                .map(|uv| Vec2::new(uv.x as f32, uv.y as f32))
-                .collect(),
-        ),
-        triangles: blade.triangles.clone(),
+        positions: positions.map(|&p| (p * 1e-3).as_vec3()).collect(),
+        normals: normals.iter().map(|normal| normal.as_vec3()).collect(),
+        uvs,
+        triangles: triangles.to_vec(),
     }
-}
-
-/// The places, m, and directions of tubes.
-pub(super) fn tube(tubes: &StalkMesh) -> (Vec<glam::Vec3>, Vec<glam::Vec3>) {
-    (metres(&tubes.positions), directions(&tubes.normals))
-}
-
-fn stalk(tubes: &StalkMesh) -> MeshParts {
-    MeshParts {
-        positions: metres(&tubes.positions),
-        normals: directions(&tubes.normals),
-        uvs: None,
-        triangles: tubes.triangles.clone(),
-    }
-}
-
-fn metres(positions: &[glam::DVec3]) -> Vec<glam::Vec3> {
-    let position = positions.iter();
-    position.map(|&p| (p * 1e-3).as_vec3()).collect()
-}
-
-fn directions(normals: &[glam::DVec3]) -> Vec<glam::Vec3> {
-    normals.iter().map(|normal| normal.as_vec3()).collect()
 }

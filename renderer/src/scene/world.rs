@@ -6,7 +6,7 @@ mod light_colours;
 mod lights;
 mod materials;
 mod memory;
-pub(in crate::scene) mod meshes;
+pub(crate) mod meshes;
 mod middle;
 pub(crate) mod needs;
 mod notes;
@@ -26,6 +26,7 @@ use leafmodel::optics::solid::ReflectanceTable;
 use rayon::prelude::*;
 
 use self::bodies::{around, build_media, set_bodies, set_drops};
+use self::error::BlockError;
 pub use self::error::WorldError;
 use self::light_colours::{brightest, check_brightness, check_white, light_colours};
 use self::lights::build_lights;
@@ -47,7 +48,7 @@ use crate::light::selection::Selections;
 use crate::material::Material;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
-use crate::scene::description::{self, Description};
+use crate::scene::description::{Description, Named};
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::plants::{self, Piece};
 use crate::spectrum::{WavelengthGrid, WavelengthSampler};
@@ -199,7 +200,7 @@ impl World {
         let seen = (&meshes[..], &instances[..], &objects);
         let origin = look(scene, &mut view, seen, options, &mut notes);
         let placed = (&meshes[..], &surfaces[..], &instances[..], &first[..]);
-        let mut lights = all_lights(scene, placed, origin, &mut objects, &mut notes)?;
+        let mut lights = build_lights(scene, placed, origin, &mut objects, &mut notes)?;
         let light_colours = colours_on_film(scene, &lights, &wavelengths, options)?;
         tabulate(&mut materials, &mut lights, wavelengths.grid());
         let fluoresces = materials.iter().any(|own| own.fluorescing().is_some());
@@ -285,40 +286,6 @@ fn tabulate(materials: &mut [Material], lights: &mut [Light], grid: &WavelengthG
     }
 }
 
-/// The meshes with the surfaces that they bring along, their instances, and the first one of each object.
-type Shining<'a> = (
-    &'a [TriangleMesh],
-    &'a [OwnSurface],
-    &'a [Instance],
-    &'a [usize],
-);
-
-/// The scene's lights; objects that emit light are told so.
-fn all_lights(
-    scene: &Description,
-    (meshes, surfaces, instances, first): Shining<'_>,
-    origin: DVec3,
-    objects: &mut WorldObjects,
-    notes: &mut Vec<String>,
-) -> Result<Vec<Light>, WorldError> {
-    let mut lights = Vec::new();
-    for light in &scene.lights {
-        if let description::Light::Area { object, .. } = light.value {
-            objects.shine(first[object], lights.len());
-        }
-        let instance_of = |object: usize| &instances[first[object]];
-        lights.extend(build_lights(
-            &light.name,
-            &light.value,
-            (meshes, surfaces),
-            instance_of,
-            origin,
-            notes,
-        )?);
-    }
-    Ok(lights)
-}
-
 /// Meshes, and the surface that each brings along.
 type MeshesAndSurfaces = (Vec<TriangleMesh>, Vec<OwnSurface>);
 
@@ -337,28 +304,19 @@ fn build_meshes(
     Ok((meshes, surfaces))
 }
 
-/// Grows the scene's leaves; each is returned with its palette of pigments.
+/// Grows the scene's leaves, each with its palette of pigments.
 fn grow_leaves(
     scene: &Description,
     palettes: Vec<Palette>,
     options: &BuildOptions<'_>,
 ) -> Result<Vec<plants::GrownLeaf>, WorldError> {
-    let grown = scene.leaves.par_iter().zip(palettes).with_max_len(1);
-    let grown = grown.map(|(leaf, palette)| {
-        let leaf = plants::grow(&leaf.value, &palette, options.cache).map_err(|source| {
-            WorldError::Plant {
-                name: leaf.name.clone(),
-                source: Box::new(source),
-            }
-        });
+    grow_all("leaves", &scene.leaves, palettes, |leaf, palette| {
+        let leaf = plants::grow(leaf, &palette, options.cache);
         if let Some(grown) = options.grown {
             grown.fetch_add(1, Ordering::Relaxed);
         }
         leaf
-    });
-    // Of several errors the first in the scene's order is returned, whichever occurred first.
-    let grown: Vec<Result<_, _>> = grown.collect();
-    grown.into_iter().collect()
+    })
 }
 
 /// Grows the scene's bodies of solid tissue, each with its palette and the table of its refractive
@@ -367,14 +325,27 @@ fn grow_solids(
     scene: &Description,
     shared: Vec<(Palette, Arc<ReflectanceTable>)>,
 ) -> Result<Vec<(TriangleMesh, SolidMaterial)>, WorldError> {
-    let grown = scene.solids.par_iter().zip(shared);
-    let grown = grown.map(|(solid, (palette, table))| {
-        plants::grow_solid(&solid.value, palette, table).map_err(|source| WorldError::Solid {
-            name: solid.name.clone(),
-            source: Box::new(source),
-        })
+    grow_all(
+        "solids",
+        &scene.solids,
+        shared,
+        |solid, (palette, table)| plants::grow_solid(solid, palette, table),
+    )
+}
+
+/// Grows the blocks of a section on all threads, each with what it shares with others.
+fn grow_all<B: Sync, S: Send, G: Send, E: Into<BlockError>>(
+    section: &str,
+    blocks: &[Named<B>],
+    shared: Vec<S>,
+    grow: impl Fn(&B, S) -> Result<G, E> + Sync,
+) -> Result<Vec<G>, WorldError> {
+    let blocks = blocks.par_iter().zip(shared).with_max_len(1);
+    let grown = blocks.map(|(block, shared)| {
+        let place = || format!("{section}.{}", block.name);
+        grow(&block.value, shared).map_err(|error| WorldError::of(place())(error))
     });
     // Of several errors the first in the scene's order is returned, whichever occurred first.
-    let grown: Vec<Result<_, _>> = grown.collect();
+    let grown: Vec<Result<G, WorldError>> = grown.collect();
     grown.into_iter().collect()
 }

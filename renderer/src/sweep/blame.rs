@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use leafmodel::document::error::LocatedError;
 use leafmodel::document::report::DocumentErrors;
 
-use super::{Sweep, Task};
+use super::tasks::{Sweep, Task};
 
 /// Most tasks whose errors are told.
 const TOLD: usize = 20;

@@ -17,8 +17,12 @@ use leafmodel::document::value_kind::{Kind, Word};
 use leafmodel::document::values::{integer_at, number_at, text_at, wrong_type};
 use leafmodel::document::write::value_to_toml;
 
+use super::draft::Draft;
 use super::range::{self, Range};
-use super::{Axis, Cell, Draft, Key, MOST_TASKS, Sweep, Target, Words, impossible, latin, rows};
+use super::tasks::{Sweep, Target};
+use super::values::{Axis, Cell, Key, MOST_TASKS, impossible};
+use super::words::Words;
+use super::{latin, rows};
 use crate::film::MOST_SAMPLES;
 
 /// Sections of scenes and of files of leaves, one of which each of them has.
@@ -34,10 +38,8 @@ pub fn is_sweep_file(path: &Path) -> Result<(bool, bool), DocumentErrors> {
     let opened = Opened::file(path, &[], BlockSchema::default)?;
     let has = |section: &str| opened.tree.get(section).is_some();
     let is_sweep = !SECTIONS.into_iter().any(has);
-    Ok((
-        is_sweep,
-        !is_sweep && ["film", "camera", "objects"].into_iter().any(has),
-    ))
+    let is_scene = ["film", "camera", "objects"].into_iter().any(has);
+    Ok((is_sweep, !is_sweep && is_scene))
 }
 
 impl Sweep {

@@ -1,13 +1,11 @@
 //! Ranges of numbers: evenly spaced, or by equal ratios.
 
 use leafmodel::document::context::Context;
-use leafmodel::document::error::DocumentError;
-use leafmodel::document::nearest::nearest;
 use leafmodel::document::reader::Block;
-use leafmodel::document::tree::Value;
-use leafmodel::document::values::{finite_at, integer_at, text_at, wrong_type};
+use leafmodel::document::value_kind::{Flag, Kind, Word};
+use leafmodel::document::values::{finite_at, integer_at};
 
-use super::{Cell, MOST_TASKS, impossible};
+use super::values::{Cell, MOST_TASKS, impossible, number_text};
 use leafmodel::document::source::Place;
 
 /// From one number to another, both included.
@@ -61,15 +59,6 @@ impl Range {
     }
 }
 
-/// The shortest TOML that reads back to the same bits; integers without a point.
-pub(super) fn number_text(value: f64) -> String {
-    if value.fract() == 0.0 && value.abs() < 1e15 {
-        format!("{value:.0}")
-    } else {
-        format!("{value:?}")
-    }
-}
-
 /// A range of a file: `{ from, to }` with `scale` and `whole`, and the number of values if it is
 /// `counted`.
 pub(super) fn read(block: &Block<'_>, counted: bool) -> Option<(Range, usize)> {
@@ -87,22 +76,12 @@ pub(super) fn read(block: &Block<'_>, counted: bool) -> Option<(Range, usize)> {
     } else {
         Some(0)
     };
-    let logarithmic = scale(block);
-    let whole = match block.node("whole") {
-        None => false,
-        Some(node) => match node.value {
-            Value::Flag(flag) => flag,
-            Value::Text(_)
-            | Value::Integer(_)
-            | Value::Number(_)
-            | Value::Other(..)
-            | Value::List(_)
-            | Value::Table(_) => {
-                wrong_type(cx, node, "whole", "true or false");
-                false
-            }
-        },
-    };
+    let scales = [("linear", false), ("logarithmic", true)];
+    let scale = block.node("scale");
+    let logarithmic = scale.map_or(Some(false), |node| Word(&scales).read(cx, node, "scale"));
+    let whole = block.node("whole");
+    let whole = whole.and_then(|node| Flag.read(cx, node, "whole"));
+    let whole = whole.unwrap_or_default();
     block.finish();
     let (from, to, logarithmic, count) = (from?, to?, logarithmic?, count?);
     let range = Range {
@@ -112,26 +91,6 @@ pub(super) fn read(block: &Block<'_>, counted: bool) -> Option<(Range, usize)> {
         whole,
     };
     check(cx, &block.path, &block.at, &range).then_some((range, count as usize))
-}
-
-/// Whether the scale is logarithmic; reports another word.
-fn scale(block: &Block<'_>) -> Option<bool> {
-    const WORDS: [&str; 2] = ["linear", "logarithmic"];
-    let Some(node) = block.node("scale") else {
-        return Some(false);
-    };
-    let (word, at) = text_at(block.cx, node, "scale")?;
-    let found = WORDS.iter().position(|known| *known == word);
-    if found.is_none() {
-        let error = DocumentError::UnknownWord {
-            key: "scale".to_owned(),
-            word: word.to_owned(),
-            nearest: nearest(word, WORDS).map(str::to_owned),
-            known: "`linear`, `logarithmic`".to_owned(),
-        };
-        block.cx.error(at, error);
-    }
-    found.map(|index| index == 1)
 }
 
 /// Reports a range that is none.

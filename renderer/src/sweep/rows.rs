@@ -8,7 +8,7 @@ use leafmodel::document::error::DocumentError;
 use leafmodel::document::rows::{Field, Form, Ragged, Row, Rows};
 use leafmodel::document::source::{Place, escaped};
 
-use super::{Axis, Cell, Key, MOST_TASKS, cell, impossible};
+use super::values::{Axis, Cell, Key, MOST_TASKS, cell, impossible};
 
 /// Greatest size of a CSV file, bytes.
 pub(super) const MOST_BYTES: u64 = 1 << 30;

@@ -3,8 +3,10 @@
 use leafmodel::document::context::Context;
 use leafmodel::document::source::{Place, Sources};
 
+use super::draft::Draft;
 use super::range::{self, Range};
-use super::{Axis, Cell, Draft, Key, MOST_TASKS, Sweep, Target, cell, impossible};
+use super::tasks::{Sweep, Target};
+use super::values::{Axis, Cell, Key, MOST_TASKS, cell, impossible};
 use leafmodel::document::report::DocumentErrors;
 
 /// What a command line adds to a sweep file, or says instead of one.

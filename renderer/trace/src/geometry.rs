@@ -51,6 +51,7 @@ mod placement;
 pub mod ray;
 pub mod scatter;
 pub mod shapes;
+pub mod stored_number;
 pub mod surface;
 
 pub use assembly::{Geometry, GeometryError, Hit};

@@ -2,7 +2,8 @@
 //!
 //! - **Knows**: surfaces, media, lights and cameras in one frame, in `f32` and metres; wavelengths in
 //!   nanometres; radiance in W m⁻² sr⁻¹ nm⁻¹.
-//! - **Must not know**: scene files and their keys, growth, pictures as files, commands.
+//! - **Must not know**: scenes as files, growth, pictures as files, commands. What a file may set of a shape, a
+//!   lens or a path is declared at its struct.
 //! - **Always true**: the same numbers on every machine and any number of threads.
 
 pub mod bsdf;

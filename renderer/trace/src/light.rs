@@ -41,11 +41,13 @@ pub mod tree;
 use std::f32::consts::PI;
 
 use self::area::AreaLight;
-use crate::spectrum::{Lanes, Share, Spectrum, WavelengthGrid, Wavelengths};
+use crate::spectrum::rgb::basis_at;
+use crate::spectrum::{Curve, Lanes, Share, Spectrum, WavelengthGrid, Wavelengths};
 use daylight::sky::SkyLight;
 use daylight::sun::SunLight;
 use distant::DistantLight;
 use environment::EnvironmentLight;
+use radiance_table::RadianceTable;
 pub use sample::{LightSample, Receiver};
 use spot::SpotLight;
 use tree::Emitter;
@@ -67,6 +69,26 @@ pub enum Light {
     Area(AreaLight),
     /// A point that emits into a cone (a spotlight).
     Spot(SpotLight),
+}
+
+/// The mean spectrum of a light over all directions or its surface.
+#[derive(Clone, Copy, Debug)]
+pub struct MeanSpectrum<'l> {
+    curve: &'l Curve,
+    /// Linear sRGB, where 1 1 1 is the curve.
+    colour: Option<[f64; 3]>,
+}
+
+impl MeanSpectrum<'_> {
+    /// What the light sends out in a share of the range, relative to others.
+    pub fn over(&self, share: &Share) -> f64 {
+        let Some(colour) = self.colour else {
+            return self.curve.over(share).into();
+        };
+        let basis = colour.into_iter().zip(basis_at(share.nm));
+        let part: f64 = basis.map(|(mean, basis)| mean * f64::from(basis)).sum();
+        part * f64::from(self.curve.over(share))
+    }
 }
 
 /// Whether and how a light is sampled at a point.
@@ -169,6 +191,31 @@ impl Light {
             Self::Area(light) => light.sample(part, receiver, wavelengths, u),
             Self::Spot(light) => light.sample(receiver, wavelengths),
         }
+    }
+
+    /// Its radiance over directions as a table, if it is one.
+    pub fn radiance_table(&self) -> Option<RadianceTable<'_>> {
+        match self {
+            Self::Environment(light) => Some(light.tabulated()),
+            Self::Sky(light) => Some(light.tabulated()),
+            Self::Distant(_) | Self::Constant(_) | Self::Sun(_) | Self::Area(_) | Self::Spot(_) => {
+                None
+            }
+        }
+    }
+
+    /// Its mean spectrum.
+    pub fn mean_spectrum(&self) -> MeanSpectrum<'_> {
+        let (curve, colour) = match self {
+            Self::Distant(light) => (light.radiance(), None),
+            Self::Constant(radiance) => (radiance.curve(), None),
+            Self::Environment(light) => (light.white(), Some(light.mean_colour())),
+            Self::Sun(light) => (light.irradiance(), None),
+            Self::Sky(light) => (light.diffuse(), None),
+            Self::Area(light) => (light.radiance(), light.mean_colour()),
+            Self::Spot(light) => (light.intensity(), None),
+        };
+        MeanSpectrum { curve, colour }
     }
 
     /// Evaluates its spectra at every wavelength of a grid.

@@ -59,6 +59,22 @@ impl<'p> Keys<'p> {
         }
     }
 
+    /// Whether a file is read that has a block inside this one, itself or by its preset, without an
+    /// error in it.
+    pub fn is_whole(&self, name: &str) -> bool {
+        let Pass::Read(Reading {
+            block,
+            base,
+            broken,
+            ..
+        }) = &self.pass
+        else {
+            return false;
+        };
+        let is_there = base.is_some() || block.table.get(name).is_some();
+        is_there && block.cx.survey.borrow().is_none() && !broken.contains(&name)
+    }
+
     /// Whether a block is described, so that every key is to be declared.
     pub fn is_description(&self) -> bool {
         matches!(self.pass, Pass::Describe(_))

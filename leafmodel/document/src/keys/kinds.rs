@@ -2,7 +2,7 @@
 
 use super::checks::UNKNOWN;
 use super::{Keys, Pass, fresh};
-use crate::schema::{BlockSchema, EntrySchema, Group, Is};
+use crate::schema::{BlockSchema, Group, Is};
 
 /// One of several kinds that a value of type `T` can be, with the block that says so.
 #[derive(Debug)]
@@ -37,91 +37,133 @@ macro_rules! variant {
     };
 }
 
+/// What names the keys of a value.
+type Declaration<'v, T> = Box<dyn Fn(&mut T, &mut Keys<'_>) + 'v>;
+
+/// One of several kinds, of a value itself or of what lies in it.
+pub struct Choice<'v, T> {
+    name: &'static str,
+    about: &'static str,
+    new: Box<dyn Fn() -> T + 'v>,
+    is: Box<dyn Fn(&mut T) -> bool + 'v>,
+    declare: Declaration<'v, T>,
+}
+
+impl<T: 'static> Variant<T> {
+    /// The kind of a value that may hold one of type `T`.
+    pub fn within<O: 'static>(
+        &self,
+        put: fn(T) -> O,
+        get: fn(&mut O) -> Option<&mut T>,
+    ) -> Choice<'_, O> {
+        Choice {
+            name: self.name,
+            about: self.about,
+            new: Box::new(move || put((self.new)())),
+            is: Box::new(move |value| get(value).is_some_and(|own| (self.is)(own))),
+            declare: Box::new(move |value, keys| {
+                if let Some(own) = get(value) {
+                    (self.declare)(own, keys);
+                }
+            }),
+        }
+    }
+}
+
+/// Variants as the kinds of the value itself.
+fn choices<T: 'static>(variants: &[Variant<T>]) -> Vec<Choice<'_, T>> {
+    let variants = variants.iter();
+    variants
+        .map(|variant| variant.within(|own| own, |own| Some(own)))
+        .collect()
+}
+
 impl Keys<'_> {
     /// The block inside this one that says of which kind the value is: exactly one, and nothing
     /// else beside it but keys declared before. With a preset beneath, none leaves the kind as it
     /// is.
-    pub fn kind<T>(&mut self, value: &mut T, variants: &[Variant<T>]) {
-        let current = variants.iter().find(|variant| (variant.is)(value));
+    pub fn kind<T: 'static>(&mut self, value: &mut T, variants: &[Variant<T>]) {
+        self.choose(value, &choices(variants));
+    }
+
+    /// The same where some of the kinds are those of a value inside this one.
+    pub fn choose<T>(&mut self, value: &mut T, kinds: &[Choice<'_, T>]) {
+        let current = kinds.iter().find(|kind| (kind.is)(value));
         match &mut self.pass {
             Pass::Read(reading) => {
                 reading.is_judged = true;
-                let names: Vec<&'static str> =
-                    variants.iter().map(|variant| variant.name).collect();
+                let names: Vec<&'static str> = kinds.iter().map(|kind| kind.name).collect();
                 let base = reading.base.as_deref().zip(current);
                 let kept = base.map(|(_, current)| current.name);
                 let Some((name, mut inner)) = reading.block.variant(&names, kept) else {
                     return;
                 };
-                let Some(variant) = variants.iter().find(|variant| variant.name == name) else {
+                let Some(kind) = kinds.iter().find(|kind| kind.name == name) else {
                     return;
                 };
                 let mut below = reading.base.clone();
                 if kept != Some(name) {
-                    *value = (variant.new)();
+                    *value = (kind.new)();
                     if let Some((preset, current)) = base.filter(|(preset, _)| *preset != UNKNOWN) {
                         inner.starts_anew(preset, current.name);
                     }
                     below = below.filter(|base| **base == *UNKNOWN);
                 }
-                Self::read_within(inner, below, |keys| (variant.declare)(value, keys));
-            }
-            Pass::Write { extent, block } => {
-                if let Some(variant) = current {
-                    let inner = fresh(*extent, value, &mut (variant.new)(), &variant.declare);
-                    block.kind(variant.name, inner);
-                }
-            }
-            Pass::Check(ranges) => {
-                if let Some(variant) = current {
-                    Self::check_inside(ranges, variant.name, |keys| (variant.declare)(value, keys));
-                }
+                Self::read_within(inner, below, |keys| (kind.declare)(value, keys));
             }
             Pass::Describe(schema) => {
-                describe_variants(schema, variants);
+                describe_kinds(schema, kinds);
                 schema.groups.push(Group {
-                    keys: variants.iter().map(|variant| variant.name).collect(),
+                    keys: kinds.iter().map(|kind| kind.name).collect(),
                     required: true,
                 });
             }
+            Pass::Write { .. } | Pass::Check(_) => self.present_kind(value, current),
         }
     }
 
     /// As [`Keys::kind`], but beside other keys, and where none of the blocks is there the value
     /// stays what it was.
-    pub fn kind_or_none<T>(&mut self, value: &mut T, variants: &[Variant<T>]) {
-        let current = variants.iter().find(|variant| (variant.is)(value));
-        let names: Vec<&'static str> = variants.iter().map(|variant| variant.name).collect();
-        let chosen = self.one_of_or_none(&names, current.map(|variant| variant.name));
+    pub fn kind_or_none<T: 'static>(&mut self, value: &mut T, variants: &[Variant<T>]) {
+        let kinds = choices(variants);
+        let current = kinds.iter().find(|kind| (kind.is)(value));
+        let names: Vec<&'static str> = kinds.iter().map(|kind| kind.name).collect();
+        let chosen = self.one_of_or_none(&names, current.map(|kind| kind.name));
         match &mut self.pass {
             Pass::Read(reading) => {
                 let name = chosen.first();
-                let variant = variants.iter().find(|variant| Some(&variant.name) == name);
-                let Some(variant) = variant else {
+                let Some(kind) = kinds.iter().find(|kind| Some(&kind.name) == name) else {
                     return;
                 };
-                let is_same = current.is_some_and(|current| current.name == variant.name);
+                let is_same = current.is_some_and(|current| current.name == kind.name);
                 if !is_same {
-                    *value = (variant.new)();
+                    *value = (kind.new)();
                 }
                 let base = reading.base.clone();
                 let base = base.filter(|base| is_same || **base == *UNKNOWN);
-                if let Some(inner) = reading.block.optional_block(variant.name) {
-                    Self::read_within(inner, base, |keys| (variant.declare)(value, keys));
+                if let Some(inner) = reading.block.optional_block(kind.name) {
+                    Self::read_within(inner, base, |keys| (kind.declare)(value, keys));
                 }
             }
+            Pass::Describe(schema) => describe_kinds(schema, &kinds),
+            Pass::Write { .. } | Pass::Check(_) => self.present_kind(value, current),
+        }
+    }
+
+    /// Writes or checks the block of the kind that the value has.
+    fn present_kind<T>(&mut self, value: &mut T, current: Option<&Choice<'_, T>>) {
+        let Some(kind) = current else {
+            return;
+        };
+        match &mut self.pass {
             Pass::Write { extent, block } => {
-                if let Some(variant) = current {
-                    let inner = fresh(*extent, value, &mut (variant.new)(), &variant.declare);
-                    block.kind(variant.name, inner);
-                }
+                let inner = fresh(*extent, value, &mut (kind.new)(), &kind.declare);
+                block.kind(kind.name, inner);
             }
             Pass::Check(ranges) => {
-                if let Some(variant) = current {
-                    Self::check_inside(ranges, variant.name, |keys| (variant.declare)(value, keys));
-                }
+                Self::check_inside(ranges, kind.name, |keys| (kind.declare)(value, keys));
             }
-            Pass::Describe(schema) => describe_variants(schema, variants),
+            Pass::Read(_) | Pass::Describe(_) => {}
         }
     }
 
@@ -188,15 +230,9 @@ impl Keys<'_> {
     }
 }
 
-fn describe_variants<T>(schema: &mut BlockSchema, variants: &[Variant<T>]) {
-    for variant in variants {
-        schema.add(EntrySchema {
-            key: variant.name.to_owned(),
-            about: variant.about,
-            required: false,
-            is: Is::Block(Keys::describe(|keys| {
-                (variant.declare)(&mut (variant.new)(), keys);
-            })),
-        });
+fn describe_kinds<T>(schema: &mut BlockSchema, kinds: &[Choice<'_, T>]) {
+    for kind in kinds {
+        let keys = Keys::describe(|keys| (kind.declare)(&mut (kind.new)(), keys));
+        schema.entry(kind.name, kind.about, false, Is::Block(keys));
     }
 }

@@ -4,7 +4,7 @@ use super::{Keys, Pass, fresh};
 use crate::inheritance;
 use crate::names::require_name;
 use crate::reader::Block;
-use crate::schema::{BlockSchema, EntrySchema, Is};
+use crate::schema::{BlockSchema, Is};
 use crate::tree::{Node, Value};
 use crate::values::{wrong_length, wrong_type};
 use crate::written::Written;
@@ -89,16 +89,16 @@ impl Keys<'_> {
                 let of = list.is_inside_itself.then_some(BlockSchema::default());
                 let of =
                     of.unwrap_or_else(|| Self::describe(|keys| declare(&mut (list.new)(), keys)));
-                schema.add(EntrySchema {
-                    key: name.to_owned(),
+                schema.entry(
+                    name,
                     about,
-                    required: false,
-                    is: Is::List {
+                    false,
+                    Is::List {
                         of,
                         most: list.most,
                         again: list.is_inside_itself,
                     },
-                });
+                );
             }
         }
     }
@@ -162,17 +162,17 @@ impl Keys<'_> {
                     Self::check_inside(ranges, &path, |keys| declare(one, keys));
                 }
             }
-            Pass::Describe(schema) => schema.add(EntrySchema {
-                key: name.to_owned(),
+            Pass::Describe(schema) => schema.entry(
+                name,
                 about,
-                required: list.required,
-                is: Is::Named(Self::describe(|keys| {
+                list.required,
+                Is::Named(Self::describe(|keys| {
                     if inheritance::SECTIONS.contains(&name) {
                         inheritance::describe(keys);
                     }
                     declare(&mut (list.new)("NAME"), keys);
                 })),
-            }),
+            ),
         }
     }
 }

@@ -113,10 +113,15 @@ fn demands(schema: &BlockSchema) -> Option<Json> {
         return None;
     }
     let json = Json::Object(json);
-    Some(if schema.get("preset").is_some() {
-        json!({ "if": { "required": ["preset"] }, "else": json })
-    } else {
-        json
+    // What a preset or another block has need not be there.
+    let has = |key: &str| schema.get(key).is_some();
+    Some(match (has("preset"), has("without")) {
+        (true, true) => {
+            let either = json!([{ "required": ["preset"] }, { "required": ["base"] }]);
+            json!({ "if": { "anyOf": either }, "else": json })
+        }
+        (true, false) => json!({ "if": { "required": ["preset"] }, "else": json }),
+        (false, _) => json,
     })
 }
 

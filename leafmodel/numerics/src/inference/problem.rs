@@ -52,12 +52,9 @@ pub enum BadProblem {
     /// No observation is fitted.
     #[error("no measure is fitted")]
     NothingFitted,
-    /// A parameter or an observation is there twice.
-    #[error("{name} is there twice")]
-    Twice {
-        /// Its name.
-        name: String,
-    },
+    /// A parameter or an observation is there twice (its name).
+    #[error("{0} is there twice")]
+    Twice(String),
     /// An observation is no number.
     #[error("{key} is {value}, not a finite number")]
     NotFinite {
@@ -66,12 +63,9 @@ pub enum BadProblem {
         /// Its value.
         value: f64,
     },
-    /// Too few simulations.
-    #[error("{simulations} simulations: {FEWEST} are the fewest, and 25 for each parameter")]
-    TooFew {
-        /// Their number.
-        simulations: usize,
-    },
+    /// Too few simulations (their number).
+    #[error("{0} simulations: {FEWEST} are the fewest, and 25 for each parameter")]
+    TooFew(usize),
 }
 
 /// How many simulations of which kind.
@@ -113,7 +107,7 @@ impl Problem {
             });
         }
         if simulations < FEWEST.max(25 * parameters.len()) {
-            return Err(BadProblem::TooFew { simulations });
+            return Err(BadProblem::TooFew(simulations));
         }
         Ok(Self {
             parameters,
@@ -174,9 +168,7 @@ impl Problem {
 fn no_twins(names: &mut [&str]) -> Result<(), BadProblem> {
     names.sort_unstable();
     match names.windows(2).find(|pair| pair[0] == pair[1]) {
-        Some(pair) => Err(BadProblem::Twice {
-            name: pair[0].to_owned(),
-        }),
+        Some(pair) => Err(BadProblem::Twice(pair[0].to_owned())),
         None => Ok(()),
     }
 }

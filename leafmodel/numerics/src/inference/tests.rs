@@ -289,5 +289,5 @@ fn problems_that_are_none_are_refused() {
     let nan = refused(vec![range("a")], seen(f64::NAN), 300);
     assert_eq!(nan.to_string(), "x is NaN, not a finite number");
     let few = refused(vec![range("a")], seen(1.0), 0);
-    assert_eq!(few, BadProblem::TooFew { simulations: 0 });
+    assert_eq!(few, BadProblem::TooFew(0));
 }

@@ -35,6 +35,14 @@ pub fn lengths<P: Point>(points: &[P]) -> Vec<f64> {
     std::iter::once(0.0).chain(pieces).collect()
 }
 
+/// The number of the point that is nearest to `p`, the first of several; 0 without points.
+pub fn nearest(points: &[DVec2], p: DVec2) -> usize {
+    let squared = |i: &usize| (points[*i] - p).length_squared();
+    let numbers = 0..points.len();
+    let nearest = numbers.min_by(|i, j| squared(i).total_cmp(&squared(j)));
+    nearest.unwrap_or(0)
+}
+
 /// The piece of a line that holds the place `at` of its lengths, by the number of the point where it
 /// ends, and where on it as a share. A piece without length has share 0.
 pub fn piece(lengths: &[f64], at: f64) -> (usize, f64) {

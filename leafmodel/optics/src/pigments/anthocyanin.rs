@@ -1,10 +1,12 @@
 //! Anthocyanins by aglycone.
 
 use super::bands::window;
-use super::{PigmentsError, shares, within};
+use super::shares;
+use document::declared::{Declared, Words};
+use document::keys::Keys;
 
 /// An anthocyanin by what remains of it without its sugar.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Words)]
 pub enum Aglycone {
     /// Orange-red.
     Pelargonidin,
@@ -21,28 +23,6 @@ pub enum Aglycone {
 }
 
 impl Aglycone {
-    /// All of them, in the order of shares.
-    pub const ALL: [Self; 6] = [
-        Self::Pelargonidin,
-        Self::Cyanidin,
-        Self::Peonidin,
-        Self::Delphinidin,
-        Self::Petunidin,
-        Self::Malvidin,
-    ];
-
-    /// As scenes spell it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pelargonidin => "pelargonidin",
-            Self::Cyanidin => "cyanidin",
-            Self::Peonidin => "peonidin",
-            Self::Delphinidin => "delphinidin",
-            Self::Petunidin => "petunidin",
-            Self::Malvidin => "malvidin",
-        }
-    }
-
     /// Peak in nm: Belitz, Grosch and Schieberle, Food Chemistry, table 18.22. Cyanidin's is that
     /// of PROSPECT-D's column.
     pub fn peak_nm(self) -> f64 {
@@ -92,87 +72,68 @@ impl Aglycone {
 /// Peak of PROSPECT-D's anthocyanin column, nm.
 const PROSPECT_PEAK_NM: f64 = 535.0;
 
-/// What the anthocyanin column consists of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AnthocyaninMix {
-    /// PROSPECT-D's column.
-    Prospect,
-    /// PROSPECT-D's band, moved in wavenumber to each aglycone's peak and scaled by `ε / M`.
-    Aglycones {
-        /// Shares by mass in the order of [`Aglycone::ALL`], ≥ 0, sum 1.
-        shares: [f64; 6],
-        /// How far stacking and co-pigments move the peaks towards the red, nm, 0 to 45.
-        shift_nm: f64,
-        /// Share in the blue, quinonoidal form, 0 to 1.
-        blue_fraction: f64,
-    },
+/// Shares of anthocyanins where none is named: cyanidin, that of most leaves.
+const CYANIDIN: [f64; 6] = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+
+/// PROSPECT-D's band, moved in wavenumber to each aglycone's peak and scaled by `ε / M`.
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
+pub struct AnthocyaninMix {
+    /// How far stacking and co-pigments move the peaks towards the red.
+    #[key("shift_nm", 0.0..=45.0)]
+    pub shift_nm: f64,
+    /// Share in the blue form with its peak at 585 nm; its height is assumed to be the red form's.
+    #[key("blue_fraction", 0.0..=1.0)]
+    pub blue_fraction: f64,
+    /// Shares by mass in the order of [`Aglycone::WORDS`], ≥ 0, sum 1.
+    #[key(with = named_shares)]
+    pub shares: [f64; 6],
+}
+
+impl Default for AnthocyaninMix {
+    fn default() -> Self {
+        Self {
+            shift_nm: 0.0,
+            blue_fraction: 0.0,
+            shares: CYANIDIN,
+        }
+    }
+}
+
+fn named_shares(mix: &mut AnthocyaninMix, keys: &mut Keys<'_>) {
+    let mut named = (mix.shares != CYANIDIN).then_some(mix.shares);
+    let new = || [0.0; 6];
+    keys.optional_block("shares", &mut named, new, "Shares by mass.", |of, keys| {
+        shares::<Aglycone, 6>(of, "anthocyanins", keys);
+    });
+    mix.shares = named.unwrap_or(CYANIDIN);
 }
 
 impl AnthocyaninMix {
     /// Peak of the quinonoidal form, nm: the middle of the 570 to 600 nm that are given for it.
     pub const BLUE_PEAK_NM: f64 = 585.0;
 
-    /// Specific absorption, cm² µg⁻¹, where the column is not PROSPECT's own, from that column by
-    /// wavelength. The blue form is taken to have the band's height: an assumption.
-    pub(crate) fn specific(&self, nm: f64, prospect: impl Fn(f64) -> f64) -> Option<f64> {
-        match self {
-            Self::Prospect => None,
-            Self::Aglycones {
-                shares,
-                shift_nm,
-                blue_fraction,
-            } => {
-                let moved = |peak_nm: f64| {
-                    if peak_nm == PROSPECT_PEAK_NM {
-                        return prospect(nm);
-                    }
-                    let source = 1e7 / (1e7 / nm + 1e7 / PROSPECT_PEAK_NM - 1e7 / peak_nm);
-                    prospect(source) * window(source, [400.0, 689.0])
-                };
-                let blue = if *blue_fraction > 0.0 {
-                    moved(Self::BLUE_PEAK_NM)
-                } else {
-                    0.0
-                };
-                let sum = Aglycone::ALL
-                    .iter()
-                    .zip(shares)
-                    .filter(|(_, share)| **share > 0.0)
-                    .map(|(aglycone, share)| {
-                        let red = moved(aglycone.peak_nm() + shift_nm);
-                        let both = (1.0 - blue_fraction) * red + blue_fraction * blue;
-                        share * aglycone.height() * both
-                    })
-                    .sum();
-                Some(sum)
+    /// Specific absorption, cm² µg⁻¹, from PROSPECT's own column by wavelength. The blue form is
+    /// taken to have the band's height: an assumption.
+    pub(crate) fn specific(&self, nm: f64, prospect: impl Fn(f64) -> f64) -> f64 {
+        let moved = |peak_nm: f64| {
+            if peak_nm == PROSPECT_PEAK_NM {
+                return prospect(nm);
             }
-        }
-    }
-
-    pub(super) fn check(&self) -> Result<(), PigmentsError> {
-        match self {
-            Self::Prospect => Ok(()),
-            Self::Aglycones {
-                shares: of,
-                shift_nm,
-                blue_fraction,
-            } => {
-                shares("anthocyanin shares", of)?;
-                let shift_good = (0.0..=45.0).contains(shift_nm);
-                within(
-                    "anthocyanin shift_nm",
-                    *shift_nm,
-                    shift_good,
-                    "from 0 to 45",
-                )?;
-                let blue_good = (0.0..=1.0).contains(blue_fraction);
-                within(
-                    "anthocyanin blue_fraction",
-                    *blue_fraction,
-                    blue_good,
-                    "from 0 to 1",
-                )
-            }
-        }
+            let source = 1e7 / (1e7 / nm + 1e7 / PROSPECT_PEAK_NM - 1e7 / peak_nm);
+            prospect(source) * window(source, [400.0, 689.0])
+        };
+        let blue = if self.blue_fraction > 0.0 {
+            moved(Self::BLUE_PEAK_NM)
+        } else {
+            0.0
+        };
+        let each = Aglycone::WORDS.iter().zip(self.shares);
+        each.filter(|(_, share)| *share > 0.0)
+            .map(|((_, aglycone), share)| {
+                let red = moved(aglycone.peak_nm() + self.shift_nm);
+                let both = (1.0 - self.blue_fraction) * red + self.blue_fraction * blue;
+                share * aglycone.height() * both
+            })
+            .sum()
     }
 }

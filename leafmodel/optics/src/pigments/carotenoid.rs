@@ -1,10 +1,12 @@
 //! Carotenoids, one by one.
 
 use super::bands::Bands;
-use super::{PigmentsError, packaging, shares, shift_per_cm};
+use super::shares;
+use document::declared::{Declared, Words};
+use document::keys::Keys;
 
 /// A carotenoid for which there is a spectrum.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Words)]
 pub enum Carotenoid {
     /// β-carotene.
     BetaCarotene,
@@ -19,26 +21,6 @@ pub enum Carotenoid {
 }
 
 impl Carotenoid {
-    /// All of them, in the order of shares.
-    pub const ALL: [Self; 5] = [
-        Self::BetaCarotene,
-        Self::Lutein,
-        Self::Zeaxanthin,
-        Self::Violaxanthin,
-        Self::Lycopene,
-    ];
-
-    /// As scenes spell it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::BetaCarotene => "beta_carotene",
-            Self::Lutein => "lutein",
-            Self::Zeaxanthin => "zeaxanthin",
-            Self::Violaxanthin => "violaxanthin",
-            Self::Lycopene => "lycopene",
-        }
-    }
-
     /// In methanol, from the plots of `LipidBank` as the R package `photobiologyPlants` carries
     /// them; the fit is ours, absolute heights unverified.
     pub(super) fn in_solution(self) -> Bands {
@@ -103,20 +85,30 @@ impl Carotenoid {
     }
 }
 
-/// What the carotenoid column consists of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CarotenoidMix {
-    /// PROSPECT-D's column.
-    Prospect,
-    /// Single carotenoids from their bands in solution.
-    Bands {
-        /// Shares by mass in the order of [`Carotenoid::ALL`], ≥ 0, sum 1.
-        shares: [f64; 5],
-        /// Shift of all bands from methanol to leaf, cm⁻¹, −3000 to 3000.
-        shift_per_cm: f64,
-        /// In-leaf over in-solution absorptivity, in (0, 1].
-        packaging: f64,
-    },
+/// Single carotenoids from their bands in solution.
+#[derive(Clone, Copy, Debug, Declared, PartialEq)]
+pub struct CarotenoidMix {
+    /// Shift of the bands from solution to leaf.
+    #[key("shift_per_cm", -3000.0..=3000.0)]
+    pub shift_per_cm: f64,
+    /// Absorptivity in the leaf over that in solution.
+    #[key("packaging", above(0.0, 1.0))]
+    pub packaging: f64,
+    /// Shares by mass.
+    ///
+    /// In the order of [`Carotenoid::WORDS`], ≥ 0, sum 1.
+    #[key("shares", required, block, with = carotenoids)]
+    pub shares: [f64; 5],
+}
+
+fn carotenoids(of: &mut [f64; 5], keys: &mut Keys<'_>) {
+    shares::<Carotenoid, 5>(of, "carotenoids", keys);
+}
+
+impl Default for CarotenoidMix {
+    fn default() -> Self {
+        Self::bands([0.0; 5])
+    }
 }
 
 impl CarotenoidMix {
@@ -126,50 +118,22 @@ impl CarotenoidMix {
     /// PROSPECT-D's 0.1699 cm² µg⁻¹ at 444 nm over that of lutein in solution: an assumption.
     pub const PACKAGING: f64 = 0.29;
 
-    /// With the usual shift and packaging.
+    /// With the default shift and packaging.
     pub fn bands(shares: [f64; 5]) -> Self {
-        Self::Bands {
+        Self {
             shares,
             shift_per_cm: Self::SHIFT_PER_CM,
             packaging: Self::PACKAGING,
         }
     }
 
-    /// Specific absorption, cm² µg⁻¹, where the column is not PROSPECT's own.
-    pub(crate) fn specific(&self, nm: f64) -> Option<f64> {
-        match self {
-            Self::Prospect => None,
-            Self::Bands {
-                shares,
-                shift_per_cm,
-                packaging,
-            } => Some(
-                Carotenoid::ALL
-                    .iter()
-                    .zip(shares)
-                    .map(|(carotenoid, share)| {
-                        share
-                            * carotenoid
-                                .in_solution()
-                                .specific(nm, *shift_per_cm, *packaging)
-                    })
-                    .sum(),
-            ),
-        }
-    }
-
-    pub(super) fn check(&self) -> Result<(), PigmentsError> {
-        match self {
-            Self::Prospect => Ok(()),
-            Self::Bands {
-                shares: of,
-                shift_per_cm: shift,
-                packaging: factor,
-            } => {
-                shares("carotenoid shares", of)?;
-                shift_per_cm("carotenoid shift_per_cm", *shift)?;
-                packaging("carotenoid packaging", *factor)
-            }
-        }
+    /// Specific absorption, cm² µg⁻¹.
+    pub(crate) fn specific(&self, nm: f64) -> f64 {
+        let each = Carotenoid::WORDS.iter().zip(self.shares);
+        each.map(|((_, carotenoid), share)| {
+            let bands = carotenoid.in_solution();
+            share * bands.specific(nm, self.shift_per_cm, self.packaging)
+        })
+        .sum()
     }
 }

@@ -3,6 +3,7 @@
 use super::chlorophyll;
 use super::{Aglycone, AnthocyaninMix, Carotenoid, CarotenoidMix, ChlorophyllMix, Pigments};
 use crate::betalains::{self, Betacyanin, Betaxanthin};
+use document::declared::Words;
 
 /// How far a figure can be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,10 +113,10 @@ fn plastid(figures: &mut List) {
         Basis::Assumed,
         "PROSPECT-D's red peak over that in solution",
     );
-    for carotenoid in Carotenoid::ALL {
+    for (name, carotenoid) in Carotenoid::WORDS {
         let bands = carotenoid.in_solution();
         figures.add(
-            format!("{}, peak in methanol", carotenoid.name()),
+            format!("{name}, peak in methanol"),
             bands.epsilon,
             EPSILON,
             Basis::Unverified,
@@ -140,9 +141,9 @@ fn plastid(figures: &mut List) {
 
 /// Of pigments in vacuoles.
 fn vacuolar(figures: &mut List) {
-    for aglycone in Aglycone::ALL {
+    for (name, aglycone) in Aglycone::WORDS {
         figures.add(
-            format!("{}, peak", aglycone.name()),
+            format!("{name}, peak"),
             aglycone.peak_nm(),
             "nm",
             Basis::Verified,
@@ -160,7 +161,7 @@ fn vacuolar(figures: &mut List) {
             Aglycone::Malvidin => (Basis::Unverified, "at 520 nm"),
         };
         figures.add(
-            format!("{}-3-glucoside, peak", aglycone.name()),
+            format!("{name}-3-glucoside, peak"),
             aglycone.epsilon(),
             EPSILON,
             basis,

@@ -6,6 +6,7 @@ use super::super::mesh::vertex_normals;
 use super::super::stalk::StalkMesh;
 use crate::document::declared::Declared;
 use crate::numeric::smooth_step;
+use crate::plane::polyline;
 
 /// Cosines of the angles from the adaxial side at which a groove begins and is deepest.
 const GROOVE: [f64; 2] = [0.55, 0.95];
@@ -50,10 +51,7 @@ impl Section {
             return;
         }
         let last = points.len() - 1;
-        let mut whole = vec![0.0];
-        for pair in points.windows(2) {
-            whole.push(whole[whole.len() - 1] + pair[0].distance(pair[1]));
-        }
+        let whole = polyline::lengths(points);
         let length = whole[last];
         let mut nearest = 0;
         for (position, uv) in tube.positions.iter_mut().zip(&tube.uvs) {

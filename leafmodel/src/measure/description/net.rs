@@ -53,7 +53,7 @@ pub enum Veinlets {
 }
 
 /// What the net alone tells.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Net {
     /// Areoles per mm².
     pub areoles_per_mm2: f64,

@@ -1,9 +1,8 @@
 //! A description in words.
 
 use super::{Areolation, Description, MarginalVenation, Veinlets};
-use crate::venation::architecture::{
-    Agrophic, Attachment, PrimaryPattern, QuaternaryCourse, SecondaryEnding, SecondarySpacing,
-};
+use crate::document::declared::Words;
+use crate::venation::architecture::{Agrophic, PrimaryPattern};
 
 impl Description {
     /// Lines of text, one for each group of veins.
@@ -26,37 +25,29 @@ impl Description {
     }
 
     fn primaries_text(&self) -> Option<String> {
-        let pattern = match self.primaries? {
-            PrimaryPattern::Pinnate => "pinnate".to_owned(),
-            kind @ (PrimaryPattern::Actinodromous
-            | PrimaryPattern::Palinactinodromous
-            | PrimaryPattern::Acrodromous
-            | PrimaryPattern::Parallelodromous
-            | PrimaryPattern::Campylodromous
-            | PrimaryPattern::Flabellate) => {
-                let place = match self.part_at {
-                    Some(at) if at > 0.02 => "suprabasal",
-                    Some(_) | None => "basal",
-                };
-                let count = self.lateral_primaries + 1;
-                format!("{place} {}, {count} primaries", name(kind))
-            }
+        let pattern = self.primaries?;
+        let words = if pattern == PrimaryPattern::Pinnate {
+            pattern.word().to_owned()
+        } else {
+            let place = match self.part_at {
+                Some(at) if at > 0.02 => "suprabasal",
+                Some(_) | None => "basal",
+            };
+            let count = self.lateral_primaries + 1;
+            format!("{place} {}, {count} primaries", pattern.word())
         };
         let course = match self.midrib_over_chord {
             Some(ratio) if ratio <= 1.02 => "straight",
             Some(_) | None => "winding",
         };
-        Some(format!("primary veins: {pattern}; midrib {course}"))
+        Some(format!("primary veins: {words}; midrib {course}"))
     }
 
     fn secondaries_text(&self) -> Option<String> {
-        let ending = match self.ending? {
-            SecondaryEnding::Craspedodromous => "craspedodromous",
-            SecondaryEnding::Sinus => "ending in sinuses",
-            SecondaryEnding::Semicraspedodromous => "semicraspedodromous",
-            SecondaryEnding::Eucamptodromous => "eucamptodromous",
-            SecondaryEnding::Brochidodromous => "brochidodromous",
-            SecondaryEnding::Festooned => "festooned brochidodromous",
+        let ending = match self.ending?.word() {
+            "sinus" => "ending in sinuses",
+            "festooned" => "festooned brochidodromous",
+            word => word,
         };
         let [right, left] = self.secondaries;
         let pairs = if right == left {
@@ -69,12 +60,7 @@ impl Description {
             Some(false) => ", curved",
             None => "",
         };
-        let spacing = match self.spacing {
-            Some(SecondarySpacing::Regular) => ", spacing regular",
-            Some(SecondarySpacing::IncreasingProximally) => ", spacing increasing proximally",
-            Some(SecondarySpacing::DecreasingProximally) => ", spacing decreasing proximally",
-            None => "",
-        };
+        let spacing = after_comma("spacing ", self.spacing);
         let thirds = ["below", "in the middle", "above"];
         let angles: Vec<String> = thirds
             .iter()
@@ -86,11 +72,7 @@ impl Description {
             Some(_) | None => String::new(),
         };
         let angles = angles.join(", ");
-        let attachment = match self.attachment {
-            Some(Attachment::Excurrent) => ", excurrent",
-            Some(Attachment::Decurrent) => ", decurrent",
-            None => "",
-        };
+        let attachment = after_comma("", self.attachment);
         Some(format!(
             "secondary veins: {ending}, {pairs}{attachment}{course}{spacing}; angle {angles}{between}"
         ))
@@ -98,12 +80,8 @@ impl Description {
 
     fn agrophic_text(&self) -> Option<String> {
         self.primaries?;
-        let words = match self.agrophic {
-            Agrophic::Absent => return None,
-            Agrophic::Simple => "simple",
-            Agrophic::Compound => "compound",
-        };
-        Some(format!("agrophic veins: {words}"))
+        let words = words(&self.agrophic);
+        (self.agrophic != Agrophic::Absent).then(|| format!("agrophic veins: {words}"))
     }
 
     fn tertiaries_text(&self) -> Option<String> {
@@ -124,12 +102,7 @@ impl Description {
     }
 
     fn quaternaries_text(&self) -> Option<String> {
-        let words = match self.quaternaries.quaternary_course()? {
-            QuaternaryCourse::Reticulate => "reticulate",
-            QuaternaryCourse::OppositePercurrent => "opposite percurrent",
-            QuaternaryCourse::AlternatePercurrent => "alternate percurrent",
-            QuaternaryCourse::FreelyRamified => "freely ramified",
-        };
+        let words = words(&self.quaternaries.quaternary_course()?);
         Some(format!("quaternary veins: {words}"))
     }
 
@@ -173,14 +146,12 @@ impl Description {
     }
 }
 
-fn name(pattern: PrimaryPattern) -> &'static str {
-    match pattern {
-        PrimaryPattern::Pinnate => "pinnate",
-        PrimaryPattern::Actinodromous => "actinodromous",
-        PrimaryPattern::Palinactinodromous => "palinactinodromous",
-        PrimaryPattern::Acrodromous => "acrodromous",
-        PrimaryPattern::Parallelodromous => "parallelodromous",
-        PrimaryPattern::Campylodromous => "campylodromous",
-        PrimaryPattern::Flabellate => "flabellate",
-    }
+/// The word for one of several, as it is read.
+fn words(of: &(impl Words + PartialEq)) -> String {
+    of.word().replace('_', " ")
+}
+
+/// The same behind a comma and a noun.
+fn after_comma(noun: &str, of: Option<impl Words + PartialEq>) -> String {
+    of.map_or_else(String::new, |of| format!(", {noun}{}", words(&of)))
 }

@@ -32,12 +32,6 @@ pub(super) struct Tracer<'a> {
     topology: Topology<'a>,
 }
 
-/// The nodes at both ends of each edge.
-pub(super) fn ends(network: &VenationNetwork) -> Vec<[u32; 2]> {
-    let edges = network.edges().iter();
-    edges.map(|edge| [edge.from, edge.to]).collect()
-}
-
 impl<'a> Tracer<'a> {
     /// `ends` are those of the network's edges.
     pub(super) fn new(

@@ -139,10 +139,8 @@ fn a_ramp_that_winds_over_itself_is_cut() {
 #[test]
 fn atlases_that_are_too_small_are_refused() {
     let ball = surface(sphere(30.0, 3.0).expect("good sizes"));
-    assert_eq!(
-        Atlas::new(&ball, 8, 2),
-        Err(AtlasError::Texels { texels: 8 })
-    );
+    let few = Atlas::new(&ball, 8, 2).expect_err("too few texels");
+    assert!(few.to_string().contains("of 8 texels"), "{few}");
     let small = Atlas::new(&ball, 16, 8).expect_err("no room for gutters");
     assert!(small.to_string().contains("do not fit"));
 }

@@ -2,140 +2,178 @@
 
 use std::f64::consts::TAU;
 
-use super::{ControlError, check};
+use crate::document::declared::{Declared, Kinds};
+use crate::document::keys::Keys;
+use crate::document::limits::Limits;
+use crate::document::named_asset::decoded;
+use crate::document::ranges::RangeError;
+use crate::document::value_kind::{Number, Text};
+use crate::not_grown::{NotGrown, not_grown};
 use crate::random::{Use, uniform};
 
 /// A grey image on a cylinder, values 0 to 1, whose left and right edges are joined.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, PartialEq)]
 pub enum ControlImage {
-    /// One value everywhere, 0 to 1.
+    /// The same value everywhere.
+    #[key(skip)]
     Constant(f64),
-    /// Pixels; values are interpolated between their centres.
-    Picture {
-        /// Name of its file in the scene; empty if there is none.
-        file: String,
-        /// Pixels round the axis.
-        width: usize,
-        /// Pixels along the axis.
-        height: usize,
-        /// Values, 0 to 1, in rows from left (angle 0) to right; the first row lies at the end of
-        /// the axis, the last at its start.
-        values: Vec<f64>,
-    },
-    /// White stripes along the axis on black.
+    /// The grey of a PNG.
+    ///
+    /// Values are interpolated between the centres of pixels.
+    Picture(Pixels),
+    /// `count`, `share` (0.5), `waviness` (0), `bends` (4), `seed` (0): along the axis.
+    ///
+    /// They are white on black.
     Stripes {
-        /// Number of stripes around the axis, 1 to 10000.
+        /// Stripes around.
+        #[key("count", required, 1..=10_000, default = 1)]
         count: u32,
-        /// Width of a stripe over the distance between stripes, 0 to 1.
+        /// Share of the width that is white.
+        #[key("share", 0.0..=1.0, default = 0.5)]
         share: f64,
-        /// Greatest deviation of a stripe to either side, over the distance between stripes, 0 to
-        /// (1 − share)/2.
+        /// How far they wander, in distances of stripes.
+        #[key("waviness", within(Limits::closed(0.0, (1.0 - *share) / 2.0)))]
         waviness: f64,
-        /// Number of bends from end to end, 0 to 1000.
+        /// Bends from end to end.
+        #[key("bends", 0.0..=1000.0, default = 4.0)]
         bends: f64,
         /// Seed of the bends.
+        #[key("seed")]
         seed: u64,
     },
-    /// White rings around the axis on black.
+    /// `count`, `share` (0.5): about it.
+    ///
+    /// They are white on black.
     Rings {
-        /// Number of rings along the axis, 1 to 10000.
+        /// Rings from end to end.
+        #[key("count", required, 1..=10_000, default = 1)]
         count: u32,
-        /// Width of a ring over the distance between rings, 0 to 1.
+        /// Share of the height that is white.
+        #[key("share", 0.0..=1.0, default = 0.5)]
         share: f64,
     },
-    /// Smooth noise.
+    /// Noise.
+    ///
+    /// It is smooth.
     Noise {
-        /// Number of features around the axis, 1 to 10000. Features are as high as wide if the
-        /// cylinder is as high as its girth.
+        /// Patches around.
+        ///
+        /// They are as high as wide if the cylinder is as high as its girth.
+        #[key("around", required, 1..=10_000, default = 1)]
         around: u32,
-        /// Layers of noise, each twice as fine and half as strong as the one before, 1 to 10.
+        /// Octaves of ever finer patches.
+        ///
+        /// Each is twice as fine and half as strong as the one before.
+        #[key("octaves", 1..=10, default = 1)]
         octaves: u32,
-        /// Threshold: values above are white, those below black; `None` leaves them grey.
+        /// Noise above it is white, below black; left out, grey.
+        #[key("threshold", 0.0..=1.0)]
         threshold: Option<f64>,
         /// Seed of the noise.
+        #[key("seed")]
         seed: u64,
     },
 }
 
-impl ControlImage {
-    pub(super) fn validate(&self) -> Result<(), ControlError> {
-        let unit = |field, value: f64| check(field, value, (0.0..=1.0).contains(&value), "0 to 1");
-        let count = |field, value: u32, most: u32, range| {
-            check(field, f64::from(value), (1..=most).contains(&value), range)
-        };
-        match self {
-            Self::Constant(value) => unit("value", *value),
-            Self::Picture {
-                width,
-                height,
-                values,
-                ..
-            } => {
-                if width * height != values.len() || values.is_empty() {
-                    return Err(ControlError::PictureSize {
-                        width: *width,
-                        height: *height,
-                        values: values.len(),
-                    });
-                }
-                values
-                    .iter()
-                    .try_for_each(|&value| unit("picture's value", value))
-            }
-            Self::Stripes {
-                count: stripes,
-                share,
-                waviness,
-                bends,
-                ..
-            } => {
-                count("number of stripes", *stripes, 10_000, "1 to 10000")?;
-                unit("share", *share)?;
-                // With a little tolerance for rounding.
-                let room = (1.0 - share) / 2.0 + 1e-12;
-                check(
-                    "waviness",
-                    *waviness,
-                    (0.0..=room).contains(waviness),
-                    "0 to (1 − share)/2",
-                )?;
-                check(
-                    "number of bends",
-                    *bends,
-                    (0.0..=1000.0).contains(bends),
-                    "0 to 1000",
-                )
-            }
-            Self::Rings {
-                count: rings,
-                share,
-            } => {
-                count("number of rings", *rings, 10_000, "1 to 10000")?;
-                unit("share", *share)
-            }
-            Self::Noise {
-                around,
-                octaves,
-                threshold,
-                ..
-            } => {
-                count("number of features", *around, 10_000, "1 to 10000")?;
-                count("number of octaves", *octaves, 10, "1 to 10")?;
-                threshold.map_or(Ok(()), |threshold| unit("threshold", threshold))
-            }
+/// The picture of a file.
+#[derive(Clone, Debug, Declared, PartialEq)]
+pub struct Pixels {
+    /// The picture.
+    ///
+    /// Its name in the scene; empty if there is no file.
+    #[key(with = picture_file)]
+    pub file: String,
+    /// Pixels round the axis.
+    pub width: usize,
+    /// Values, 0 to 1, in rows from left (angle 0) to right; the first row lies at the end of
+    /// the axis, the last at its start.
+    pub values: Vec<f64>,
+}
+
+impl Default for Pixels {
+    fn default() -> Self {
+        Self {
+            file: String::new(),
+            width: 1,
+            values: Vec::new(),
         }
+    }
+}
+
+fn picture_file(pixels: &mut Pixels, keys: &mut Keys<'_>) {
+    let before = pixels.file.clone();
+    let path = Text("the path of a PNG file");
+    keys.required("path", &mut pixels.file, path, "The picture.");
+    if pixels.file == before {
+        return;
+    }
+    let read = decoded(keys, "path", &["png"], |assets, file| {
+        assets.weights(file).map_err(|error| {
+            let problem = format!("cannot be read: {error}");
+            (problem, "save it anew as a PNG")
+        })
+    });
+    if let Some(raster) = read {
+        pixels.width = raster.width;
+        pixels.values = raster.values.into_iter().map(f64::from).collect();
+    }
+}
+
+/// The keys of an image, one of which is there.
+pub(super) fn image(image: &mut ControlImage, keys: &mut Keys<'_>) {
+    const IMAGES: [&str; 5] = ["picture", "stripes", "rings", "noise", "constant"];
+    let current = ControlImage::KINDS.iter().find(|kind| (kind.is)(image));
+    let current = current.map_or("constant", |kind| kind.name);
+    let has_base = keys.base().is_some();
+    for name in keys.one_of(&IMAGES, Some(current)) {
+        let is_new =
+            name != current || (keys.reader().is_some() && !has_base) || keys.is_description();
+        if let Some(kind) = ControlImage::KINDS.iter().find(|kind| kind.name == name) {
+            if is_new {
+                *image = (kind.new)();
+            }
+            keys.required_block(name, kind.about, &[], |keys| (kind.declare)(image, keys));
+        } else {
+            let mut value = 0.0;
+            if let ControlImage::Constant(current) = image
+                && !is_new
+            {
+                value = *current;
+            }
+            let limits = Number(Limits::closed(0.0, 1.0));
+            keys.required("constant", &mut value, limits, "The same value everywhere.");
+            *image = ControlImage::Constant(value);
+        }
+    }
+}
+
+impl ControlImage {
+    pub(super) fn validate(&self) -> Result<(), NotGrown> {
+        let Self::Picture(Pixels { width, values, .. }) = self else {
+            return Ok(());
+        };
+        if values.is_empty() || !values.len().is_multiple_of(*width) {
+            return Err(not_grown!(
+                "its picture of {width} pixels across has {} values",
+                values.len()
+            ));
+        }
+        let dark = values.iter().find(|value| !(0.0..=1.0).contains(*value));
+        dark.map_or(Ok(()), |&value| {
+            Ok(RangeError::unless(
+                false,
+                "picture's value",
+                value,
+                "0 to 1",
+            )?)
+        })
     }
 
     /// The value at an angle (over `2π`, 0 to 1) and a height (0 to 1).
     pub fn value(&self, turn: f64, height: f64) -> f64 {
         match self {
             Self::Constant(value) => *value,
-            Self::Picture {
-                width,
-                height: rows,
-                values,
-                ..
-            } => picture(*width, *rows, values, turn, height),
+            Self::Picture(pixels) => pixels.value(turn, height),
             Self::Stripes {
                 count,
                 share,
@@ -177,17 +215,21 @@ fn white(is_white: bool) -> f64 {
     f64::from(u8::from(is_white))
 }
 
-fn picture(width: usize, rows: usize, values: &[f64], turn: f64, height: f64) -> f64 {
-    let x = turn * width as f64 - 0.5;
-    let y = ((1.0 - height) * rows as f64 - 0.5).clamp(0.0, (rows - 1) as f64);
-    let (left, top) = (x.floor(), y.floor());
-    let (s, t) = (x - left, y - top);
-    let column = |offset: i64| (left as i64 + offset).rem_euclid(width as i64) as usize;
-    let row = |offset: usize| (top as usize + offset).min(rows - 1);
-    let at = |i: i64, j: usize| values[row(j) * width + column(i)];
-    let above = at(0, 0) * (1.0 - s) + at(1, 0) * s;
-    let below = at(0, 1) * (1.0 - s) + at(1, 1) * s;
-    above * (1.0 - t) + below * t
+impl Pixels {
+    fn value(&self, turn: f64, height: f64) -> f64 {
+        let Self { width, values, .. } = self;
+        let rows = values.len() / width;
+        let x = turn * *width as f64 - 0.5;
+        let y = ((1.0 - height) * rows as f64 - 0.5).clamp(0.0, (rows - 1) as f64);
+        let (left, top) = (x.floor(), y.floor());
+        let (s, t) = (x - left, y - top);
+        let column = |offset: i64| (left as i64 + offset).rem_euclid(*width as i64) as usize;
+        let row = |offset: usize| (top as usize + offset).min(rows - 1);
+        let at = |i: i64, j: usize| values[row(j) * width + column(i)];
+        let above = at(0, 0) * (1.0 - s) + at(1, 0) * s;
+        let below = at(0, 1) * (1.0 - s) + at(1, 1) * s;
+        above * (1.0 - t) + below * t
+    }
 }
 
 /// A smooth curve through random numbers at the integers, 0 to 1.

@@ -1,3 +1,4 @@
+use super::image::Pixels;
 use super::*;
 
 fn about_z(image: ControlImage) -> CylinderControl {
@@ -12,12 +13,11 @@ fn about_z(image: ControlImage) -> CylinderControl {
 
 #[test]
 fn angle_and_height_say_where_in_the_picture_a_point_lies() {
-    let picture = ControlImage::Picture {
+    let picture = ControlImage::Picture(Pixels {
         file: String::new(),
         width: 4,
-        height: 2,
         values: vec![0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7],
-    };
+    });
     let control = about_z(picture);
     // The middle of the first pixel lies an eighth of a turn from +x; the first row is the upper
     // one.
@@ -130,17 +130,16 @@ fn what_a_control_has_wrong_is_named() {
         "it steers type 2, but there are 2 types (from 0)"
     );
     assert_eq!(
-        refused(about_z(ControlImage::Picture {
+        refused(about_z(ControlImage::Picture(Pixels {
             file: String::new(),
             width: 3,
-            height: 2,
             values: vec![0.5; 5]
-        })),
-        "its picture of 3 × 2 pixels has 5 values"
+        }))),
+        "its picture of 3 pixels across has 5 values"
     );
     assert_eq!(
         refused(about_z(ControlImage::Constant(2.0))),
-        "its value is 2, outside 0 to 1"
+        "constant is 2, outside 0 to 1"
     );
 }
 

@@ -2,17 +2,18 @@
 
 use glam::DVec3;
 
-use super::{NONE, SurfaceError};
+use super::NONE;
+use crate::not_grown::{NotGrown, not_grown};
 
 /// Greatest number of vertices or faces; beyond it, edge numbers would overflow.
 const MOST: usize = 1 << 30;
 
-pub(super) fn check_finite(positions: &[DVec3]) -> Result<(), SurfaceError> {
+pub(super) fn check_finite(positions: &[DVec3]) -> Result<(), NotGrown> {
     match positions.iter().position(|at| !at.is_finite()) {
-        Some(vertex) => Err(SurfaceError::NotFinite {
-            vertex,
-            at: positions[vertex],
-        }),
+        Some(vertex) => Err(not_grown!(
+            "vertex {vertex} is at {at}, which is not finite",
+            at = positions[vertex]
+        )),
         None => Ok(()),
     }
 }
@@ -22,21 +23,22 @@ pub(super) fn check_finite(positions: &[DVec3]) -> Result<(), SurfaceError> {
 pub(super) fn welded(
     positions: Vec<DVec3>,
     mut faces: Vec<[u32; 3]>,
-) -> Result<(Vec<DVec3>, Vec<[u32; 3]>), SurfaceError> {
+) -> Result<(Vec<DVec3>, Vec<[u32; 3]>), NotGrown> {
     if faces.is_empty() {
-        return Err(SurfaceError::Empty);
+        return Err(NotGrown::because("the mesh has no faces"));
     }
     let count = faces.len().max(positions.len());
     if count > MOST {
-        return Err(SurfaceError::TooLarge { count });
+        return Err(not_grown!(
+            "the mesh has {count} faces or vertices, more than 2³⁰"
+        ));
     }
     for (face, corners) in faces.iter().enumerate() {
         if let Some(&vertex) = corners.iter().find(|&&id| id as usize >= positions.len()) {
-            return Err(SurfaceError::NoSuchVertex {
-                face,
-                vertex,
-                vertices: positions.len(),
-            });
+            return Err(not_grown!(
+                "face {face} names vertex {vertex}, but there are {vertices} (from 0)",
+                vertices = positions.len()
+            ));
         }
     }
     check_finite(&positions)?;
@@ -74,7 +76,7 @@ pub(super) fn pair(
     positions: &[DVec3],
     faces: &[[u32; 3]],
     keys: &[[u64; 3]],
-) -> Result<Pairs, SurfaceError> {
+) -> Result<Pairs, NotGrown> {
     let mut edges: Vec<(u64, u32, u8)> = Vec::with_capacity(3 * faces.len());
     for (face, keys) in keys.iter().enumerate() {
         for (edge, &key) in keys.iter().enumerate() {
@@ -88,11 +90,13 @@ pub(super) fn pair(
         let (_, face, edge) = group[0];
         let (start, end) = ends(faces, face, edge);
         if group.len() > 2 {
-            return Err(SurfaceError::NotManifold {
-                from: positions[start as usize],
-                to: positions[end as usize],
-                faces: group.iter().map(|&(_, face, _)| face).collect(),
-            });
+            let (from, to) = (positions[start as usize], positions[end as usize]);
+            let faces: Vec<u32> = group.iter().map(|&(_, face, _)| face).collect();
+            return Err(not_grown!(
+                "not a manifold: the edge from {from} mm to {to} mm has {} faces ({})",
+                faces.len(),
+                list(&faces)
+            ));
         }
         let Some(&(_, other, theirs)) = group.get(1) else {
             continue;
@@ -100,11 +104,11 @@ pub(super) fn pair(
         // A degenerate face may have an edge twice; it has no area, which is detected when the
         // faces are flattened.
         if face != other && ends(faces, other, theirs).0 == start {
-            return Err(SurfaceError::OppositeOrientation {
-                from: positions[start as usize],
-                to: positions[end as usize],
-                faces: [face, other],
-            });
+            let (from, to) = (positions[start as usize], positions[end as usize]);
+            return Err(not_grown!(
+                "faces {face} and {other} are of opposite orientation: both run along their edge \
+                 from {from} mm to {to} mm"
+            ));
         }
         neighbours[face as usize][usize::from(edge)] = other;
         neighbour_edges[face as usize][usize::from(edge)] = theirs;
@@ -112,6 +116,12 @@ pub(super) fn pair(
         neighbour_edges[other as usize][usize::from(theirs)] = edge;
     }
     Ok((neighbours, neighbour_edges))
+}
+
+fn list(faces: &[u32]) -> String {
+    let shown: Vec<String> = faces.iter().take(6).map(u32::to_string).collect();
+    let more = if faces.len() > 6 { ", …" } else { "" };
+    shown.join(", ") + more
 }
 
 fn ends(faces: &[[u32; 3]], face: u32, edge: u8) -> (u32, u32) {

@@ -1,6 +1,7 @@
 //! The two faces of a thin blade as one surface.
 
-use super::{NONE, Surface, SurfaceError};
+use super::{NONE, Surface};
+use crate::not_grown::{NotGrown, not_grown};
 
 impl Surface {
     /// A sheet doubled: its own faces, then as many turned over, the two joined along the margin.
@@ -12,13 +13,14 @@ impl Surface {
     ///
     /// # Errors
     ///
-    /// [`SurfaceError::TooLarge`].
-    pub fn both_faces(sheet: &Self) -> Result<Self, SurfaceError> {
+    /// [`NotGrown`].
+    pub fn both_faces(sheet: &Self) -> Result<Self, NotGrown> {
         let count = sheet.faces.len() as u32;
         if count > 1 << 29 {
-            return Err(SurfaceError::TooLarge {
-                count: 2 * sheet.faces.len(),
-            });
+            return Err(not_grown!(
+                "the mesh has {} faces or vertices, more than 2³⁰",
+                2 * sheet.faces.len()
+            ));
         }
         let mut faces = sheet.faces.clone();
         let mut neighbours = sheet.neighbours.clone();

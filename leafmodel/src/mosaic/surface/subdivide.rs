@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{NONE, Surface, SurfaceError, SurfacePoint, adjacency};
+use super::{NONE, Surface, SurfacePoint, adjacency};
+use crate::not_grown::{NotGrown, not_grown};
 
 /// Greatest number of faces: 6 GB of them while they are halved, enough for half a million cells at
 /// the start.
@@ -45,15 +46,22 @@ impl Ancestry {
     }
 }
 
+/// The error of a mesh of so short edges that it would have more faces than there may be.
+fn too_many(most: usize, max_edge_mm: f64) -> NotGrown {
+    not_grown!(
+        "to cut the mesh until no edge is longer than {max_edge_mm} mm takes more than {most} faces"
+    )
+}
+
 impl Surface {
     /// The surface with edges halved until none is longer than `max_edge_mm`, and the places of its
     /// faces on this one.
     ///
     /// # Errors
     ///
-    /// [`SurfaceError::NotALength`] for a length that is not positive;
-    /// [`SurfaceError::TooManyFaces`].
-    pub fn subdivided(&self, max_edge_mm: f64) -> Result<(Self, Ancestry), SurfaceError> {
+    /// [`NotGrown`] for a length that is not positive;
+    /// [`NotGrown`].
+    pub fn subdivided(&self, max_edge_mm: f64) -> Result<(Self, Ancestry), NotGrown> {
         self.subdivided_to(max_edge_mm, MOST_FACES)
     }
 
@@ -62,19 +70,15 @@ impl Surface {
         &self,
         max_edge_mm: f64,
         most_faces: usize,
-    ) -> Result<(Self, Ancestry), SurfaceError> {
+    ) -> Result<(Self, Ancestry), NotGrown> {
         if !(max_edge_mm.is_finite() && max_edge_mm > 0.0) {
-            return Err(SurfaceError::NotALength {
-                name: "the longest edge",
-                value: max_edge_mm,
-            });
+            return Err(not_grown!(
+                "the longest edge is {max_edge_mm} mm; it has to be positive and finite"
+            ));
         }
         let expected = self.total_area() / (max_edge_mm * max_edge_mm);
         if expected > most_faces as f64 {
-            return Err(SurfaceError::TooManyFaces {
-                most: most_faces,
-                max_edge_mm,
-            });
+            return Err(too_many(most_faces, max_edge_mm));
         }
         let mut surface = self.clone();
         let mut ancestry = Ancestry::of(self);
@@ -90,7 +94,7 @@ impl Surface {
         ancestry: &Ancestry,
         max_edge: f64,
         most_faces: usize,
-    ) -> Result<(Self, Ancestry), SurfaceError> {
+    ) -> Result<(Self, Ancestry), NotGrown> {
         let edges = self.edge_numbers();
         let mut cut = Cut {
             positions: self.positions.clone(),
@@ -119,10 +123,7 @@ impl Surface {
             cut.face(ids, edges[face], marked, old, weights);
             // Slender faces with long edges need more faces than their area suggests.
             if cut.faces.len() > most_faces {
-                return Err(SurfaceError::TooManyFaces {
-                    most: most_faces,
-                    max_edge_mm: max_edge,
-                });
+                return Err(too_many(most_faces, max_edge));
             }
         }
         let (neighbours, neighbour_edges) = adjacency::pair(&cut.positions, &cut.faces, &cut.keys)?;

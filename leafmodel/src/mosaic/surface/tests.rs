@@ -213,7 +213,7 @@ fn needles_are_not_cut_into_more_faces_than_allowed() {
     let cut = |most| needle.subdivided_to(1.0, most);
     let refused = cut(200).expect_err("too many");
     assert!(
-        matches!(refused, SurfaceError::TooManyFaces { most: 200, .. }),
+        refused.to_string().contains("more than 200 faces"),
         "{refused}"
     );
     let (fine, _) = cut(100_000).expect("few enough");

@@ -1,8 +1,8 @@
 //! Pigments by chance.
 
 use crate::optics::Pigments;
-use crate::optics::betalains::{Betacyanin, Betaxanthin};
-use crate::optics::pigments::{AnthocyaninMix, CarotenoidMix, ChlorophyllMix};
+use crate::optics::betalains::{Betacyanin, Betalains, Betaxanthin};
+use crate::optics::pigments::{AnthocyaninMix, CarotenoidMix, ChlorophyllBands, ChlorophyllMix};
 use proptest::prelude::*;
 
 /// Shares that sum to 1, some of them 0.
@@ -17,26 +17,30 @@ fn shares<const N: usize>() -> impl Strategy<Value = [f64; N]> {
 pub(super) fn pigments() -> impl Strategy<Value = Pigments> {
     let factor = || prop_oneof![Just(0.41), Just(0.29), Just(0.5), 0.01..1.0];
     let chlorophyll = prop_oneof![
-        Just(ChlorophyllMix::Prospect),
-        (0.0..9.0).prop_map(|a_to_b| ChlorophyllMix::Apportioned { a_to_b }),
-        (0.0..9.0).prop_map(ChlorophyllMix::bands),
+        Just(None),
+        (0.0..9.0).prop_map(|a_to_b| Some(ChlorophyllMix {
+            a_to_b,
+            ..ChlorophyllMix::default()
+        })),
+        (0.0..9.0).prop_map(|a_to_b| Some(ChlorophyllMix::bands(a_to_b))),
         (0.0..9.0, -500.0..500.0, factor()).prop_map(|(a_to_b, shift_per_cm, packaging)| {
-            ChlorophyllMix::Bands {
+            Some(ChlorophyllMix {
+                bands: ChlorophyllBands::Solution,
                 a_to_b,
                 shift_per_cm,
                 packaging,
-            }
+            })
         }),
     ];
     let carotenoids = prop_oneof![
-        Just(CarotenoidMix::Prospect),
-        shares().prop_map(CarotenoidMix::bands),
+        Just(None),
+        shares().prop_map(|shares| Some(CarotenoidMix::bands(shares))),
         (shares(), -1500.0..0.0, factor()).prop_map(|(shares, shift_per_cm, packaging)| {
-            CarotenoidMix::Bands {
-                shares,
+            Some(CarotenoidMix {
                 shift_per_cm,
                 packaging,
-            }
+                shares,
+            })
         }),
     ];
     let aglycones = prop_oneof![Just([0.0, 1.0, 0.0, 0.0, 0.0, 0.0]), shares()];
@@ -45,13 +49,13 @@ pub(super) fn pigments() -> impl Strategy<Value = Pigments> {
         prop_oneof![Just(0.0), 0.0..1.0],
     );
     let anthocyanins = prop_oneof![
-        Just(AnthocyaninMix::Prospect),
+        Just(None),
         (aglycones, numbers).prop_map(|(shares, (shift_nm, blue_fraction))| {
-            AnthocyaninMix::Aglycones {
-                shares,
+            Some(AnthocyaninMix {
                 shift_nm,
                 blue_fraction,
-            }
+                shares,
+            })
         }),
     ];
     let betacyanin = prop_oneof![Just(Betacyanin::Betanin), Just(Betacyanin::Amaranthine)];
@@ -61,15 +65,15 @@ pub(super) fn pigments() -> impl Strategy<Value = Pigments> {
     ];
     let betalains = (betacyanin, betaxanthin, factor());
     (chlorophyll, carotenoids, anthocyanins, betalains).prop_map(
-        |(chlorophyll, carotenoids, anthocyanins, (betacyanins, betaxanthins, packaging))| {
-            Pigments {
-                chlorophyll,
-                carotenoids,
-                anthocyanins,
-                betacyanins,
-                betaxanthins,
-                betalain_packaging: packaging,
-            }
+        |(chlorophyll, carotenoids, anthocyanins, (betacyanin, betaxanthin, packaging))| Pigments {
+            chlorophyll,
+            carotenoids,
+            anthocyanins,
+            betalains: Betalains {
+                betacyanin,
+                betaxanthin,
+                packaging,
+            },
         },
     )
 }

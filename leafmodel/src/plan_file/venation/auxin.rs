@@ -1,13 +1,12 @@
 //! How to mend a plan of veins that grow towards auxin.
 
-use super::architecture::remedy;
 use crate::document::keys::Keys;
 use crate::shape::growth::GrowthError;
 use crate::venation::plan::PlanError;
 
 /// Reports a plan that cannot be carried out, at the key to change.
 pub(super) fn report(keys: &Keys<'_>, error: &PlanError) {
-    let index;
+    let (index, key);
     let (path, help): (&[&str], &str) = match error {
         PlanError::OriginOffBlade { index: number, .. } => {
             index = number.to_string();
@@ -27,7 +26,10 @@ pub(super) fn report(keys: &Keys<'_>, error: &PlanError) {
             | GrowthError::BadPlace { .. }
             | GrowthError::BadRate { .. },
         ) => (&["growth"], "mend the growth functions"),
-        PlanError::Architecture(error) => remedy(error),
+        PlanError::Architecture(error) => {
+            key = [&["architecture"], error.key].concat();
+            (&key, error.help)
+        }
         PlanError::Incompatible {
             key: "architecture",
             ..

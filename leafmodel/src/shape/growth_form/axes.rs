@@ -78,13 +78,11 @@ impl Place {
     }
 
     fn error(&self, problem: GrowthFormProblem) -> GrowthFormError {
-        GrowthFormError {
-            part: FormPart {
-                axes: self.path.clone(),
-                side: Side::Right,
-            },
-            problem,
-        }
+        let part = FormPart {
+            axes: self.path.clone(),
+            side: Side::Right,
+        };
+        part.error(problem)
     }
 }
 

@@ -44,30 +44,24 @@ fn check_axis(
         axes: path.clone(),
         side,
     };
-    let at = |side| {
-        move |problem| GrowthFormError {
-            part: part(side),
-            problem,
-        }
-    };
-    check_half(axis.rows, &axis.right).map_err(at(Side::Right))?;
+    let right = check_half(axis.rows, &axis.right);
+    right.map_err(|problem| part(Side::Right).error(problem))?;
     Rows::new(axis, growth, part(Side::Right)).refuse_crossing_veins()?;
     if let Some(left) = &axis.left {
-        check_half(axis.rows, left).map_err(at(Side::Left))?;
+        check_half(axis.rows, left).map_err(|problem| part(Side::Left).error(problem))?;
         Rows::new(axis, growth, part(Side::Left)).refuse_crossing_veins()?;
     }
     for (number, secondary) in axis.axes.iter().enumerate() {
         path.push(number);
-        let at = |problem| GrowthFormError {
-            part: FormPart {
-                axes: path.clone(),
-                side: Side::Right,
-            },
-            problem,
-        };
         let depth = path.len() as f64;
         let valid = path.len() <= DEEPEST;
-        RangeError::unless(valid, "depth", depth, "0 to 8").map_err(|error| at(error.into()))?;
+        RangeError::unless(valid, "depth", depth, "0 to 8").map_err(|error| {
+            let part = FormPart {
+                axes: path.clone(),
+                side: Side::Right,
+            };
+            part.error(error.into())
+        })?;
         check_axis(&secondary.axis, growth.of_secondary(secondary), path)?;
         path.pop();
     }

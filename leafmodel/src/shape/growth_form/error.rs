@@ -129,13 +129,20 @@ impl fmt::Display for SlopeRange {
     }
 }
 
+impl FormPart {
+    /// The error of a problem in this part.
+    pub(super) fn error(self, problem: GrowthFormProblem) -> GrowthFormError {
+        GrowthFormError {
+            part: self,
+            problem,
+        }
+    }
+}
+
 impl From<GrowthFormProblem> for GrowthFormError {
     /// What is wrong with the right half of the midrib, or with the leaf as a whole.
     fn from(problem: GrowthFormProblem) -> Self {
-        Self {
-            part: FormPart::default(),
-            problem,
-        }
+        FormPart::default().error(problem)
     }
 }
 

@@ -21,15 +21,7 @@ const MOST_AXES: usize = 200;
 impl Default for GrowthForm {
     /// A form of which nothing is said.
     fn default() -> Self {
-        Self {
-            axial_rate: 0.1,
-            midrib: Axis {
-                rows: 150,
-                right: HalfForm::entire(1.2, 0.5, 2.0),
-                left: None,
-                axes: Vec::new(),
-            },
-        }
+        HalfForm::entire(1.2, 0.5, 2.0).into()
     }
 }
 
@@ -217,30 +209,26 @@ impl Kind for VeinRows {
     type Of = Vec<VeinRow>;
 
     fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<Vec<VeinRow>> {
-        let Value::List(nodes) = &node.value else {
+        let nodes = if let Value::List(nodes) = &node.value
+            && nodes.len() as u64 <= MOST_VEINS
+        {
+            nodes
+        } else {
             wrong_type(cx, node, key, Self::WANTED);
             return None;
         };
-        if nodes.len() as u64 > MOST_VEINS {
-            wrong_type(cx, node, key, Self::WANTED);
-            return None;
-        }
         let errors = cx.error_count();
         let mut veins: Vec<VeinRow> = Vec::with_capacity(nodes.len());
         for vein in nodes {
-            let parts = match &vein.value {
-                Value::List(parts) if (2..=3).contains(&parts.len()) => parts,
-                Value::List(_)
-                | Value::Text(_)
-                | Value::Integer(_)
-                | Value::Number(_)
-                | Value::Flag(_)
-                | Value::Other(..)
-                | Value::Table(_) => {
-                    wrong_type(cx, vein, key, Self::WANTED);
-                    continue;
-                }
+            let parts = if let Value::List(parts) = &vein.value {
+                &parts[..]
+            } else {
+                &[]
             };
+            if !(2..=3).contains(&parts.len()) {
+                wrong_type(cx, vein, key, Self::WANTED);
+                continue;
+            }
             let position = number_at(cx, &parts[0], "veins, position", POSITIONS);
             let slope = number_at(cx, &parts[1], "veins, slope", SLOPES);
             let bend = parts

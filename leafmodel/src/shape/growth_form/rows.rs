@@ -66,7 +66,7 @@ pub(super) struct Rows<'a> {
     growth: AxisGrowth,
     part: FormPart,
     /// Each vein with the number of its row, from 0.
-    veins: Vec<(usize, VeinRow)>,
+    pub(super) veins: Vec<(usize, VeinRow)>,
 }
 
 impl<'a> Rows<'a> {
@@ -95,14 +95,18 @@ impl<'a> Rows<'a> {
             points.push(DVec2::new(x, self.start(j) + curve.rise(x)));
         }
         points.push(DVec2::Y);
-        // Rows of one slope and bend are the same curve moved along the midrib and cannot cross.
-        let alike = |pair: &[(usize, VeinRow)]| {
-            (pair[0].1.slope, pair[0].1.bend) == (pair[1].1.slope, pair[1].1.bend)
-        };
-        if self.veins.windows(2).all(alike) {
-            return Ok(points);
-        }
-        Ok(outer_boundary(&points))
+        Ok(if self.veins_are_alike() {
+            points
+        } else {
+            outer_boundary(&points)
+        })
+    }
+
+    /// Whether all veins have one slope and bend: then rows are the same curve moved along the axis
+    /// and cannot cross.
+    pub(super) fn veins_are_alike(&self) -> bool {
+        let curves = |pair: &[(usize, VeinRow)]| pair[0].1.curve() == pair[1].1.curve();
+        self.veins.windows(2).all(curves)
     }
 
     /// The lines of the veins, from the axis outwards.
@@ -133,15 +137,7 @@ impl<'a> Rows<'a> {
 
     /// An error that names these rows' part of the form.
     pub(super) fn error(&self, problem: GrowthFormProblem) -> GrowthFormError {
-        GrowthFormError {
-            part: self.part.clone(),
-            problem,
-        }
-    }
-
-    /// Each vein with the number of its row.
-    pub(super) fn veins(&self) -> &[(usize, VeinRow)] {
-        &self.veins
+        self.part.clone().error(problem)
     }
 
     /// Where row `j` (from 0) starts along the axis.
@@ -202,22 +198,18 @@ impl<'a> Rows<'a> {
 
 /// Curve of row `j`: slope and bend linear between veins, constant outside the outermost ones.
 fn curve(veins: &[(usize, VeinRow)], j: usize) -> RowCurve {
-    let of = |vein: &VeinRow| RowCurve {
-        slope: vein.slope,
-        bend: vein.bend,
-    };
     let after = veins.partition_point(|(row, _)| *row < j);
     let before = after.checked_sub(1).map(|i| &veins[i]);
     match (before, veins.get(after)) {
         (Some((r0, v0)), Some((r1, v1))) => {
             let share = (j - r0) as f64 / (r1 - r0) as f64;
-            let (a, b) = (of(v0), of(v1));
+            let (a, b) = (v0.curve(), v1.curve());
             RowCurve {
                 slope: a.slope + (b.slope - a.slope) * share,
                 bend: a.bend + (b.bend - a.bend) * share,
             }
         }
-        (Some((_, vein)), None) | (None, Some((_, vein))) => of(vein),
+        (Some((_, vein)), None) | (None, Some((_, vein))) => vein.curve(),
         (None, None) => RowCurve {
             slope: 0.0,
             bend: 0.0,

@@ -2,7 +2,7 @@
 
 use super::row_curve::RowCurve;
 use super::rows::Rows;
-use super::{GrowthFormError, GrowthFormProblem, SlopeRange};
+use super::{GrowthFormError, GrowthFormProblem, SlopeRange, VeinRow};
 use crate::numeric::bisect;
 
 /// Greatest slope of a vein, up or down.
@@ -56,23 +56,13 @@ impl Rows<'_> {
     /// Refuses a form in which two veins cross. The rows between them may cross: the blade is all
     /// that they sweep over together.
     pub(super) fn refuse_crossing_veins(&self) -> Result<(), GrowthFormError> {
-        let veins = self.veins();
-        let alike = veins
-            .windows(2)
-            .all(|pair| (pair[0].1.slope, pair[0].1.bend) == (pair[1].1.slope, pair[1].1.bend));
-        if alike {
+        if self.veins_are_alike() {
             return Ok(());
         }
-        let lines: Vec<VeinLine> = veins
-            .iter()
-            .map(|&(row, vein)| {
-                let curve = RowCurve {
-                    slope: vein.slope,
-                    bend: vein.bend,
-                };
-                VeinLine::new(self.start(row), curve, self.allometry(row))
-            })
-            .collect();
+        let line = |&(row, vein): &(usize, VeinRow)| {
+            VeinLine::new(self.start(row), vein.curve(), self.allometry(row))
+        };
+        let lines: Vec<VeinLine> = self.veins.iter().map(line).collect();
         for (number, line) in lines.iter().enumerate() {
             for lower in (0..number).rev() {
                 if lines[lower].meets(line) {

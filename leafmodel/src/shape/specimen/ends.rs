@@ -4,8 +4,8 @@
 
 use glam::DVec2;
 
-use super::SpecimenError;
 use crate::document::declared::Declared;
+use crate::not_grown::{NotGrown, not_grown};
 use crate::numeric::{bisect, smooth_step};
 use crate::shape::tips::{Point, Tip};
 
@@ -78,12 +78,17 @@ pub enum ApexShape {
 const BASE_REACH: f64 = 0.4;
 
 impl BaseShape {
-    pub(super) fn shape(self, points: &mut [DVec2]) -> Result<(), SpecimenError> {
+    pub(super) fn shape(self, points: &mut [DVec2]) -> Result<(), NotGrown> {
         match self {
             Self::Cordate { depth, width } => {
                 let there = -points.iter().map(|p| p.y).fold(0.0, f64::min);
                 if there >= depth {
-                    return Err(SpecimenError::DeeperAlready { depth, there });
+                    let error = not_grown!(
+                        "a cordate base of depth {depth} needs a contour that reaches less far \
+                         below the petiole: this one goes {there:.3} below it"
+                    );
+                    let help = "ask for a deeper sinus, or leave the base to the contour";
+                    return Err(error.mend("base.cordate.depth", help));
                 }
                 // Each place falls the farther the larger the amplitude; all stay in order.
                 let fall = |p: DVec2| smooth_step(2.0 * p.x.abs() / width) * low(p.y, BASE_REACH);
@@ -91,10 +96,11 @@ impl BaseShape {
                     let lowest = points.iter().map(|&p| p.y - amplitude * fall(p));
                     -lowest.fold(0.0, f64::min)
                 });
-                let amplitude = amplitude.ok_or(SpecimenError::TooPointed {
-                    what: "a cordate base",
-                    depth,
-                    end: "base",
+                let amplitude = amplitude.ok_or_else(|| {
+                    let error = too_pointed("a cordate base", depth, "base");
+                    let help =
+                        "ask for a shallower or wider sinus, or a contour with a rounder base";
+                    error.mend("base.cordate.depth", help)
                 })?;
                 for p in points {
                     p.y -= amplitude * fall(*p);
@@ -127,7 +133,7 @@ impl ApexShape {
         }
     }
 
-    pub(super) fn shape(self, points: &mut [DVec2]) -> Result<(), SpecimenError> {
+    pub(super) fn shape(self, points: &mut [DVec2]) -> Result<(), NotGrown> {
         match self {
             Self::Acuminate { length, narrowing } => {
                 for p in points {
@@ -151,25 +157,32 @@ impl ApexShape {
     }
 }
 
+/// The error of a contour whose end is too pointed.
+fn too_pointed(what: &str, depth: f64, end: &str) -> NotGrown {
+    not_grown!("{what} of depth {depth} does not fit this contour, whose {end} is too pointed")
+}
+
 /// Raises what is beside the apex, so that it lies in a notch.
 fn notched(
     points: &mut [DVec2],
     depth: f64,
     width: f64,
     what: &'static str,
-) -> Result<(), SpecimenError> {
-    let end = "apex";
-    let too_pointed = SpecimenError::TooPointed { what, depth, end };
+) -> Result<(), NotGrown> {
+    let too_pointed = || {
+        let help = "ask for a shallower or wider notch, or a contour with a rounder apex";
+        too_pointed(what, depth, "apex").mend("apex.*.depth", help)
+    };
     let rise = |p: DVec2| smooth_step(2.0 * p.x.abs() / width) * low(1.0 - p.y, 0.4);
     let there = points.iter().map(|p| p.y - 1.0).fold(0.0, f64::max);
     if there >= depth {
-        return Err(too_pointed);
+        return Err(too_pointed());
     }
     let amplitude = amplitude_for(depth, |amplitude| {
         let highest = points.iter().map(|&p| p.y - 1.0 + amplitude * rise(p));
         highest.fold(0.0, f64::max)
     });
-    let amplitude = amplitude.ok_or(too_pointed)?;
+    let amplitude = amplitude.ok_or_else(too_pointed)?;
     for p in points {
         p.y += amplitude * rise(*p);
     }

@@ -3,7 +3,7 @@
 use super::Grown;
 use crate::measure::{Measures, Value};
 use crate::species::PRESETS;
-use crate::venation::network::VenationNetwork;
+use crate::venation::network::{self, VenationNetwork};
 use crate::venation::topology::Topology;
 
 /// Daughters within so many degrees of each other are nearly parallel.
@@ -20,7 +20,7 @@ fn list(measures: &Measures, key: &str) -> Vec<f64> {
 
 /// The most daughters of a node within a narrow angle.
 fn most_parallel(network: &VenationNetwork) -> usize {
-    let ends: Vec<[u32; 2]> = network.edges().iter().map(|e| [e.from, e.to]).collect();
+    let ends = network::ends(network.edges());
     let topology = Topology::new(network.nodes().len(), &ends);
     let place = |node: u32| network.nodes()[node as usize].position;
     let of_node = |node: u32| {

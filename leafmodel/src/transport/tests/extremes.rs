@@ -21,7 +21,7 @@ fn whatever_the_parameters_leaves_hang_together_pay_and_have_margins() {
                     match plan.grow(0) {
                         Ok(leaf) => grown += usize::from(is_sound(&leaf)),
                         Err(error) => {
-                            assert!(matches!(error, TransportError::TooManyCells { .. }));
+                            assert!(error.to_string().contains("when most_cells is 2000"));
                         }
                     }
                 }

@@ -8,7 +8,7 @@ use super::secondaries::{self, agrophic};
 use super::{
     Agrophic, Architecture, Lots, PrimaryPattern, QuaternaryCourse, SecondaryEnding, TertiaryCourse,
 };
-use crate::document::declared::Declared;
+use crate::document::declared::{Declared, Words};
 use crate::shape::outline::Outline;
 
 /// Secondaries of one side are at least so many segments of the young leaf apart.
@@ -17,6 +17,15 @@ const CLOSEST: f64 = 4.0;
 /// Tertiaries between which quaternaries can be laid out are at least so many segments of the young
 /// leaf apart.
 const LADDER: f64 = 5.0;
+
+/// Veins nearer to each other than so many segments of the young leaf run into one.
+const APART: f64 = 2.5;
+
+const ANGLES: &[&str] = &["lateral_primary_angles_deg"];
+const AGROPHIC: &[&str] = &["secondaries", "agrophic"];
+const ENDING: &[&str] = &["secondaries", "ending"];
+const PAIRS: &[&str] = &["secondaries", "pairs"];
+const WIDER: &str = "use a wider spacing, or a longer young leaf: initial_length_segments";
 
 impl Architecture {
     /// Checks all that needs no outline.
@@ -28,72 +37,82 @@ impl Architecture {
         self.in_range()?;
         let angles = &self.primaries.lateral_angles_deg;
         let named = angles.len();
-        let (pattern, wanted, fits) = match self.primaries.pattern {
-            PrimaryPattern::Pinnate => ("pinnate", "no", named == 0),
-            PrimaryPattern::Actinodromous => ("actinodromous", "1 to 6", (1..=6).contains(&named)),
-            PrimaryPattern::Palinactinodromous => {
-                ("palinactinodromous", "2 to 6", (2..=6).contains(&named))
+        let pattern = self.primaries.pattern.word();
+        let (wanted, fits) = match self.primaries.pattern {
+            PrimaryPattern::Pinnate => ("no", named == 0),
+            PrimaryPattern::Palinactinodromous => ("2 to 6", (2..=6).contains(&named)),
+            PrimaryPattern::Acrodromous => ("1 to 3", (1..=3).contains(&named)),
+            PrimaryPattern::Actinodromous | PrimaryPattern::Flabellate => {
+                ("1 to 6", (1..=6).contains(&named))
             }
-            PrimaryPattern::Acrodromous => ("acrodromous", "1 to 3", (1..=3).contains(&named)),
-            PrimaryPattern::Flabellate => ("flabellate", "1 to 6", (1..=6).contains(&named)),
-            PrimaryPattern::Parallelodromous => ("parallelodromous", "no angles of", named == 0),
-            PrimaryPattern::Campylodromous => ("campylodromous", "no angles of", named == 0),
+            PrimaryPattern::Parallelodromous | PrimaryPattern::Campylodromous => {
+                ("no angles of", named == 0)
+            }
         };
-        if !fits {
-            return Err(ArchitectureError::LateralPrimaries {
-                pattern,
-                wanted,
-                named,
-            });
-        }
-        let many = match self.primaries.pattern {
-            PrimaryPattern::Parallelodromous | PrimaryPattern::Campylodromous => true,
-            PrimaryPattern::Pinnate
-            | PrimaryPattern::Actinodromous
-            | PrimaryPattern::Palinactinodromous
-            | PrimaryPattern::Acrodromous
-            | PrimaryPattern::Flabellate => false,
+        let problem = || {
+            format!(
+                "{pattern} venation has {wanted} lateral primaries a side; \
+                 lateral_primary_angles_deg names {named}"
+            )
         };
-        if many != (self.primaries.laterals > 0) {
-            return Err(ArchitectureError::LateralCount {
-                pattern,
-                wanted: if many { "1 to 30" } else { "0" },
-                laterals: self.primaries.laterals,
-            });
-        }
+        let help = "name an angle for each lateral primary of one side, or choose another pattern";
+        ArchitectureError::unless(fits, ANGLES, problem, help)?;
+        let many = matches!(
+            self.primaries.pattern,
+            PrimaryPattern::Parallelodromous | PrimaryPattern::Campylodromous
+        );
+        let laterals = self.primaries.laterals;
+        let problem = || {
+            let wanted = if many { "1 to 30" } else { "0" };
+            format!("{pattern} venation has {wanted} lateral_primaries a side, not {laterals}")
+        };
+        let help = "only parallelodromous and campylodromous leaves have a number of them";
+        let fits = many == (laterals > 0);
+        ArchitectureError::unless(fits, &["lateral_primaries"], problem, help)?;
         let has_secondaries = !many && self.primaries.pattern != PrimaryPattern::Flabellate;
-        if !has_secondaries && self.secondaries.pairs > 0 {
-            return Err(ArchitectureError::NoSecondaries {
-                pattern,
-                pairs: self.secondaries.pairs,
-            });
-        }
+        let pairs = self.secondaries.pairs;
+        let problem = || {
+            format!(
+                "{pattern} venation has no secondaries between its primaries, not {pairs} pairs"
+            )
+        };
+        let help = "use 0, or choose another pattern";
+        ArchitectureError::unless(has_secondaries || pairs == 0, PAIRS, problem, help)?;
         self.check_bearers(pattern)?;
-        if self.quaternaries.course != QuaternaryCourse::Reticulate
-            && self.tertiaries.course == TertiaryCourse::Reticulate
-        {
-            return Err(ArchitectureError::NoTertiaries);
-        }
-        let span = ("span", &self.secondaries.span[..]);
-        for (key, list) in [("lateral_primary_angles_deg", &angles[..]), span] {
+        let fits = self.quaternaries.course == QuaternaryCourse::Reticulate
+            || self.tertiaries.course != TertiaryCourse::Reticulate;
+        let problem = || {
+            "quaternaries that are laid out lie between percurrent tertiaries, and the tertiaries \
+             are reticulate"
+                .to_owned()
+        };
+        let help = "use \"reticulate\", or percurrent tertiaries";
+        ArchitectureError::unless(fits, &["quaternaries", "course"], problem, help)?;
+        let lists: [(&'static [&'static str], &[f64], _); 2] = [
+            (ANGLES, angles, "begin with the angle nearest to the midrib"),
+            (
+                &["secondaries", "span"],
+                &self.secondaries.span,
+                "write the lower place first",
+            ),
+        ];
+        for (path, list, help) in lists {
             if let Some(pair) = list.windows(2).find(|pair| pair[0] >= pair[1]) {
-                return Err(ArchitectureError::NotAscending {
-                    key,
-                    first: pair[0],
-                    second: pair[1],
-                });
+                let (key, first, second) = (path[path.len() - 1], pair[0], pair[1]);
+                let problem = || format!("{key} does not ascend: {first} is followed by {second}");
+                ArchitectureError::unless(false, path, problem, help)?;
             }
         }
         Ok(())
     }
 
     /// Refuses agrophic veins where no secondary can bear them.
-    fn check_bearers(&self, pattern: &'static str) -> Result<(), ArchitectureError> {
+    fn check_bearers(&self, pattern: &str) -> Result<(), ArchitectureError> {
         let plan = &self.secondaries;
-        let (kind, bearers) = match plan.agrophic {
+        let bearers = match plan.agrophic {
             Agrophic::Absent => return Ok(()),
-            Agrophic::Simple => ("simple", "lowest pair of secondaries"),
-            Agrophic::Compound => ("compound", "two lowest pairs of secondaries"),
+            Agrophic::Simple => "lowest pair of secondaries",
+            Agrophic::Compound => "two lowest pairs of secondaries",
         };
         let there = if self.primaries.pattern != PrimaryPattern::Pinnate {
             format!("{pattern} venation has lateral primaries, whose outer secondaries they are")
@@ -102,31 +121,40 @@ impl Architecture {
         } else {
             return Ok(());
         };
-        Err(ArchitectureError::NoBearers {
-            kind,
-            bearers,
-            there,
-        })
+        let problem = || {
+            let kind = plan.agrophic.word();
+            format!("{kind} agrophic veins leave the {bearers} of pinnate venation; {there}")
+        };
+        let help = "use \"absent\", or pinnate primaries with as many pairs";
+        ArchitectureError::unless(false, AGROPHIC, problem, help)
     }
 
     /// Checks what only the outline can tell; `blade` is full-grown in segments, base at the
     /// origin, `young` the length of the leaf when veins are laid out, over its full length.
     pub(crate) fn validate_on(&self, blade: &Outline, young: f64) -> Result<(), ArchitectureError> {
         let plan = &self.secondaries;
+        let pairs = plan.pairs;
         let apex = blade.apex();
-        if blade.is_crossed_by(apex * 0.01, apex * 0.99) {
-            return Err(ArchitectureError::MidribOffBlade);
-        }
+        let fits = !blade.is_crossed_by(apex * 0.01, apex * 0.99);
+        let problem = || {
+            "the straight way from base to apex leaves the blade: a midrib cannot be laid out on it"
+                .to_owned()
+        };
+        let help = "leave the architecture out, or draw an outline that holds its midrib";
+        ArchitectureError::unless(fits, &[], problem, help)?;
         let length = young * blade.length();
         let reach = (plan.span[1] - plan.span[0]) * length;
-        let apart = reach / f64::from(plan.pairs.max(1));
-        if plan.pairs > 0 && apart < CLOSEST {
-            return Err(ArchitectureError::TooManyPairs {
-                pairs: plan.pairs,
-                apart,
-                fit: (reach / CLOSEST) as u32,
-            });
-        }
+        let apart = reach / f64::from(pairs.max(1));
+        let problem = || {
+            let fit = (reach / CLOSEST) as u32;
+            format!(
+                "{pairs} pairs of secondaries lie {apart:.1} segments apart in the young leaf, \
+                 less than 4; {fit} pairs fit"
+            )
+        };
+        let help = "use fewer pairs, a wider span, or a longer young leaf: initial_length_segments";
+        let is_crowded = pairs > 0 && apart < CLOSEST;
+        ArchitectureError::unless(!is_crowded, PAIRS, problem, help)?;
         self.check_spacing(blade, young)?;
         let margin = Margin::new(blade);
         self.check_ends(&margin)?;
@@ -137,18 +165,19 @@ impl Architecture {
             lots,
         };
         let axes = primaries::lay_out(self, ground);
-        let asked = 1 + 2 * self.primaries.lateral_angles_deg.len();
-        if axes.len() < asked {
-            return Err(ArchitectureError::PrimariesOffBlade {
-                asked: asked - 1,
-                fit: axes.len() - 1,
-            });
-        }
+        let asked = 2 * self.primaries.lateral_angles_deg.len();
+        let problem = || {
+            let fit = axes.len() - 1;
+            format!(
+                "of {asked} lateral primaries only {fit} point into the blade where they part from \
+                 the midrib"
+            )
+        };
+        let help = "use smaller angles, or a greater part_at: higher up the blade is wider";
+        ArchitectureError::unless(axes.len() > asked, ANGLES, problem, help)?;
         let site = secondaries::Site {
-            blade,
-            margin: &margin,
+            ground,
             axes: &axes,
-            lots,
         };
         let laid = secondaries::lay_out(self, site);
         let of = |side: f64| {
@@ -156,46 +185,71 @@ impl Architecture {
             on.count() as u32
         };
         let fit = of(1.0).min(of(-1.0));
-        if fit < plan.pairs {
-            return Err(ArchitectureError::NoWay {
-                pairs: plan.pairs,
-                fit,
-            });
-        }
+        let problem = || {
+            format!(
+                "of {pairs} pairs of secondaries only {fit} on one side of the midrib have a way to \
+                 the margin"
+            )
+        };
+        let help = "use fewer pairs, or a span that starts above the lateral primaries";
+        ArchitectureError::unless(fit >= pairs, PAIRS, problem, help)?;
         let bearers = agrophic::bearers(plan, &laid.veins);
         let fit = laid.agrophic.poorest(&bearers);
-        if plan.agrophic != Agrophic::Absent && fit < agrophic::LEAST {
-            let (ending, to) = match plan.ending {
-                SecondaryEnding::Craspedodromous => ("craspedodromous", "to a tooth"),
-                SecondaryEnding::Sinus => ("sinus", "to a sinus"),
-                SecondaryEnding::Semicraspedodromous => ("semicraspedodromous", "to the margin"),
-                SecondaryEnding::Eucamptodromous => ("eucamptodromous", "to the margin"),
-                SecondaryEnding::Brochidodromous => ("brochidodromous", "to the margin"),
-                SecondaryEnding::Festooned => ("festooned", "to the margin"),
+        let problem = || {
+            let ending = plan.ending.word();
+            let to = match plan.ending {
+                SecondaryEnding::Craspedodromous => "to a tooth",
+                SecondaryEnding::Sinus => "to a sinus",
+                SecondaryEnding::Semicraspedodromous
+                | SecondaryEnding::Eucamptodromous
+                | SecondaryEnding::Brochidodromous
+                | SecondaryEnding::Festooned => "to the margin",
             };
-            return Err(ArchitectureError::NoComb { ending, fit, to });
-        }
-        Ok(())
+            format!(
+                "a comb of agrophic veins has 2 or more; {fit} of one {ending} comb find a way \
+                 {to} outside its secondary"
+            )
+        };
+        let help = "use \"absent\", a span that starts higher, or an outline that is wider or has \
+                    more teeth near its base";
+        let fits = plan.agrophic == Agrophic::Absent || fit >= agrophic::LEAST;
+        ArchitectureError::unless(fits, AGROPHIC, problem, help)
     }
 
     /// Refuses tertiaries, quaternaries and primaries too near to each other.
     fn check_spacing(&self, blade: &Outline, young: f64) -> Result<(), ArchitectureError> {
         let length = young * blade.length();
+        let close = |veins: &str, apart: f64, least: f64| {
+            format!(
+                "{veins} {apart:.2} segments of the young leaf apart, less than {least}, cannot be \
+                 told from each other"
+            )
+        };
+        let enough = |veins: &str, apart: f64| {
+            let (close, least) = (close(veins, apart, APART), APART / length);
+            format!("{close}; a spacing of {least:.4} or more can")
+        };
+        let key = &["tertiaries", "spacing"];
         let apart = self.tertiaries.spacing * length;
-        if self.tertiaries.course != TertiaryCourse::Reticulate && apart < 2.5 {
-            let least = 2.5 / length;
-            return Err(ArchitectureError::TertiariesTooClose { apart, least });
-        }
+        let fits = self.tertiaries.course == TertiaryCourse::Reticulate || apart >= APART;
+        ArchitectureError::unless(fits, key, || enough("tertiaries", apart), WIDER)?;
         if self.quaternaries.course != QuaternaryCourse::Reticulate {
-            if apart < LADDER {
+            let problem = || {
                 let least = LADDER / length;
-                return Err(ArchitectureError::NoRoomForQuaternaries { apart, least });
-            }
+                format!(
+                    "tertiaries {apart:.2} segments of the young leaf apart leave quaternaries no \
+                     room, which takes 5; a spacing of {least:.4} or more does"
+                )
+            };
+            ArchitectureError::unless(apart >= LADDER, key, problem, WIDER)?;
+            let key = &["quaternaries", "spacing"];
             let apart = self.quaternaries.spacing * length;
-            if apart < 2.5 {
-                let least = 2.5 / length;
-                return Err(ArchitectureError::QuaternariesTooClose { apart, least });
-            }
+            ArchitectureError::unless(
+                apart >= APART,
+                key,
+                || enough("quaternaries", apart),
+                WIDER,
+            )?;
         }
         let (low, high) = blade.bounds();
         let apart = if self.primaries.pattern == PrimaryPattern::Flabellate {
@@ -206,44 +260,41 @@ impl Architecture {
         } else {
             f64::INFINITY
         };
-        if apart < 3.0 {
-            return Err(ArchitectureError::PrimariesTooClose { apart });
-        }
-        Ok(())
+        let help = "use fewer primaries or a wider fork_spacing, or a longer young leaf: \
+                    initial_length_segments";
+        ArchitectureError::unless(apart >= 3.0, &[], || close("primaries", apart, 3.0), help)
     }
 
     /// Refuses secondaries that run to teeth or sinuses which are not there.
     fn check_ends(&self, margin: &Margin) -> Result<(), ArchitectureError> {
-        let plan = &self.secondaries;
-        let ending = match plan.ending {
-            SecondaryEnding::Craspedodromous => Some("craspedodromous"),
-            SecondaryEnding::Semicraspedodromous => Some("semicraspedodromous"),
-            SecondaryEnding::Sinus
-            | SecondaryEnding::Eucamptodromous
+        let pairs = self.secondaries.pairs;
+        let ending = self.secondaries.ending.word();
+        let ([right, left], ends, wanted, help) = match self.secondaries.ending {
+            SecondaryEnding::Sinus => (
+                margin.sinuses_a_side(),
+                "between teeth or lobes",
+                "as many sinuses",
+                "give the outline lobes or teeth, use fewer pairs, or let the secondaries end inside \
+                 the margin: eucamptodromous or brochidodromous",
+            ),
+            SecondaryEnding::Craspedodromous | SecondaryEnding::Semicraspedodromous => (
+                margin.tips_a_side(),
+                "in teeth or lobes",
+                "as many",
+                "give the outline teeth, use fewer pairs, or let the secondaries end inside the \
+                 margin: eucamptodromous or brochidodromous",
+            ),
+            SecondaryEnding::Eucamptodromous
             | SecondaryEnding::Brochidodromous
-            | SecondaryEnding::Festooned => None,
+            | SecondaryEnding::Festooned => return Ok(()),
         };
-        if plan.ending == SecondaryEnding::Sinus {
-            let [right, left] = margin.sinuses_a_side();
-            if right.min(left) < plan.pairs as usize {
-                return Err(ArchitectureError::TooFewSinuses {
-                    pairs: plan.pairs,
-                    right,
-                    left,
-                });
-            }
-        }
-        if let Some(ending) = ending {
-            let [right, left] = margin.tips_a_side();
-            if right.min(left) < plan.pairs as usize {
-                return Err(ArchitectureError::TooFewTeeth {
-                    ending,
-                    pairs: plan.pairs,
-                    right,
-                    left,
-                });
-            }
-        }
-        Ok(())
+        let problem = || {
+            format!(
+                "{ending} secondaries end {ends}: {pairs} pairs need {wanted} a side, and the \
+                 outline has {right} on the right and {left} on the left"
+            )
+        };
+        let fits = right.min(left) >= pairs as usize;
+        ArchitectureError::unless(fits, ENDING, problem, help)
     }
 }

@@ -8,8 +8,7 @@
 use glam::DVec2;
 
 use super::Primaries;
-use super::axis::Axis;
-use super::course::Course;
+use super::course::{Axis, Course};
 use super::ends::aside;
 use super::ground::Ground;
 use crate::shape::outline::Outline;

@@ -57,23 +57,12 @@ impl Margin {
     /// The margin of a blade whose base is the origin.
     pub(crate) fn new(blade: &Outline) -> Self {
         let corners = blade.points();
-        let nearest = |p: DVec2| {
-            let squared = |i: &usize| (corners[*i] - p).length_squared();
-            (0..corners.len())
-                .min_by(|i, j| squared(i).total_cmp(&squared(j)))
-                .unwrap_or(0)
-        };
-        let first = nearest(blade.base());
+        let first = polyline::nearest(corners, blade.base());
         let walk: Vec<DVec2> = (0..=corners.len())
             .map(|i| corners[(first + i) % corners.len()])
             .collect();
         let points = evenly(&walk, SAMPLES);
-        let apex = (0..SAMPLES)
-            .min_by(|&i, &j| {
-                let squared = |i: usize| (points[i] - blade.apex()).length_squared();
-                squared(i).total_cmp(&squared(j))
-            })
-            .unwrap_or(SAMPLES / 2);
+        let apex = polyline::nearest(&points, blade.apex());
         let mut margin = Self {
             apex_at: apex as f64 / SAMPLES as f64,
             perimeter: blade.perimeter(),
@@ -204,20 +193,14 @@ impl Margin {
         // From lobes down to fine teeth; what was found at a coarser scale stays.
         let mut window = n / 16;
         while window >= 6 {
-            let heights: Vec<f64> = (0..n)
-                .map(|i| {
-                    let (a, b) = (
-                        self.points[(i + n - window) % n],
-                        self.points[(i + window) % n],
-                    );
-                    (self.points[i] - (a + b) * 0.5).dot(-(b - a).perp().normalize_or_zero())
-                })
-                .collect();
+            let beside = |i: usize| [n - window, window].map(|off| self.points[(i + off) % n]);
+            let height = |i: usize| {
+                let [a, b] = beside(i);
+                (self.points[i] - (a + b) * 0.5).dot(-(b - a).perp().normalize_or_zero())
+            };
+            let heights: Vec<f64> = (0..n).map(height).collect();
             let width = |i: usize| {
-                let (a, b) = (
-                    self.points[(i + n - window) % n],
-                    self.points[(i + window) % n],
-                );
+                let [a, b] = beside(i);
                 (b - a).length() * 0.5
             };
             for i in 0..n {

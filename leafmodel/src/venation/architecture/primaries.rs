@@ -4,8 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec2;
 
-use super::axis::Axis;
-use super::course::Course;
+use super::course::{Axis, Course};
 use super::ground::Ground;
 use super::{Architecture, PrimaryPattern, ends, fan};
 

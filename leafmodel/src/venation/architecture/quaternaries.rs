@@ -79,11 +79,7 @@ fn ramified(rungs: &[Rung], ground: Ground<'_>) -> Laid {
         let (start, end) = (at(0.0), at(1.0));
         laid.veins
             .push(Course::curve(start, &[at(0.5), end], lots, 4, id, 0.5));
-        let side = if lots.share(4, id, 21) < 0.5 {
-            -1.0
-        } else {
-            1.0
-        };
+        let side = lots.side(4, id, 21);
         let fork = at(FORK);
         let way = aside(end - fork, BRANCH, side);
         laid.branches.push(Course::curve(

@@ -9,16 +9,13 @@ use glam::DVec2;
 use self::agrophic::Agrophics;
 use self::between::intersecondaries;
 use self::targets::{branch_into_teeth, inward, run_into};
-use super::axis::Axis;
-use super::course::Course;
+use super::course::{Axis, Course};
 use super::ends::aside;
 use super::festoons;
-use super::margin::{Hit, Margin};
-use super::{
-    Architecture, Arrangement, Attachment, Lots, Secondaries, SecondaryCourse, SecondaryEnding,
-};
+use super::ground::Ground;
+use super::margin::Hit;
+use super::{Architecture, Arrangement, Attachment, Secondaries, SecondaryCourse, SecondaryEnding};
 use super::{PrimaryPattern, SecondarySpacing};
-use crate::shape::outline::Outline;
 
 /// Exponent of uneven spacing.
 const UNEVEN: f64 = 1.4;
@@ -67,14 +64,10 @@ pub(crate) struct Laid {
 /// The blade and its primaries.
 #[derive(Clone, Copy)]
 pub(crate) struct Site<'s> {
-    /// Full-grown, in segments, base at the origin.
-    pub(crate) blade: &'s Outline,
-    /// Its margin.
-    pub(crate) margin: &'s Margin,
+    /// Full-grown, in segments.
+    pub(crate) ground: Ground<'s>,
     /// Its primaries, the midrib first.
     pub(crate) axes: &'s [Axis],
-    /// Chance.
-    pub(crate) lots: Lots,
 }
 
 /// One vein while its place is settled.
@@ -202,9 +195,8 @@ fn one_side(
     taken: &mut Vec<DVec2>,
     laid: &mut Laid,
 ) {
-    let Site {
-        margin, axes, lots, ..
-    } = site;
+    let Site { ground, axes } = site;
+    let Ground { margin, lots, .. } = ground;
     let (number, side, wanted) = (row.axis, row.side, &row.places);
     let axis = &axes[number];
     let vein = |k: usize| (number as u64) << 16 | u64::from(side < 0.0) << 12 | k as u64;
@@ -304,7 +296,7 @@ fn course(
     next: Option<&(Course, f64)>,
     [length, gap]: [f64; 2],
 ) -> Option<Vec<DVec2>> {
-    let margin = site.margin;
+    let margin = site.ground.margin;
     let bowed = |end: DVec2| {
         let chord = end - start;
         let basal = -chord.perp() * side;
@@ -326,7 +318,7 @@ fn course(
             .iter()
             .all(|&(a, b)| {
                 let from = a + (b - a) * 0.02;
-                !site.blade.is_crossed_by(from, b)
+                !site.ground.blade.is_crossed_by(from, b)
             });
         return Some(if stays {
             vec![half, far, end]

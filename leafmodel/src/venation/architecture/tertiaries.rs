@@ -6,6 +6,7 @@ use glam::DVec2;
 use super::course::{Course, cross};
 use super::ground::Ground;
 use super::{Architecture, Lots, Tertiaries, TertiaryCourse};
+use crate::plane::polyline;
 
 /// Tertiaries reach at most so far, share of the leaf's length.
 const LONGEST: f64 = 0.25;
@@ -112,7 +113,7 @@ impl Ladder {
         for (number, side, vein) in numbered.flat_map(|(i, v)| flanks(v).map(move |s| (i, s, v))) {
             let is_below = side != vein.side;
             let spacing = if is_below { OUTER * spacing } else { spacing };
-            let total: f64 = vein.nodes.windows(2).map(|p| (p[1] - p[0]).length()).sum();
+            let total = polyline::length(&vein.nodes);
             let key = (number as u64) << 13 | u64::from(is_below) << 12;
             let (mut walked, mut count) = (0.0, 0_u64);
             let place = |count: u64| {
@@ -197,11 +198,7 @@ fn bends(
 ) -> Vec<DVec2> {
     let order = ladder.order;
     let at = |share: f64, offset: f64| start.lerp(end, share) + ahead * (offset * spacing);
-    let side = if lots.share(order, id, 2) < 0.5 {
-        -1.0
-    } else {
-        1.0
-    };
+    let side = lots.side(order, id, 2);
     match ladder.plan.course {
         TertiaryCourse::Reticulate
         | TertiaryCourse::OppositePercurrent

@@ -5,88 +5,51 @@ use rayon::prelude::*;
 
 use super::VeinEdge;
 use crate::buckets::Buckets;
-use crate::plane::{bounds, segment};
+use crate::plane::{Lattice, bounds, segment};
 
-/// Square cells over a rectangle, numbered row by row from the lower left.
-#[derive(Clone, Debug)]
-pub(crate) struct Lattice {
-    low: DVec2,
-    cell: f64,
-    columns: usize,
-    rows: usize,
+/// Cells over all points: about two per point if the points fill the rectangle, at most about four
+/// per point, and with sides no smaller than `least`.
+pub(super) fn cells_around(
+    points: impl Iterator<Item = DVec2>,
+    count: usize,
+    least: f64,
+) -> Lattice {
+    let (low, high) = bounds(points);
+    if count == 0 {
+        return Lattice::new(DVec2::ZERO, DVec2::ZERO, 1.0);
+    }
+    let size = high - low;
+    let n = count as f64;
+    let cell = (size.x * size.y / (2.0 * n)).sqrt();
+    let cell = cell.max(size.max_element() / n).max(least);
+    Lattice::new(low, size, if cell > 0.0 { cell } else { 1.0 })
 }
 
-impl Lattice {
-    /// Cells over all points: about two per point if the points fill the rectangle, at most about
-    /// four per point, and with sides no smaller than `least`.
-    pub(crate) fn around(points: impl Iterator<Item = DVec2>, count: usize, least: f64) -> Self {
-        let (low, high) = bounds(points);
-        if count == 0 {
-            return Self {
-                low: DVec2::ZERO,
-                cell: 1.0,
-                columns: 1,
-                rows: 1,
-            };
-        }
-        let size = high - low;
-        let n = count as f64;
-        let cell = (size.x * size.y / (2.0 * n)).sqrt();
-        let cell = cell.max(size.max_element() / n).max(least);
-        let cell = if cell > 0.0 { cell } else { 1.0 };
-        Self {
-            low,
-            cell,
-            columns: (size.x / cell) as usize + 1,
-            rows: (size.y / cell) as usize + 1,
-        }
-    }
-
-    pub(crate) fn cells(&self) -> usize {
-        self.columns * self.rows
-    }
-
-    /// Number of the cell in which a point lies; for points outside the rectangle, of the nearest
-    /// cell.
-    pub(crate) fn cell(&self, p: DVec2) -> usize {
-        self.row(p.y) * self.columns + self.column(p.x)
-    }
-
-    // Casts from float to int saturate, so points below the rectangle fall into its first row.
-    fn column(&self, x: f64) -> usize {
-        (((x - self.low.x) / self.cell) as usize).min(self.columns - 1)
-    }
-
-    fn row(&self, y: f64) -> usize {
-        (((y - self.low.y) / self.cell) as usize).min(self.rows - 1)
-    }
-
-    /// Visits every cell through which the segment from `a` to `b` passes, and sometimes a
-    /// neighbouring cell.
-    fn along(&self, a: DVec2, b: DVec2, mut visit: impl FnMut(usize)) {
-        let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
-        let (first, last) = (self.row(a.y), self.row(b.y));
-        for row in first..=last {
-            // The part of the segment in this row, widened by far more than rounding.
-            let slack = 1e-6 * self.cell;
-            let floor = self.low.y + row as f64 * self.cell - slack;
-            let ceiling = floor + self.cell + 2.0 * slack;
-            let slope = (b.x - a.x) / (b.y - a.y);
-            let at = |y: f64| a.x + (y - a.y) * slope;
-            let enter = if row == first || floor <= a.y {
-                a.x
-            } else {
-                at(floor)
-            };
-            let leave = if row == last || ceiling >= b.y {
-                b.x
-            } else {
-                at(ceiling)
-            };
-            let (left, right) = (enter.min(leave), enter.max(leave));
-            for column in self.column(left - slack)..=self.column(right + slack) {
-                visit(row * self.columns + column);
-            }
+/// Visits every cell through which the segment from `a` to `b` passes, and sometimes a neighbouring
+/// cell.
+fn cells_along(cells: &Lattice, a: DVec2, b: DVec2, mut visit: impl FnMut(usize)) {
+    let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
+    let (first, last) = (cells.row(a.y), cells.row(b.y));
+    for row in first..=last {
+        // The part of the segment in this row, widened by far more than rounding.
+        let slack = 1e-6 * cells.cell;
+        let floor = cells.low.y + row as f64 * cells.cell - slack;
+        let ceiling = floor + cells.cell + 2.0 * slack;
+        let slope = (b.x - a.x) / (b.y - a.y);
+        let at = |y: f64| a.x + (y - a.y) * slope;
+        let enter = if row == first || floor <= a.y {
+            a.x
+        } else {
+            at(floor)
+        };
+        let leave = if row == last || ceiling >= b.y {
+            b.x
+        } else {
+            at(ceiling)
+        };
+        let (left, right) = (enter.min(leave), enter.max(leave));
+        for column in cells.column(left - slack)..=cells.column(right + slack) {
+            visit(row * cells.columns + column);
         }
     }
 }
@@ -103,11 +66,11 @@ impl EdgeGrid {
     pub(crate) fn new(nodes: &[DVec2], edges: &[VeinEdge], mean_length: f64) -> Self {
         let ends = |edge: &VeinEdge| (nodes[edge.from as usize], nodes[edge.to as usize]);
         let points = edges.iter().flat_map(|edge| <[DVec2; 2]>::from(ends(edge)));
-        let lattice = Lattice::around(points, edges.len(), mean_length);
+        let lattice = cells_around(points, edges.len(), mean_length);
         let mut listed: Vec<(u32, u32)> = Vec::with_capacity(2 * edges.len());
         for (number, edge) in (0..).zip(edges) {
             let (a, b) = ends(edge);
-            lattice.along(a, b, |cell| listed.push((cell as u32, number)));
+            cells_along(&lattice, a, b, |cell| listed.push((cell as u32, number)));
         }
         let listed = listed.iter().map(|&(cell, number)| (cell as usize, number));
         Self {

@@ -87,10 +87,8 @@ impl<I: Influence> Simulation<'_, I> {
             self.lay_out_order(&along, 3, &mut look);
         }
         let site = secondaries::Site {
-            blade,
-            margin: &margin,
+            ground,
             axes: &axes,
-            lots,
         };
         let laid = secondaries::lay_out(plan, site);
         let courses: Vec<Course> = laid.veins.iter().map(|vein| vein.course.clone()).collect();

@@ -9,7 +9,6 @@ use crate::venation::influence::Influence;
 use crate::venation::lamina_clock::LaminaClock;
 use crate::venation::open::NearestNode;
 use crate::venation::plan::{AuxinPlan, FreeEndings, Growth};
-use crate::venation::sources::Sources;
 
 impl<'a, I: Influence> Simulation<'a, I> {
     /// Runs the last round, in which free-ending veinlets grow, by the plan `rest`.
@@ -73,27 +72,13 @@ impl<'a, I: Influence> Simulation<'a, I> {
 
     /// The same veins with another rule for sources; present sources are discarded.
     pub(crate) fn under<J: Influence>(self) -> Simulation<'a, J> {
-        Simulation {
-            plan: self.plan,
-            lamina: self.lamina,
-            seed: self.seed,
-            clock: self.clock,
-            darts: self.darts,
-            veins: self.veins,
-            sources: Sources::new(),
-            source_tree: self.source_tree,
-            origins: self.origins,
-            first_step: self.first_step,
-            is_laying_out: self.is_laying_out,
-            noticed: self.noticed,
-            sources_born: self.sources_born,
-            step: self.step,
-            idle_steps: self.idle_steps,
-            darts_in_vain: self.darts_in_vain,
-            pulls: self.pulls,
-            is_driven: self.is_driven,
-            outcomes: self.outcomes,
-        }
+        let (lamina, clock) = (self.lamina, self.clock);
+        let mut simulation =
+            Simulation::resume(self.plan, lamina, clock, self.seed, self.veins, self.darts);
+        simulation.step = self.step;
+        simulation.first_step = self.first_step;
+        simulation.sources_born = self.sources_born;
+        simulation
     }
 
     /// The young leaf's margin and apex, in the frame of the simulation.

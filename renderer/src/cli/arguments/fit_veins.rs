@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use leafmodel::inference::FEWEST;
 
-use super::between;
+use super::numbers::between;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:

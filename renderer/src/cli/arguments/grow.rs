@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{MOST_GIB, between};
+use super::numbers::{MOST_GIB, between, number};
 
 /// Examples of the command.
 pub(super) const EXAMPLES: &str = "\
@@ -129,13 +129,11 @@ pub struct GrowArguments {
 
 /// Frames a second that films can hold and programs show.
 fn frames_a_second(text: &str) -> Result<f64, String> {
-    let value: f64 = text
-        .parse()
-        .map_err(|_| format!("`{text}` is not a number"))?;
-    if (0.1..=50.0).contains(&value) {
-        return Ok(value);
-    }
-    Err("it must be 0.1 to 50".to_owned())
+    let messages = [
+        format!("`{text}` is not a number"),
+        "it must be 0.1 to 50".to_owned(),
+    ];
+    number(text, |value| (0.1..=50.0).contains(&value), messages)
 }
 
 impl GrowArguments {

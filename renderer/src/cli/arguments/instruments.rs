@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{MOST_GIB, MOST_SECONDS, SceneArguments, between};
+use super::numbers::{MOST_GIB, MOST_SECONDS, between};
+use super::scene::SceneArguments;
 use crate::instruments::Target;
 
 pub(super) const EXAMPLES: &str = "\

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 use leafmodel::import::Format;
 
+use super::numbers::{above_0, between, two_numbers};
 use super::tables::{self, TableArguments};
-use super::{between, two_numbers};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -179,13 +179,6 @@ impl MeasureArguments {
     }
 }
 
-/// A number above 0 and up to `HIGH`.
-fn above_0<const HIGH: u32>(text: &str) -> Result<f64, String> {
-    let number = between::<0, HIGH>(text)?;
-    let allowed = format!("it must be above 0 and at most {HIGH}");
-    (number > 0.0).then_some(number).ok_or(allowed)
-}
-
 /// Millimetres to a unit.
 fn scale(text: &str) -> Result<f64, String> {
     above_0::<MOST_MM>(text)
@@ -198,8 +191,6 @@ fn area(text: &str) -> Result<f64, String> {
 
 /// A place in mm.
 fn place(text: &str) -> Result<[f64; 2], String> {
-    two_numbers(
-        text,
-        "it must be x and y in mm with a comma between them: 0,-1.5",
-    )
+    let wanted = "it must be x and y in mm with a comma between them: 0,-1.5";
+    two_numbers(text, wanted)
 }

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 use leafmodel::optics::{Constituent, PerConstituent};
 
-use super::TableArguments;
+use super::numbers::number;
+use super::tables::TableArguments;
 
 /// `lamina optics`: a preset, PROSPECT-D's inputs and betalains, and what is to be told of them.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
@@ -103,22 +104,20 @@ impl OpticsArguments {
 }
 
 fn in_table(text: &str) -> Result<f64, String> {
-    let nm: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    if (400.0..=2500.0).contains(&nm) {
-        Ok(nm)
-    } else {
-        Err("write a wavelength from 400 to 2500 nm".to_owned())
-    }
+    let refused = "write a wavelength from 400 to 2500 nm";
+    number(
+        text,
+        |nm| (400.0..=2500.0).contains(&nm),
+        ["not a number", refused],
+    )
 }
 
 /// A number in the range of a constituent.
 fn in_range(of: Constituent) -> impl Fn(&str) -> Result<f64, String> + Clone {
     move |text| {
         let [low, high] = of.range();
-        let value = text.parse().map_err(|_| "not a number".to_owned())?;
-        let is_allowed = (low..=high).contains(&value);
-        is_allowed
-            .then_some(value)
-            .ok_or_else(|| format!("write a number from {low} to {high}"))
+        let refused = format!("write a number from {low} to {high}");
+        let messages = ["not a number".to_owned(), refused];
+        number(text, |value| (low..=high).contains(&value), messages)
     }
 }

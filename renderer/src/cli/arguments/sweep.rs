@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{between, samples};
+use super::numbers::{between, samples};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:

@@ -3,7 +3,7 @@
 use clap::Args;
 use leafmodel::document::rows::{Decimal, Form, Separator};
 
-use crate::measured::known::{AngleUnit, Known, Measure, Overlap, ValueUnit, WavelengthUnit};
+use crate::measured::known::{Known, WavelengthUnit};
 
 /// The form of a table.
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -57,28 +57,8 @@ pub(super) fn decimal(text: &str) -> Result<Decimal, String> {
     word(text, &Decimal::ALL)
 }
 
-/// The unit of values.
-pub(super) fn values(text: &str) -> Result<ValueUnit, String> {
-    word(text, &ValueUnit::ALL)
-}
-
-/// The unit of angles.
-pub(super) fn angles(text: &str) -> Result<AngleUnit, String> {
-    word(text, &AngleUnit::ALL)
-}
-
-/// Which detector counts.
-pub(super) fn overlap(text: &str) -> Result<Overlap, String> {
-    word(text, &Overlap::ALL)
-}
-
-/// What was measured.
-pub(super) fn quantity(text: &str) -> Result<Measure, String> {
-    word(text, &Measure::ALL)
-}
-
 /// What a word stands for.
-fn word<T: Copy>(text: &str, all: &[(&'static str, T)]) -> Result<T, String> {
+pub(super) fn word<T: Copy>(text: &str, all: &[(&'static str, T)]) -> Result<T, String> {
     let found = all.iter().find(|(known, _)| *known == text);
     found.map(|(_, value)| *value).ok_or_else(|| {
         let known: Vec<&str> = all.iter().map(|(known, _)| *known).collect();

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::numbers::{MOST_GIB, between, number, two_numbers};
+
 /// Examples of the command.
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -114,7 +116,7 @@ pub struct TraceArguments {
     )]
     pub size: u32,
     /// Memory that tracing may take; the default is what the machine has free
-    #[arg(long, value_name = "GIB", value_parser = super::between::<0, { super::MOST_GIB }>)]
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,
     /// Threads; the default is one for each processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -123,20 +125,15 @@ pub struct TraceArguments {
 
 /// A number above 0.
 fn positive(text: &str) -> Result<f64, String> {
-    let number: f64 = text
-        .parse()
-        .map_err(|_| "not a number; write one above 0".to_owned())?;
-    if number.is_finite() && number > 0.0 {
-        Ok(number)
-    } else {
-        Err("must be finite and above 0".to_owned())
-    }
+    let messages = [
+        "not a number; write one above 0",
+        "must be finite and above 0",
+    ];
+    number(text, |number| number.is_finite() && number > 0.0, messages)
 }
 
 /// A place in pixels.
 fn place(text: &str) -> Result<[f64; 2], String> {
-    super::two_numbers(
-        text,
-        "not a place; write pixels from the left and from the top: 512,1800",
-    )
+    let wanted = "not a place; write pixels from the left and from the top: 512,1800";
+    two_numbers(text, wanted)
 }

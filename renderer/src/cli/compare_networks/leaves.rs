@@ -8,7 +8,8 @@ use super::sources::{From, Source, Sources};
 use crate::cli::arguments::{CompareNetworksArguments, MeasuringArguments};
 use crate::cli::grow::{self, Wish};
 use crate::cli::measure::Input;
-use crate::cli::{Failure, needs};
+use crate::cli::needs;
+use crate::cli::terminal::Failure;
 use crate::comparison::leaves::{LEFT_OUT, Leaf, Shown, by_kind};
 use crate::report::measures::{by_order, measured};
 
@@ -98,7 +99,7 @@ fn leaf(
         Ready::Plan(plan) => {
             let lamina = plan
                 .grow_lamina()
-                .map_err(|error| Failure::bad(format!("{}: {error}", source.given)))?;
+                .map_err(|error| bad!("{}: {error}", source.given))?;
             let shown = Shown {
                 outlines: vec![lamina.outline],
                 network: lamina.network,

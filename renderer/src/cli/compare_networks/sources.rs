@@ -9,8 +9,8 @@ use leafmodel::document::source::quoted;
 use crate::cli::arguments::{CompareNetworksArguments, ReadingArguments, file_and_leaf};
 use crate::cli::grow::is_word;
 use crate::cli::places::has_ending;
+use crate::cli::terminal::{Failure, did_you_mean};
 use crate::cli::texts::text_of;
-use crate::cli::{Failure, did_you_mean};
 
 /// The columns of a table of leaves, besides those that say how a file is read.
 const COLUMNS: [&str; 3] = ["file", "group", "name"];
@@ -56,10 +56,10 @@ impl Sources {
         let seeds = arguments.seeds;
         if let Some(table) = &arguments.table {
             if let Some(column) = arguments.reading.first() {
-                return Err(Failure::bad(format!(
+                bail!(
                     "flags that say how a file is read do not go with --table: give it a column \
                      `{column}`"
-                )));
+                );
             }
             sources.add_table(table, &arguments.reading, seeds)?;
         } else if arguments.groups.0.is_empty() {
@@ -72,22 +72,18 @@ impl Sources {
         } else {
             for group in &arguments.groups.0 {
                 if group.name.trim().is_empty() {
-                    return Err(Failure::bad(
-                        "--group: its name is empty: write --group NAME FILE…",
-                    ));
+                    bail!("--group: its name is empty: write --group NAME FILE…");
                 }
                 if looks_like_a_file(&group.name) {
-                    return Err(Failure::bad(format!(
+                    bail!(
                         "--group {0}: its first word is the name of the group, and `{0}` is a \
                          network: write --group NAME {0} …",
                         group.name.escape_debug()
-                    )));
+                    );
                 }
                 if sources.groups.contains(&group.name) {
                     let name = group.name.escape_debug();
-                    return Err(Failure::bad(format!(
-                        "--group {name} is given twice: name all of its leaves behind the first"
-                    )));
+                    bail!("--group {name} is given twice: name all of its leaves behind the first");
                 }
                 let number = sources.group(&group.name);
                 for given in &group.leaves {
@@ -166,8 +162,7 @@ impl Sources {
         let shown = path.display();
         let text = text_of(path)?;
         let table = Rows::written(&text, given.form.form());
-        let refused_at =
-            |line: usize, problem: String| Failure::bad(format!("{shown}:{line}: {problem}"));
+        let refused_at = |line: usize, problem: String| bad!("{shown}:{line}: {problem}");
         let ragged = |ragged: Ragged| refused_at(ragged.line, ragged.to_string());
         let mut rows = table.records();
         let header = rows.next().transpose().map_err(ragged)?;
@@ -247,32 +242,27 @@ impl Sources {
                         quoted(&self.groups[leaf.group])
                     )
                 };
-                return Err(Failure::bad(format!(
-                    "{} is named twice: {what}",
-                    quoted(&leaf.given)
-                )));
+                bail!("{} is named twice: {what}", quoted(&leaf.given));
             }
         }
         match (self.groups.len(), self.leaves.len()) {
-            (0 | 1, _) if arguments.groups.0.is_empty() && arguments.table.is_none() => {
-                Err(Failure::bad(format!(
-                    "{} to compare: name two networks or more, or groups of them by --group NAME \
+            (0 | 1, _) if arguments.groups.0.is_empty() && arguments.table.is_none() => Err(bad!(
+                "{} to compare: name two networks or more, or groups of them by --group NAME \
                      FILE… or --table FILE.csv",
-                    if self.leaves.is_empty() {
-                        "nothing"
-                    } else {
-                        "one network has no other"
-                    }
-                )))
-            }
-            (0 | 1, _) => Err(Failure::bad(format!(
+                if self.leaves.is_empty() {
+                    "nothing"
+                } else {
+                    "one network has no other"
+                }
+            )),
+            (0 | 1, _) => Err(bad!(
                 "there {}: give two or more",
                 if self.groups.is_empty() {
                     "are no leaves"
                 } else {
                     "is one group"
                 }
-            ))),
+            )),
             _ => Ok(()),
         }
     }

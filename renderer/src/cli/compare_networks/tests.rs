@@ -1,8 +1,8 @@
 use clap::Parser as _;
 
 use super::sources::Sources;
-use crate::cli::Failure;
 use crate::cli::arguments::{Arguments, Command, CompareNetworksArguments};
+use crate::cli::terminal::Failure;
 
 fn arguments() -> CompareNetworksArguments {
     let line = ["lamina", "compare-networks", "a", "b"];

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use leafmodel::document::source::quoted;
 
 use crate::cli::arguments::FitArguments;
+use crate::cli::terminal::{Failure, note};
 use crate::cli::texts::text_of;
-use crate::cli::{Failure, note};
 use crate::measured::Slack;
 use crate::measured::known::Known;
 use crate::measured::series::{self, Series};

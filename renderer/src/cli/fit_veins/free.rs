@@ -2,15 +2,16 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use leafmodel::document::written::Extent;
 use leafmodel::inference::{Draw, Observation, Outcome, Parameter};
 use leafmodel::leaf::LeafPlan;
 use leafmodel::measure::measure;
-use leafmodel::plan_file::{LeafFile, load_one_leaf};
+use leafmodel::plan_file::{LeafFile, leaf_to_toml, load_one_leaf};
 
 use super::observed::Observed;
-use crate::cli::Failure;
 use crate::cli::arguments::FitVeinsArguments;
 use crate::cli::grow::{self, Wish};
+use crate::cli::terminal::Failure;
 use crate::scene::assets::DECODER;
 
 const GIB: f64 = 1024.0 * 1024.0 * 1024.0;
@@ -63,9 +64,9 @@ impl Grower {
         &self.parameters
     }
 
-    /// All that outcomes depend on besides the draws.
-    pub(super) fn told(&self) -> String {
-        format!("{} {:?}", self.name, self.plan)
+    /// The leaf as a file of all of its keys.
+    pub(super) fn file(&self) -> String {
+        leaf_to_toml(&self.name, &self.plan, Extent::All)
     }
 
     /// What a user should know of the leaf before it is grown.
@@ -97,9 +98,8 @@ impl Grower {
     /// A free key, after both ends and a place between them have been tried.
     fn parameter(&self, key: &str, low: f64, high: f64) -> Result<Parameter, Failure> {
         let parameter = Parameter::new(key, low, high);
-        let parameter = parameter.map_err(|error| {
-            Failure::bad(format!("--free {error}: write {key}=LO..HI with LO < HI"))
-        })?;
+        let parameter =
+            parameter.map_err(|error| bad!("--free {error}: write {key}=LO..HI with LO < HI"))?;
         let with = |value: f64| self.plan(&[setting(key, value)]);
         // Keys are looked up as those of --set.
         with(low).map_err(|failure| match failure {
@@ -132,11 +132,11 @@ impl Grower {
                 Ok::<_, Failure>(LeafPlan { seed: 0, ..plan })
             };
             if with(0)? == with(1)? {
-                return Err(Failure::bad(format!(
+                bail!(
                     "--free {}: the leaf does not change with it while the other free keys stay; \
                      each leaf has a seed of its own, and a key is free once",
                     free.name()
-                )));
+                );
             }
         }
         Ok(())
@@ -197,9 +197,7 @@ fn setting(key: &str, value: f64) -> String {
 fn range(word: &str) -> Result<(&str, f64, f64), Failure> {
     let refuse = |problem: String| {
         let word = word.escape_debug();
-        Failure::bad(format!(
-            "--free {word}: {problem}; write KEY=LO..HI, as in kill_distance_segments=0.5..4"
-        ))
+        bad!("--free {word}: {problem}; write KEY=LO..HI, as in kill_distance_segments=0.5..4")
     };
     let Some((key, ends)) = word.split_once('=') else {
         return Err(refuse("its range is missing".to_owned()));

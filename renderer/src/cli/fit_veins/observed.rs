@@ -8,8 +8,8 @@ use leafmodel::measure::fitting::{FITTED, HELD_OUT, possible};
 use serde_json::{Map, Value};
 
 use crate::cli::arguments::FitVeinsArguments;
+use crate::cli::terminal::{Failure, did_you_mean};
 use crate::cli::texts::bytes_of;
-use crate::cli::{Failure, did_you_mean};
 
 /// Most bytes of a file of measures; those of a leaf have a few thousand.
 const MOST_BYTES: u64 = 1 << 24;
@@ -30,7 +30,7 @@ impl Observed {
         let path = arguments.measures.as_path();
         let members = members(path)?;
         Self::of(&members, &arguments.fit, &arguments.hold_out)
-            .map_err(|problem| Failure::bad(format!("{}: {problem}", path.display())))
+            .map_err(|problem| bad_at!(path, "{problem}"))
     }
 
     fn of(members: &Map<String, Value>, fit: &[String], held: &[String]) -> Result<Self, String> {
@@ -142,18 +142,18 @@ fn members(path: &Path) -> Result<Map<String, Value>, Failure> {
     let shown = path.display();
     let bytes = bytes_of(path, MOST_BYTES)?;
     let value = serde_json::from_slice::<Value>(&bytes).map_err(|error| {
-        Failure::bad(format!(
+        bad!(
             "{shown}:{}:{}: not JSON: {error}",
             error.line(),
             error.column()
-        ))
+        )
     })?;
     match value {
         Value::Object(members) => Ok(members),
         Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) | Value::Array(_) => {
-            Err(Failure::bad(format!(
+            Err(bad!(
                 "{shown}: not an object of measures, as lamina grow --measure writes it"
-            )))
+            ))
         }
     }
 }

@@ -16,10 +16,10 @@ use serde_json::Value;
 
 use super::free::Grower;
 use crate::checkpoint::PROGRAM;
-use crate::cli::Failure;
 use crate::cli::places::write_whole;
 use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
+use crate::cli::terminal::Failure;
 use crate::report::table::{Table, cell};
 
 /// Simulations by generation and number.
@@ -120,7 +120,7 @@ impl<'p> Simulations<'p> {
     }
 
     fn table(&self, grown: &Grown) -> String {
-        let mut table = Table::new(header(self.problem));
+        let mut table = Table::of(header(self.problem));
         // All digits, and a point.
         let exact = |value: &f64| format!("{value:?}");
         for (draw, outcome) in grown.values() {

@@ -6,7 +6,7 @@ use leafmodel::species::traits::{Provenance, Quantity, Traits};
 
 use super::choice::{is_word, unknown_preset};
 use crate::cli::arguments::file_and_leaf;
-use crate::cli::{Failure, say};
+use crate::cli::terminal::{Failure, say};
 use crate::report::table::in_columns;
 
 /// Prints a preset's description and, if it stands for a species, the table of its traits.
@@ -16,10 +16,10 @@ pub(super) fn tell(name: &str) -> Result<(), Failure> {
         if is_word(name) && !path.exists() {
             unknown_preset(name)
         } else {
-            Failure::bad(format!(
+            bad!(
                 "--about tells of presets, and `{}` is a file's name (`lamina grow --list` names the presets)",
                 name.escape_debug()
-            ))
+            )
         }
     })?;
     say(preset.name);
@@ -51,9 +51,8 @@ fn row(quantity: &Quantity) -> Row {
 
 /// The species, and rows with a heading: the traits of the leaf in summer, then what differs.
 fn table(traits: &Traits) -> String {
-    let heading = ["trait", "value", "range", "from"].map(str::to_owned);
-    let rows: Vec<Row> = std::iter::once(heading).chain(rows(traits)).collect();
-    format!("  {}\n{}", traits.species, in_columns(&rows))
+    let rows = in_columns(["trait", "value", "range", "from"], rows(traits));
+    format!("  {}\n{rows}", traits.species)
 }
 
 fn rows(traits: &Traits) -> impl Iterator<Item = Row> {
@@ -72,11 +71,10 @@ pub(super) fn findings_table(found: &[Finding]) -> String {
             told(&finding.from),
         ]
     };
-    let heading = ["trait", "found", "range", "", "from"].map(str::to_owned);
-    let rows: Vec<[String; 5]> = std::iter::once(heading)
-        .chain(found.iter().map(row))
-        .collect();
-    in_columns(&rows)
+    in_columns(
+        ["trait", "found", "range", "", "from"],
+        found.iter().map(row),
+    )
 }
 
 fn told(from: &Provenance) -> String {

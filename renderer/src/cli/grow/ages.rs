@@ -8,12 +8,13 @@ use leafmodel::blade::contents_map::ContentsMap;
 use leafmodel::blade::senescence::Senescence;
 use leafmodel::leaf::{Lamina, LeafError, LeafPlan};
 
-use super::drawings::{has_caption, png};
+use super::drawings::has_caption;
 use super::films::Films;
 use super::maps;
-use super::outputs::{Kind, Outputs, numbered};
-use crate::cli::Failure;
+use super::outputs::{Outputs, numbered};
 use crate::cli::arguments::CaptionedKinds;
+use crate::cli::signals;
+use crate::cli::terminal::Failure;
 use crate::export::caption::{Note, captioned};
 use crate::export::daylight::in_daylight;
 use crate::export::drawing::Drawing;
@@ -21,17 +22,17 @@ use crate::export::drawing::Drawing;
 /// Refuses plans of leaves that do not age by days.
 pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
     if plan.compound.is_some() {
-        return Err(Failure::bad(
-            "--ages shows how one blade ages, and this is a compound leaf: take its block `compound` out of the plan",
-        ));
+        bail!(
+            "--ages shows how one blade ages, and this is a compound leaf: take its block `compound` out of the plan"
+        );
     }
     let last = last_day(plan)?;
     if last > Senescence::LATEST_DAY {
-        return Err(Failure::bad(format!(
+        bail!(
             "--ages shows a leaf until all of it is dead, which is on day {last}; days go to {}: let `senescence.death_day` be \
              less, or `senescence.blend_days`, or the days by which its tissue comes later",
             Senescence::LATEST_DAY
-        )));
+        );
     }
     Ok(())
 }
@@ -41,9 +42,7 @@ fn last_day(plan: &LeafPlan) -> Result<f64, Failure> {
     let senescence = plan.senescence.as_ref();
     let last = senescence.and_then(Senescence::last_day);
     last.ok_or_else(|| {
-        Failure::bad(
-            "--ages needs a leaf that ages by days: presets such as `birch-autumn` do, others with a block `senescence` that has `day`",
-        )
+        bad!("--ages needs a leaf that ages by days: presets such as `birch-autumn` do, others with a block `senescence` that has `day`")
     })
 }
 
@@ -87,13 +86,7 @@ pub(super) fn write(
         return check(plan);
     };
     let is_stopped = || stop.load(Ordering::Relaxed);
-    let failed = |error: LeafError| {
-        if is_stopped() {
-            Failure::Interrupted
-        } else {
-            Failure::bad(error)
-        }
-    };
+    let failed = |error: LeafError| signals::failure(stop, error);
     // Cells do not change their type as they age.
     let pattern = plan.grow_pattern(lamina, &is_stopped).map_err(failed)?;
     let painted = |day: f64, map_size: u32| -> Result<ContentsMap, Failure> {
@@ -102,9 +95,7 @@ pub(super) fn write(
             map_size,
             ..plan.clone()
         };
-        if is_stopped() {
-            return Err(Failure::Interrupted);
-        }
+        signals::check(stop)?;
         plan.paint_with(lamina, pattern.as_ref()).map_err(failed)
     };
     let last = last_day(plan)?;
@@ -113,11 +104,10 @@ pub(super) fn write(
     for (number, day) in days(last, written.count).enumerate() {
         if !outputs.staged.is_empty() {
             let map = painted(day, written.pixels.clamp(16, 8192))?;
-            let picture = in_daylight(&map, &plan.pigments, lamina.intact());
             let picture = Drawing {
                 width: map.width,
                 height: map.height,
-                rgb: picture,
+                rgb: in_daylight(&map, &plan.pigments, lamina.intact()),
             };
             let across = UvFrame::around(lamina.intact().points()).size.x;
             let notes = [
@@ -126,18 +116,19 @@ pub(super) fn write(
                 },
                 Note::Text(format!("day {day:>digits$.1} of {last:.1}")),
             ];
-            let of_kind = |kind| {
-                if has_caption(written.captions, kind) {
+            let drawn = |is_film| {
+                if has_caption(written.captions, is_film) {
                     captioned(&picture, &notes)
                 } else {
                     picture.clone()
                 }
             };
             let pngs = outputs.staged.iter().filter(|(_, kind)| !kind.is_film());
-            for (path, kind) in pngs {
-                super::finish(&numbered(path, number + 1), &png(&of_kind(*kind))?, stop)?;
+            for (path, _) in pngs {
+                let png = drawn(false).png().map_err(Failure::bad)?;
+                super::finish(&numbered(path, number + 1), &png, stop)?;
             }
-            films.push(&[of_kind(Kind::Gif)])?;
+            films.push(&[drawn(true)])?;
         }
         if let Some(folder) = written.contents {
             let map = painted(day, plan.map_size)?;

@@ -6,7 +6,7 @@ use leafmodel::plan_file::{LeafFile, LeafNotChosen, load_one_leaf};
 use leafmodel::species;
 
 use crate::cli::arguments::{GrowArguments, file_and_leaf};
-use crate::cli::{Failure, colour};
+use crate::cli::terminal::{Failure, colour};
 use crate::scene::assets::DECODER;
 use leafmodel::document::nearest::meant;
 
@@ -99,10 +99,10 @@ pub(in crate::cli) fn unknown_preset(wanted: &str) -> Failure {
     let presets = species::PRESETS.iter();
     let meant = meant(wanted, presets.map(|preset| (preset.name, preset.about())));
     let meant = meant.map_or_else(String::new, |name| format!("; did you mean `{name}`?"));
-    Failure::bad(format!(
+    bad!(
         "there is neither a preset nor a file `{}`{meant} (`lamina grow --list` names the presets)",
         wanted.escape_debug()
-    ))
+    )
 }
 
 impl From<LeafNotChosen> for NotChosen {

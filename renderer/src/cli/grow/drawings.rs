@@ -5,14 +5,13 @@ use leafmodel::export::{self, SvgStyle};
 use leafmodel::shape::outline::Outline;
 use leafmodel::venation::network::VenationNetwork;
 
-use super::outputs::Kind;
-use crate::cli::Failure;
 use crate::cli::arguments::{CaptionedKinds, GrowArguments, VeinColour};
+use crate::cli::terminal::Failure;
 use crate::export::caption::{Note, captioned};
 use crate::export::drawing::{
     Drawing, SOURCE_COLOUR, Style, Subject, age_colour, draw_within, pixels_per_mm,
 };
-use crate::image::portable_network;
+use crate::export::veins::VeinFormat;
 
 /// Lower left and upper right corner of what a picture shows, mm.
 pub(super) type Page = (DVec2, DVec2);
@@ -61,30 +60,27 @@ impl Look {
     /// A leaf, or a stage of it after `step`, in a format that shows its veins.
     pub(super) fn file(
         &self,
-        kind: Kind,
+        format: VeinFormat,
         subject: Subject,
         step: Option<u32>,
     ) -> Result<Vec<u8>, Failure> {
-        let (outlines, network) = (subject.outlines, subject.network);
         let svg = SvgStyle {
             orders_in_colour: self.colour == VeinColour::Order,
             ..SvgStyle::default()
         };
-        Ok(match kind {
-            Kind::Svg => export::svg_within(self.page, outlines, network, svg).into_bytes(),
-            Kind::Png => png(&self.drawn(kind, subject, step)?)?,
-            Kind::Json => export::json(outlines, network, true).into_bytes(),
-            Kind::GraphMl => export::graphml(network).into_bytes(),
-            Kind::GeoJson => export::geojson(outlines, network).into_bytes(),
-            Kind::Csv => export::table(network).into_bytes(),
-            Kind::Gif | Kind::Apng | Kind::Mp4 | Kind::Ply | Kind::Obj | Kind::Toml => Vec::new(),
-        })
+        match format.text(self.page, subject.outlines, subject.network, svg) {
+            Some(text) => Ok(text.into_bytes()),
+            None => self
+                .drawn(false, subject, step)?
+                .png()
+                .map_err(Failure::bad),
+        }
     }
 
     /// The picture for a PNG or a film.
     pub(super) fn drawn(
         &self,
-        kind: Kind,
+        is_film: bool,
         subject: Subject,
         step: Option<u32>,
     ) -> Result<Drawing, Failure> {
@@ -100,7 +96,7 @@ impl Look {
             ..subject
         };
         let drawing = draw_within(self.page, subject, self.pixels, style).map_err(Failure::bad)?;
-        if !has_caption(self.captions, kind) {
+        if !has_caption(self.captions, is_film) {
             return Ok(drawing);
         }
         Ok(captioned(&drawing, &self.notes(step)))
@@ -148,17 +144,12 @@ impl Look {
 }
 
 /// Whether pictures of this kind have a caption.
-pub(super) fn has_caption(captions: CaptionedKinds, kind: Kind) -> bool {
+pub(super) fn has_caption(captions: CaptionedKinds, is_film: bool) -> bool {
     match captions {
         CaptionedKinds::All => true,
-        CaptionedKinds::Films => kind.is_film(),
+        CaptionedKinds::Films => is_film,
         CaptionedKinds::None => false,
     }
-}
-
-/// The bytes of a PNG.
-pub(super) fn png(drawing: &Drawing) -> Result<Vec<u8>, Failure> {
-    portable_network::encoded(drawing.width, drawing.height, &drawing.rgb).map_err(Failure::bad)
 }
 
 /// What is drawn of a leaf without sources.

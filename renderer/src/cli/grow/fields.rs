@@ -10,7 +10,8 @@ use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::leaf::{Lamina, LeafPlan};
 use rayon::prelude::*;
 
-use crate::cli::{Failure, say};
+use crate::cli::signals;
+use crate::cli::terminal::{Failure, say};
 use crate::image::{Layer, Picture, openexr};
 
 /// Refuses plans of leaves that have no fields.
@@ -31,9 +32,9 @@ pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
 }
 
 fn none() -> Failure {
-    Failure::bad(
+    bad!(
         "--fields needs veins that are splines (venation.arcuate) or a transport leaf (outline.transport or \
-         venation.transport): others have no fields but their contents",
+         venation.transport): others have no fields but their contents"
     )
 }
 
@@ -70,22 +71,16 @@ pub(super) fn write(
         channels
     };
     let rows: Vec<Vec<Vec<f32>>> = (0..height).into_par_iter().map(row).collect();
-    if stop.load(Ordering::Relaxed) {
-        return Err(Failure::Interrupted);
-    }
-    let layer = |(channel, name): (usize, &&str)| Layer {
-        name: (*name).to_owned(),
-        data: rows
-            .iter()
-            .flat_map(|row| row[channel].iter().copied())
-            .collect(),
+    signals::check(stop)?;
+    let layer = |(channel, name): (usize, &&str)| {
+        Layer::new(
+            *name,
+            rows.iter()
+                .flat_map(|row| row[channel].iter().copied())
+                .collect(),
+        )
     };
-    let picture = Picture {
-        width,
-        height,
-        layers: names.iter().enumerate().map(layer).collect(),
-        attributes: Vec::new(),
-    };
+    let picture = Picture::new([width, height], names.iter().enumerate().map(layer));
     openexr::write(&picture, path).map_err(Failure::system)?;
     say(path.display());
     Ok(())

@@ -3,16 +3,18 @@
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use tempfile::NamedTempFile;
 
 use super::outputs::{Kind, Outputs};
-use crate::cli::Failure;
 use crate::cli::arguments::GrowArguments;
 use crate::cli::progress::Steps;
+use crate::cli::signals;
+use crate::cli::terminal::Failure;
 use crate::export::drawing::Drawing;
-use crate::image::animation::{Animation, Format, Timing};
+use crate::image::animation::{Animation, Timing};
+use crate::image::atomic::folder_of;
 
 /// The program that makes mp4; nothing else needs it.
 const ENCODER: &str = "ffmpeg";
@@ -31,11 +33,11 @@ pub(super) fn check(outputs: &Outputs) -> Result<(), Failure> {
         .status();
     match found {
         Ok(status) if status.success() => Ok(()),
-        Ok(_) | Err(_) => Err(Failure::bad(format!(
-            "{}: mp4 is made by the program `{ENCODER}`, which cannot be run here: install it, or let the name end in gif or \
-             apng, which need no other program",
-            path.display()
-        ))),
+        Ok(_) | Err(_) => Err(bad_at!(
+            path,
+            "mp4 is made by the program `{ENCODER}`, which cannot be run here: install it, or let the name end in gif or \
+             apng, which need no other program"
+        )),
     }
 }
 
@@ -142,19 +144,8 @@ impl Writer {
         count: u32,
         timing: Timing,
     ) -> Result<Self, Failure> {
-        let format = match kind {
-            Kind::Apng => Format::Apng,
-            Kind::Mp4 => return Ok(Self::Other(Encoding::begun(path, size, timing)?)),
-            Kind::Gif
-            | Kind::Svg
-            | Kind::Png
-            | Kind::Json
-            | Kind::GraphMl
-            | Kind::GeoJson
-            | Kind::Csv
-            | Kind::Ply
-            | Kind::Obj
-            | Kind::Toml => Format::Gif,
+        let Kind::Film(format) = kind else {
+            return Ok(Self::Other(Encoding::begun(path, size, timing)?));
         };
         let film = Animation::new(format, size, count, timing).map_err(Failure::bad)?;
         Ok(Self::Own(Box::new(film)))
@@ -171,14 +162,10 @@ struct Encoding {
 
 impl Encoding {
     fn begun(path: &Path, [width, height]: [u32; 2], timing: Timing) -> Result<Self, Failure> {
-        let folder = path
-            .parent()
-            .filter(|folder| !folder.as_os_str().is_empty());
-        // A name by which a later run finds it if this one is killed.
         let file = tempfile::Builder::new()
             .prefix(&format!(".lamina-{}-", std::process::id()))
             .suffix(".part")
-            .tempfile_in(folder.unwrap_or(Path::new(".")))
+            .tempfile_in(folder_of(path))
             .map_err(Failure::system)?;
         let mut command = Command::new(ENCODER);
         // Ctrl-C is for this program, which ends that one.
@@ -215,7 +202,7 @@ impl Encoding {
 
     fn push(&mut self, rgb: &[u8]) -> Result<(), Failure> {
         if !self.last.is_empty() && self.last.len() != rgb.len() {
-            return Err(Failure::bad("a frame of another size than its film"));
+            bail!("a frame of another size than its film");
         }
         self.send(rgb)?;
         rgb.clone_into(&mut self.last);
@@ -235,9 +222,7 @@ impl Encoding {
         let again = (timing.last_frame_seconds * timing.frames_per_second).round() - 1.0;
         let last = std::mem::take(&mut self.last);
         for _ in 0..again.max(0.0) as u32 {
-            if stop.load(Ordering::Relaxed) {
-                return Err(Failure::Interrupted);
-            }
+            signals::check(stop)?;
             self.send(&last)?;
         }
         let failure = self.failure();

@@ -1,6 +1,6 @@
 //! A leaf at several times of its growth.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use leafmodel::blade::petiole::PetiolePlan;
 use leafmodel::compound::FlatLeaf;
@@ -11,8 +11,9 @@ use rayon::prelude::*;
 use super::drawings::Look;
 use super::films::Films;
 use super::outputs::{Kind, Outputs, numbered};
-use crate::cli::places::write_whole;
-use crate::cli::{Failure, say};
+use crate::cli::places::write_and_say;
+use crate::cli::signals;
+use crate::cli::terminal::Failure;
 use crate::export::drawing::{Drawing, Subject};
 
 /// Greatest total number of nodes of stages in memory at once, about a gigabyte.
@@ -26,9 +27,9 @@ const MOST_DRAWN_BYTES: u64 = 512 << 20;
 /// Refuses plans of leaves that have no stages.
 pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
     if plan.compound.is_some() {
-        return Err(Failure::bad(
-            "--frames shows how one blade grows, and this is a compound leaf: take its block `compound` out of the plan",
-        ));
+        bail!(
+            "--frames shows how one blade grows, and this is a compound leaf: take its block `compound` out of the plan"
+        );
     }
     if plan.damage.is_some() {
         return Err(no_stages(&LeafError::NoStages(
@@ -59,14 +60,14 @@ pub(super) fn check_sources(plan: &LeafPlan) -> Result<(), Failure> {
         VenationPlan::Arcuate(_)
         | VenationPlan::Cells(_)
         | VenationPlan::Transport(_)
-        | VenationPlan::Development(_) => Err(Failure::bad(
-            "--sources shows the sources towards which veins grow, and those of this leaf do not: its venation has no `auxin`",
+        | VenationPlan::Development(_) => Err(bad!(
+            "--sources shows the sources towards which veins grow, and those of this leaf do not: its venation has no `auxin`"
         )),
     }
 }
 
 fn no_stages(error: &LeafError) -> Failure {
-    Failure::bad(format!("--frames: {error}"))
+    bad!("--frames: {error}")
 }
 
 /// A stage with its petiole, if the leaf has one. Its length and radius are reduced in proportion
@@ -117,39 +118,30 @@ pub(super) fn write(
     let steps = steps(last_step, films.count());
     let group = (MOST_NODES / lamina.network.nodes().len().max(1)).clamp(1, MOST_STAGES);
     for (index, group_steps) in steps.chunks(group).enumerate() {
-        let stages = plan
-            .stages(lamina, group_steps)
-            .map_err(|error| no_stages(&error))?;
-        let stages: Vec<LeafStage> = stages
-            .into_iter()
-            .map(|stage| with_petiole(plan, lamina, stage))
-            .collect();
+        let stages = plan.stages(lamina, group_steps);
+        let stages = stages.map_err(|error| no_stages(&error))?.into_iter();
+        let stages = stages.map(|stage| with_petiole(plan, lamina, stage));
+        let stages: Vec<LeafStage> = stages.collect();
         let staged = outputs.staged.iter();
-        for (path, kind) in staged.filter(|(_, kind)| !kind.is_film()) {
+        for (path, kind) in staged {
+            let Kind::Veins(format) = *kind else { continue };
             let draw =
-                |(stage, &step): (&LeafStage, &u32)| look.file(*kind, subject(stage), Some(step));
+                |(stage, &step): (&LeafStage, &u32)| look.file(format, subject(stage), Some(step));
             let files: Vec<Result<Vec<u8>, Failure>> =
                 stages.par_iter().zip(group_steps).map(draw).collect();
             for (number, file) in files.into_iter().enumerate() {
-                if stop.load(Ordering::Relaxed) {
-                    return Err(Failure::Interrupted);
-                }
-                let path = numbered(path, index * group + number + 1);
-                write_whole(&path, file?)?;
-                say(path.display());
+                signals::check(stop)?;
+                write_and_say(&numbered(path, index * group + number + 1), file?)?;
             }
         }
         if !films.is_empty() {
-            let draw = |(stage, &step): (&LeafStage, &u32)| {
-                look.drawn(Kind::Gif, subject(stage), Some(step))
-            };
+            let draw =
+                |(stage, &step): (&LeafStage, &u32)| look.drawn(true, subject(stage), Some(step));
             let numbered: Vec<(&LeafStage, &u32)> = stages.iter().zip(group_steps).collect();
             for few in numbered.chunks(drawings_at_once(look.pixels)) {
                 let frames: Result<Vec<Drawing>, Failure> =
                     few.par_iter().map(|&stage| draw(stage)).collect();
-                if stop.load(Ordering::Relaxed) {
-                    return Err(Failure::Interrupted);
-                }
+                signals::check(stop)?;
                 films.push(&frames?)?;
             }
         }

@@ -6,7 +6,8 @@ use leafmodel::compound::{CompoundLeaf, FlatLeaf, WholeLeaf, leaflet_plans};
 use leafmodel::leaf::{Lamina, Leaf, LeafError, LeafPlan};
 use leafmodel::venation::VenationError;
 
-use crate::cli::Failure;
+use crate::cli::signals;
+use crate::cli::terminal::Failure;
 use crate::export::blade::Parts;
 use crate::report::warnings;
 
@@ -41,18 +42,11 @@ impl Grown {
             return Ok(Self::Flat { laminas, compound });
         }
         let is_stopped = || stop.load(Ordering::Relaxed);
-        let blades: Result<Vec<Leaf>, LeafError> = plans
-            .iter()
-            .zip(laminas)
+        let blades = plans.iter().zip(laminas);
+        let blades: Result<Vec<Leaf>, LeafError> = blades
             .map(|(plan, lamina)| Leaf::from_lamina_unless(plan, lamina, &is_stopped))
             .collect();
-        let mut blades = blades.map_err(|error| {
-            if is_stopped() {
-                Failure::Interrupted
-            } else {
-                Failure::bad(error)
-            }
-        })?;
+        let mut blades = blades.map_err(|error| signals::failure(stop, error))?;
         let mut whole = match (&plan.compound, compound) {
             (Some(form), Some(flat)) => WholeLeaf::assembled(plan, form, flat, blades),
             _ => WholeLeaf::simple(blades.remove(0)),
@@ -91,7 +85,7 @@ impl Grown {
             return Ok(FlatLeaf::with_petiole(plan, laminas[0]));
         };
         let flat = FlatLeaf::compound(compound, &laminas);
-        let vanished = || Failure::bad("the smallest leaflets are too small to be drawn");
+        let vanished = || bad!("the smallest leaflets are too small to be drawn");
         flat.ok_or_else(vanished).map(Some)
     }
 

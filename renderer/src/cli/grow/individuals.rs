@@ -1,5 +1,6 @@
 //! Leaves of one plant: their plans in one file, or their margins and veins on one sheet.
 
+use std::ops::RangeInclusive;
 use std::sync::atomic::AtomicBool;
 
 use leafmodel::plan_file::individuals_to_toml;
@@ -7,17 +8,18 @@ use leafmodel::plan_file::individuals_to_toml;
 use super::choice::Chosen;
 use super::outputs::{Kind, Outputs};
 use super::{Grown, finish};
-use crate::cli::Failure;
+use crate::cli::terminal::Failure;
 use crate::export::sheet::{Sheet, Specimen};
+use crate::export::veins::VeinFormat;
 
 /// Refuses files that hold one leaf only.
 pub(super) fn check(outputs: &Outputs) -> Result<(), Failure> {
-    let is_good = |kind: &Kind| matches!(kind, Kind::Toml | Kind::Svg | Kind::Png);
+    let is_good = |kind: &Kind| matches!(*kind, Kind::Toml | Kind::SVG | Kind::PNG);
     if outputs.whole.is_empty() || !outputs.whole.iter().all(|(_, kind)| is_good(kind)) {
-        return Err(Failure::bad(
+        bail!(
             "--individuals writes plans into one toml, or margins and veins side by side as svg or png: let --out end in one of \
-             these; other files hold one leaf, such as `lamina grow FILE.toml#NAME` takes from the plans",
-        ));
+             these; other files hold one leaf, such as `lamina grow FILE.toml#NAME` takes from the plans"
+        );
     }
     Ok(())
 }
@@ -34,49 +36,48 @@ pub(super) fn write(
     let numbers = 1..=u64::from(count);
     let mut sheet = None;
     for (path, kind) in &outputs.whole {
-        let bytes = match kind {
+        let bytes = match *kind {
             Kind::Toml => individuals_to_toml(name, plan, preset, numbers.clone()).into_bytes(),
-            Kind::Svg | Kind::Png => {
-                if sheet.is_none() {
-                    let leaves = numbers.clone().map(|number| {
-                        let plan = plan.individual(preset, number);
-                        let grown = Grown::new(&plan, false, stop)?;
-                        let lamina = grown.lamina();
-                        Ok(match grown.flat(&plan)? {
-                            Some(flat) => Specimen {
-                                bounds: flat.bounds(),
-                                outlines: flat.outlines,
-                                network: flat.network,
-                            },
-                            None => Specimen {
-                                bounds: lamina.outline.bounds(),
-                                outlines: vec![lamina.outline.clone()],
-                                network: lamina.network.clone(),
-                            },
-                        })
-                    });
-                    let leaves: Result<Vec<Specimen>, Failure> = leaves.collect();
-                    sheet = Some(Sheet::new(leaves?));
-                }
-                match &sheet {
-                    Some(sheet) if *kind == Kind::Svg => sheet.svg().into_bytes(),
-                    Some(sheet) => sheet.png(pixels).map_err(Failure::bad)?,
-                    None => Vec::new(),
+            Kind::Veins(format) => {
+                let sheet = match &sheet {
+                    Some(sheet) => sheet,
+                    None => sheet.insert(drawn(chosen, numbers.clone(), stop)?),
+                };
+                if format == VeinFormat::Svg {
+                    sheet.svg().into_bytes()
+                } else {
+                    sheet.png(pixels).map_err(Failure::bad)?
                 }
             }
-            Kind::Gif
-            | Kind::Apng
-            | Kind::Mp4
-            | Kind::Json
-            | Kind::GraphMl
-            | Kind::GeoJson
-            | Kind::Csv
-            | Kind::Ply
-            | Kind::Obj => {
-                continue;
-            }
+            Kind::Film(_) | Kind::Mp4 | Kind::Ply | Kind::Obj => continue,
         };
         finish(path, &bytes, stop)?;
     }
     Ok(())
+}
+
+/// Margins and veins of leaves of a plant.
+fn drawn(
+    chosen: &Chosen,
+    numbers: RangeInclusive<u64>,
+    stop: &AtomicBool,
+) -> Result<Sheet, Failure> {
+    let leaves = numbers.map(|number| {
+        let plan = chosen.plan.individual(chosen.preset, number);
+        let grown = Grown::new(&plan, false, stop)?;
+        let lamina = grown.lamina();
+        Ok(match grown.flat(&plan)? {
+            Some(flat) => Specimen {
+                bounds: flat.bounds(),
+                outlines: flat.outlines,
+                network: flat.network,
+            },
+            None => Specimen {
+                bounds: lamina.outline.bounds(),
+                outlines: vec![lamina.outline.clone()],
+                network: lamina.network.clone(),
+            },
+        })
+    });
+    Ok(Sheet::new(leaves.collect::<Result<_, Failure>>()?))
 }

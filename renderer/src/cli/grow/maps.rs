@@ -1,7 +1,7 @@
 //! Maps of contents as files in physical units.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use leafmodel::blade::UvFrame;
 use leafmodel::blade::contents_map::ContentsMap;
@@ -10,7 +10,8 @@ use leafmodel::leaf::LeafPlan;
 use leafmodel::optics::Constituent;
 use leafmodel::shape::outline::Outline;
 
-use crate::cli::{Failure, say};
+use crate::cli::signals;
+use crate::cli::terminal::{Failure, say};
 use crate::export::mitsuba::map_picture;
 use crate::image::{Attribute, Picture, openexr};
 use crate::material::contents_texture::ContentsTexture;
@@ -24,11 +25,8 @@ pub(super) fn write(
     day: Option<f64>,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
-    if stop.load(Ordering::Relaxed) {
-        return Err(Failure::Interrupted);
-    }
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::system(format!("{}: {error}", folder.display())))?;
+    signals::check(stop)?;
+    std::fs::create_dir_all(folder).map_err(Failure::system_at(folder))?;
     let path = folder.join(format!("{name}.exr"));
     openexr::write(&picture(name, map, outline, day), &path).map_err(Failure::system)?;
     say(path.display());

@@ -3,65 +3,55 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::arguments::{CaptionedKinds, GrowArguments, VeinColour};
-use crate::cli::places::{check_outputs, require_ending};
-use crate::cli::{Failure, check_writable};
+use crate::cli::places::{check_outputs, check_writable, require_ending};
+use crate::cli::terminal::Failure;
+use crate::export::veins::VeinFormat;
+use crate::image::animation::Format;
 
 /// The kind of a file, by its ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    Svg,
-    Png,
-    Gif,
-    Apng,
+    /// Margin and veins, which exist at every stage of growth.
+    Veins(VeinFormat),
+    /// Several stages one after another, written by the program itself.
+    Film(Format),
+    /// The same, written by another program.
     Mp4,
-    Json,
-    GraphMl,
-    GeoJson,
-    Csv,
     Ply,
     Obj,
     Toml,
 }
 
 impl Kind {
-    fn of(path: &Path) -> Result<Self, Failure> {
-        match path.extension().and_then(|ending| ending.to_str()) {
-            Some("svg") => Ok(Self::Svg),
-            Some("png") => Ok(Self::Png),
-            Some("gif") => Ok(Self::Gif),
-            Some("apng") => Ok(Self::Apng),
-            Some("mp4") => Ok(Self::Mp4),
-            Some("json") => Ok(Self::Json),
-            Some("graphml") => Ok(Self::GraphMl),
-            Some("geojson") => Ok(Self::GeoJson),
-            Some("csv") => Ok(Self::Csv),
-            Some("ply") => Ok(Self::Ply),
-            Some("obj") => Ok(Self::Obj),
-            Some("toml") => Ok(Self::Toml),
-            _ => Err(Failure::bad(format!(
-                "{}: the ending tells what is written: svg, png, json, graphml, geojson or csv (veins), gif, apng or mp4 \
-                 (films of them), ply or obj (blade), toml (plan)",
-                path.display()
-            ))),
-        }
-    }
+    pub(super) const SVG: Self = Self::Veins(VeinFormat::Svg);
+    pub(super) const PNG: Self = Self::Veins(VeinFormat::Png);
 
-    /// Whether it shows margin and veins, which exist at every stage of growth.
-    pub(super) fn is_of_veins(self) -> bool {
-        match self {
-            Self::Svg | Self::Png | Self::Json | Self::GraphMl | Self::GeoJson | Self::Csv => true,
-            Self::Gif | Self::Apng | Self::Mp4 | Self::Ply | Self::Obj | Self::Toml => false,
-        }
+    fn of(path: &Path) -> Result<Self, Failure> {
+        Ok(match path.extension().and_then(|ending| ending.to_str()) {
+            Some("gif") => Self::Film(Format::Gif),
+            Some("apng") => Self::Film(Format::Apng),
+            Some("mp4") => Self::Mp4,
+            Some("ply") => Self::Ply,
+            Some("obj") => Self::Obj,
+            Some("toml") => Self::Toml,
+            _ => VeinFormat::of(path).map(Self::Veins).ok_or_else(|| {
+                bad_at!(
+                    path,
+                    "the ending tells what is written: svg, png, json, graphml, geojson or csv (veins), gif, apng or mp4 \
+                     (films of them), ply or obj (blade), toml (plan)"
+                )
+            })?,
+        })
     }
 
     /// Whether it shows several stages one after another.
     pub(super) fn is_film(self) -> bool {
-        matches!(self, Self::Gif | Self::Apng | Self::Mp4)
+        matches!(self, Self::Film(_) | Self::Mp4)
     }
 
     /// Whether it shows drawn veins in colours.
     fn is_drawn(self) -> bool {
-        self.is_film() || matches!(self, Self::Png)
+        self.is_film() || self == Self::PNG
     }
 
     fn needs_blade(self) -> bool {
@@ -91,25 +81,25 @@ impl Outputs {
         let in_ages = arguments.ages.is_some();
         let (staged, whole): (Vec<_>, Vec<_>) = files.partition(|(_, kind)| {
             let is_film = kind.is_film();
-            (in_stages && (is_film || kind.is_of_veins()))
-                || (in_ages && (is_film || *kind == Kind::Png))
+            (in_stages && (is_film || matches!(kind, Kind::Veins(_))))
+                || (in_ages && (is_film || *kind == Kind::PNG))
         });
         if let Some((path, _)) = whole.iter().find(|(_, kind)| kind.is_film()) {
-            return Err(Failure::bad(format!(
-                "{}: a film needs --frames N, which shows growth, or --ages N, which shows ageing",
-                path.display()
-            )));
+            bail_at!(
+                path,
+                "a film needs --frames N, which shows growth, or --ages N, which shows ageing"
+            );
         }
         check_look(arguments, whole.iter().chain(&staged))?;
         if in_ages && staged.is_empty() && arguments.contents.is_none() {
-            return Err(Failure::bad(
-                "--ages needs an --out that shows colours (png, gif, apng or mp4), or --contents",
-            ));
+            bail!(
+                "--ages needs an --out that shows colours (png, gif, apng or mp4), or --contents"
+            );
         }
         if in_stages && staged.is_empty() {
-            return Err(Failure::bad(
-                "--frames needs an --out that shows veins: svg, png, json, graphml, geojson, csv, gif, apng or mp4",
-            ));
+            bail!(
+                "--frames needs an --out that shows veins: svg, png, json, graphml, geojson, csv, gif, apng or mp4"
+            );
         }
         let reports = [&arguments.measure, &arguments.stats, &arguments.fields];
         let reports = reports.into_iter().flatten();
@@ -152,9 +142,9 @@ fn check_look<'a>(
     let (mut is_drawn, mut has_svg) = (false, false);
     for (_, kind) in files {
         is_drawn |= kind.is_drawn();
-        has_svg |= *kind == Kind::Svg;
+        has_svg |= *kind == Kind::SVG;
     }
-    let refused = |flag: &str, needs: &str| Err(Failure::bad(format!("{flag} {needs}")));
+    let refused = |flag: &str, needs: &str| Err(bad!("{flag} {needs}"));
     let is_plain =
         arguments.colour == VeinColour::Plain && arguments.caption == CaptionedKinds::default();
     if arguments.individuals.is_some() && !is_plain {
@@ -196,10 +186,9 @@ fn check_folder(folder: &Path) -> Result<(), Failure> {
         .ancestors()
         .find(|path| path.as_os_str().is_empty() || path.exists());
     match there {
-        Some(path) if path == folder && !path.is_dir() => Err(Failure::bad(format!(
-            "{} is a file: name a folder",
-            folder.display()
-        ))),
+        Some(path) if path == folder && !path.is_dir() => {
+            Err(bad!("{} is a file: name a folder", folder.display()))
+        }
         Some(path) => check_writable(&path.join("map.exr")),
         None => Ok(()),
     }

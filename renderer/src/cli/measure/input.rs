@@ -9,8 +9,9 @@ use leafmodel::tracing::{Finding, FindingKind};
 use leafmodel::venation::network::VenationNetwork;
 
 use crate::cli::arguments::{MeasureArguments, ReadingArguments, TableArguments};
+use crate::cli::terminal::Failure;
 use crate::cli::texts::text_of;
-use crate::cli::{Failure, trace};
+use crate::cli::trace;
 
 /// Endings of pictures, which are no networks; the first [`READ`] of them can be traced.
 const PICTURES: [&str; 8] = ["png", "tif", "tiff", "jpg", "jpeg", "bmp", "webp", "exr"];
@@ -52,11 +53,11 @@ impl Kind {
             return Ok(Self::Picture);
         }
         let shown = path.display();
-        Err(Failure::bad(format!(
+        Err(bad!(
             "{shown}: the ending tells the format of a network: {}; or of a picture: {}",
             MeasureArguments::endings(),
             PICTURES[..READ].join(", ")
-        )))
+        ))
     }
 }
 
@@ -115,10 +116,10 @@ impl Input {
     fn of_picture(path: &Path, arguments: &ReadingArguments) -> Result<Self, Failure> {
         let shown = path.display();
         let Some(mm_per_pixel) = arguments.mm_per_unit else {
-            return Err(Failure::bad(format!(
+            bail!(
                 "{shown}: a picture is measured with --mm-per-pixel, which is 25.4 over the dots \
                  per inch of a scan"
-            )));
+            );
         };
         let foreign = [
             ("--nodes", arguments.nodes.is_some()),
@@ -130,9 +131,7 @@ impl Input {
             ("--decimal", arguments.form.decimal.is_some()),
         ];
         if let Some((flag, _)) = foreign.into_iter().find(|(_, given)| *given) {
-            return Err(Failure::bad(format!(
-                "{shown}: {flag} goes with a network; lamina trace has flags for pictures"
-            )));
+            bail!("{shown}: {flag} goes with a network; lamina trace has flags for pictures");
         }
         let traced = trace::with_usual_settings(path, mm_per_pixel)?;
         let wrong = traced.findings.iter().filter(|finding| is_fault(finding));
@@ -152,28 +151,25 @@ impl Input {
         format: Format,
     ) -> Result<Self, Failure> {
         if arguments.nodes.is_some() && format != Format::Table {
-            return Err(Failure::bad(format!(
-                "{}: --nodes goes with a table of edges, a csv or tsv",
-                path.display()
-            )));
+            bail_at!(path, "--nodes goes with a table of edges, a csv or tsv");
         }
         if arguments.form != TableArguments::default() && format != Format::Table {
-            return Err(Failure::bad(format!(
-                "{}: --separator and --decimal go with a table, a csv or tsv",
-                path.display()
-            )));
+            bail_at!(
+                path,
+                "--separator and --decimal go with a table, a csv or tsv"
+            );
         }
         let nodes = arguments.nodes.as_deref().map(text_of).transpose()?;
         let text = text_of(path)?;
-        let told = |error: ImportError| Failure::bad(format!("{}: {error}", path.display()));
+        let told = |error: ImportError| bad_at!(path, "{error}");
         let form = arguments.form.form();
         let draft = import::read_written(format, &text, nodes.as_deref(), form).map_err(told)?;
         drop((text, nodes));
         if arguments.area.is_some() && draft.has_margin() {
-            return Err(Failure::bad(format!(
-                "{}: holds a margin, which gives the area: leave out --area",
-                path.display()
-            )));
+            bail_at!(
+                path,
+                "holds a margin, which gives the area: leave out --area"
+            );
         }
         let own = arguments
             .outline
@@ -214,9 +210,9 @@ fn forbid(
         return Ok(());
     }
     let file = path.display();
-    Err(Failure::bad(format!(
+    Err(bad!(
         "{file}: is not without fault, as --strict asks:{lines}"
-    )))
+    ))
 }
 
 /// Whether what tracing found may make measures wrong.
@@ -248,20 +244,16 @@ fn margin(path: &Path, arguments: &ReadingArguments) -> Result<Outline, Failure>
         Kind::Network(format @ (Format::Svg | Format::Json)) => format,
         Kind::Network(Format::GraphMl | Format::Table | Format::Gml | Format::Neighbours)
         | Kind::Picture => {
-            return Err(Failure::bad(format!(
-                "{shown}: a margin is read from svg, json or geojson"
-            )));
+            bail!("{shown}: a margin is read from svg, json or geojson");
         }
     };
-    let told = |error: ImportError| Failure::bad(format!("{shown}: {error}"));
+    let told = |error: ImportError| bad!("{shown}: {error}");
     let text = text_of(path)?;
     let draft: Draft = import::read_margin(format, &text).map_err(told)?;
     let wanted = wanted(arguments);
     let mut outlines = draft.outlines(&wanted).map_err(told)?;
     match (outlines.len(), outlines.pop()) {
         (1, Some(outline)) => Ok(outline),
-        (count, _) => Err(Failure::bad(format!(
-            "{shown}: holds {count} margins; name a file with one"
-        ))),
+        (count, _) => Err(bad!("{shown}: holds {count} margins; name a file with one")),
     }
 }

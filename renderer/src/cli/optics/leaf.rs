@@ -4,8 +4,8 @@ use leafmodel::optics::presets::{self, Preset};
 use leafmodel::optics::{Constituent, Contents, PerConstituent};
 use serde_json::{Value, json};
 
-use crate::cli::Failure;
 use crate::cli::arguments::OpticsArguments;
+use crate::cli::terminal::Failure;
 use crate::report::table::in_columns;
 use leafmodel::document::nearest::meant;
 
@@ -45,10 +45,10 @@ fn unknown_preset(wanted: &str) -> Failure {
     let presets = presets::ALL.iter();
     let meant = meant(wanted, presets.map(|preset| (preset.name, preset.about)));
     let meant = meant.map_or_else(String::new, |name| format!("; did you mean `{name}`?"));
-    Failure::bad(format!(
+    bad!(
         "there is no preset `{}`{meant} (`lamina optics --list` names the presets)",
         wanted.escape_debug()
-    ))
+    )
 }
 
 impl Chosen {
@@ -82,9 +82,7 @@ impl Chosen {
 
     /// Every number with its unit and source.
     pub(super) fn about(&self) -> String {
-        let head = ["content", "value", "unit", "rests on"].map(str::to_owned);
-        let mut rows = vec![head];
-        for (constituent, value) in *self.contents {
+        let rows = self.contents.into_iter().map(|(constituent, value)| {
             let unit = constituent.counted_in().to_owned();
             let basis = match (self.given[constituent], &self.preset) {
                 ((option, Some(_)), _) => format!("given by {option}"),
@@ -92,12 +90,12 @@ impl Chosen {
                 ((_, None), None) => "default of this command".to_owned(),
             };
             let what = constituent.words().to_owned();
-            rows.push([what, value.to_string(), unit, basis]);
-        }
+            [what, value.to_string(), unit, basis]
+        });
         let mut text = String::new();
         if let Some(preset) = self.preset {
             text += &format!("{}: {}\n", preset.name, preset.about);
         }
-        text + &in_columns(&rows)
+        text + &in_columns(["content", "value", "unit", "rests on"], rows)
     }
 }

@@ -19,8 +19,8 @@ use super::warn_of_mixtures;
 use crate::cli::arguments::OpticsArguments;
 use crate::cli::places::check_outputs;
 use crate::cli::places::require_ending;
+use crate::cli::terminal::{Failure, note, note_output, say};
 use crate::cli::texts::text_of;
-use crate::cli::{Failure, note, note_output, say};
 use crate::image::atomic;
 
 /// Names of the column that names leaves.

@@ -5,44 +5,31 @@ use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use serde_json::Value;
+
+use super::pace::Pace;
 use crate::checkpoint::{self, Heading};
 use crate::cli::signals::Signals;
 use crate::image::ImageError;
 use crate::integrator::render::{Begun, Ended};
-
-/// Keeping may take one part in so many of the time.
-const SHARE: u32 = 50;
-
-/// Time for some blocks of pixels between two checkpoints, however often they are asked for.
-const SHORTEST: Duration = Duration::from_millis(50);
 
 /// The checkpoint of a render.
 pub(super) struct Keeping<'a> {
     path: PathBuf,
     /// Whether it stays when the render is done, to be taken up with more samples.
     stays: bool,
-    every: Duration,
     heading: &'a Heading,
     signals: &'a Signals,
     state: Mutex<State>,
 }
 
 struct State {
-    /// When it was last tried.
-    last: Instant,
-    /// What it took then.
-    cost: Duration,
+    pace: Pace,
     /// Whether the file is of this render.
     is_ours: bool,
-    effort: Effort,
-}
-
-/// What keeping has cost so far.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Effort {
-    pub(super) count: u32,
-    pub(super) seconds: f64,
-    pub(super) bytes: u64,
+    /// How often it was written, and its size then.
+    count: u32,
+    bytes: u64,
 }
 
 impl<'a> Keeping<'a> {
@@ -57,14 +44,13 @@ impl<'a> Keeping<'a> {
         Self {
             path: path.to_owned(),
             stays,
-            every,
             heading,
             signals,
             state: Mutex::new(State {
-                last: Instant::now(),
-                cost: Duration::ZERO,
+                pace: Pace::new(every),
                 is_ours: is_taken_up,
-                effort: Effort::default(),
+                count: 0,
+                bytes: 0,
             }),
         }
     }
@@ -73,8 +59,12 @@ impl<'a> Keeping<'a> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    pub(super) fn effort(&self) -> Effort {
-        self.state().effort
+    /// Adds what keeping has cost to a report.
+    pub(super) fn report(&self, stats: &mut Value) {
+        let state = self.state();
+        stats["checkpoints"] = state.count.into();
+        stats["checkpoint_seconds"] = state.pace.seconds.into();
+        stats["checkpoint_bytes"] = state.bytes.into();
     }
 
     /// The file, if it holds samples of this render.
@@ -85,14 +75,12 @@ impl<'a> Keeping<'a> {
     /// Whether it is time, or was asked for by a signal.
     pub(super) fn is_due(&self) -> bool {
         // A thread that cannot lock at once learns it with the next block.
-        self.state.try_lock().is_ok_and(|state| {
-            let since = state.last.elapsed();
-            let is_asked_for = self.signals.save.load(Ordering::Relaxed);
-            since >= SHORTEST && (is_asked_for || since >= self.every.max(state.cost * SHARE))
-        })
+        let is_asked_for = self.signals.save.load(Ordering::Relaxed);
+        let state = self.state.try_lock();
+        state.is_ok_and(|state| state.pace.is_due(is_asked_for))
     }
 
-    /// Writes the file in the midst of the render. A failure is told and tried again later.
+    /// Writes the file in the midst of the render. A failure is reported and tried again later.
     pub(super) fn keep(&self, begun: &Begun) {
         let asked_for = self.signals.save.swap(false, Ordering::Relaxed);
         match self.save(begun) {
@@ -111,14 +99,11 @@ impl<'a> Keeping<'a> {
             checkpoint::write(&self.path, self.heading, begun)
         };
         let mut state = self.state();
-        state.cost = started.elapsed();
-        state.last = Instant::now();
-        state.effort.seconds += state.cost.as_secs_f64();
+        state.pace.add(started);
         if result.is_ok() && begun.film.drawn() > 0 {
             state.is_ours = true;
-            state.effort.count += 1;
-            let written = std::fs::metadata(&self.path);
-            state.effort.bytes = written.map_or(0, |file| file.len());
+            state.count += 1;
+            state.bytes = std::fs::metadata(&self.path).map_or(0, |file| file.len());
         }
         result
     }

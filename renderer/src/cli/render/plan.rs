@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use crate::checkpoint::{self, Heading, PROGRAM};
-use crate::cli::Failure;
 use crate::cli::arguments::RenderArguments;
 use crate::cli::picture_files::{kind_of, stem_of, with_ending};
 use crate::cli::places::{Lock, check_outputs};
 use crate::cli::signals::Signals;
+use crate::cli::terminal::Failure;
 use crate::image::atomic::{Destination, destination};
 use crate::image::openexr;
 use crate::integrator::caption::Caption;
@@ -87,10 +87,10 @@ impl Files {
         };
         // What is written into a pipe cannot be written anew.
         if matches!(destination(shown), Ok(Destination::Stream)) {
-            return Err(Failure::bad(format!(
+            bail!(
                 "--preview writes a file anew, but {} is none: leave out --preview",
                 shown.display()
-            )));
+            );
         }
         Ok(Some(shown))
     }
@@ -196,9 +196,8 @@ impl Plan {
 
 /// The map of samples in a file, of a picture of this size.
 fn read_map(path: &Path, [width, height]: [u32; 2]) -> Result<SampleMap, Failure> {
-    let told = |what: &str| Failure::bad(format!("--samples-map {}: {what}", path.display()));
-    let picture =
-        openexr::read(path).map_err(|error| Failure::bad(format!("--samples-map {error}")))?;
+    let told = |what: &str| bad!("--samples-map {}: {what}", path.display());
+    let picture = openexr::read(path).map_err(|error| bad!("--samples-map {error}"))?;
     if [picture.width, picture.height] != [width, height] {
         return Err(told(&format!(
             "it has {} × {} pixels; the picture has {width} × {height}",
@@ -217,14 +216,14 @@ fn check_part(arguments: &RenderArguments, heading: &Heading) -> Result<(), Fail
         return Ok(());
     };
     if heading.aim.is_some() {
-        return Err(Failure::bad(format!(
+        bail!(
             "--samples {samples} renders a part, but noise can only be judged on a whole picture: add --noise 0"
-        )));
+        );
     }
     match arguments.spp {
-        Some(spp) if samples.end > spp => Err(Failure::bad(format!(
+        Some(spp) if samples.end > spp => Err(bad!(
             "--samples {samples} goes beyond the {spp} samples of --spp"
-        ))),
+        )),
         Some(_) | None => Ok(()),
     }
 }
@@ -249,23 +248,21 @@ fn check_same(
         ..kept.clone()
     };
     if let Some(what) = kept.difference(wanted) {
-        return Err(Failure::bad(format!(
-            "{path} is {what}: render without --resume, or name another --checkpoint"
-        )));
+        bail!("{path} is {what}: render without --resume, or name another --checkpoint");
     }
     let [_, most] = begun.film.drawn_range();
     let (start, reached) = (begun.first, begun.first + most);
     if start != first {
-        return Err(Failure::bad(format!(
+        bail!(
             "{path} holds samples from number {start}, not {first}: give --samples {start}..{}, or another --checkpoint",
             kept.job.spp
-        )));
+        );
     }
     if reached > wanted.job.spp {
-        return Err(Failure::bad(format!(
+        bail!(
             "{path} holds the samples up to {reached} already, more than {}: ask for as many or more",
             wanted.job.spp
-        )));
+        );
     }
     Ok(())
 }

@@ -3,12 +3,15 @@
 //! - **In**: the sums of a film at the border of two blocks of pixels.
 //! - **Out**: the picture to look at, written anew; the radiance, sent to the viewer.
 //! - **Always true**: the render and its bytes are what they are without; showing takes at most one
-//!   part in [`SHARE`] of the time; a failure is one warning.
+//!   part in fifty of the time; a failure is one warning.
 
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use serde_json::Value;
+
+use super::pace::Pace;
 use super::viewer::Viewer;
 use crate::checkpoint::Heading;
 use crate::cli::picture_files::kind_of;
@@ -19,12 +22,6 @@ use crate::integrator::develop::seen;
 use crate::integrator::layers::Layout;
 use crate::integrator::render::Begun;
 
-/// Showing may take one part in so many of the time.
-const SHARE: u32 = 50;
-
-/// See [`Preview::shortest`].
-const SHORTEST: Duration = Duration::from_millis(50);
-
 /// Time between two looks if nothing else is asked for.
 pub(super) const USUAL: Duration = Duration::from_secs(5);
 
@@ -32,9 +29,6 @@ pub(super) const USUAL: Duration = Duration::from_secs(5);
 pub(super) struct Preview<'a> {
     heading: &'a Heading,
     layout: Layout,
-    every: Duration,
-    /// Time for some blocks of pixels between two looks, however often they are asked for.
-    shortest: Duration,
     /// The picture to look at, if it is written before it is done.
     shown: Option<&'a Path>,
     state: Mutex<State>,
@@ -42,19 +36,10 @@ pub(super) struct Preview<'a> {
 
 struct State {
     viewer: Option<Viewer>,
-    /// When it was last shown.
-    last: Instant,
-    /// What that took.
-    cost: Duration,
-    effort: Effort,
+    pace: Pace,
+    /// How often it was shown.
+    count: u32,
     has_warned: bool,
-}
-
-/// What showing has cost so far.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Effort {
-    pub(super) count: u32,
-    pub(super) seconds: f64,
 }
 
 impl<'a> Preview<'a> {
@@ -68,14 +53,11 @@ impl<'a> Preview<'a> {
         Self {
             heading,
             layout,
-            every,
-            shortest: SHORTEST,
             shown,
             state: Mutex::new(State {
                 viewer,
-                last: Instant::now(),
-                cost: Duration::ZERO,
-                effort: Effort::default(),
+                pace: Pace::new(every),
+                count: 0,
                 has_warned: false,
             }),
         }
@@ -85,18 +67,18 @@ impl<'a> Preview<'a> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    pub(super) fn effort(&self) -> Effort {
-        self.state().effort
+    /// Adds what showing has cost to a report.
+    pub(super) fn report(&self, stats: &mut Value) {
+        let state = self.state();
+        stats["previews"] = state.count.into();
+        stats["preview_seconds"] = state.pace.seconds.into();
     }
 
     /// Whether it is time to show the picture.
     pub(super) fn is_due(&self) -> bool {
         // A thread that cannot lock at once learns it with the next block.
         self.state.try_lock().is_ok_and(|state| {
-            let since = state.last.elapsed();
-            (self.shown.is_some() || state.viewer.is_some())
-                && since >= self.shortest
-                && since >= self.every.max(state.cost * SHARE)
+            (self.shown.is_some() || state.viewer.is_some()) && state.pace.is_due(false)
         })
     }
 
@@ -106,7 +88,7 @@ impl<'a> Preview<'a> {
             self.show_film(&begun.film, self.shown);
         } else {
             // There must be time for samples, or none would ever be drawn.
-            self.state().last = Instant::now();
+            self.state().pace.last = Instant::now();
         }
     }
 
@@ -128,21 +110,18 @@ impl<'a> Preview<'a> {
             eprintln!("warning: no preview: {error}; rendering goes on");
         }
         if let Some(viewer) = &mut state.viewer {
-            let sent = colours(&picture).map(|colours| viewer.send(&colours));
-            let problem = match sent {
-                Ok(Ok(())) => None,
-                Ok(Err(error)) => Some(error.to_string()),
-                Err(error) => Some(error.to_string()),
-            };
-            if let Some(problem) = problem {
+            let colours = colours(&picture).map_err(|error| error.to_string());
+            let sent = colours.and_then(|colours| {
+                let sent = viewer.send(&colours);
+                sent.map_err(|error| error.to_string())
+            });
+            if let Err(problem) = sent {
                 eprintln!("warning: the viewer is gone: {problem}; rendering goes on");
                 state.viewer = None;
             }
         }
-        state.last = Instant::now();
-        state.cost = started.elapsed();
-        state.effort.count += 1;
-        state.effort.seconds += state.cost.as_secs_f64();
+        state.count += 1;
+        state.pace.add(started);
     }
 
     fn write(&self, picture: &Picture, path: &Path) -> Result<(), ImageError> {
@@ -241,9 +220,8 @@ radiance_w_m2_sr_nm = 0.4
         }
 
         fn preview<'a>(&'a self, shown: Option<&'a Path>, viewer: Option<Viewer>) -> Preview<'a> {
-            let mut preview =
-                Preview::new(&self.heading, self.layout, Duration::ZERO, shown, viewer);
-            preview.shortest = Duration::from_millis(2);
+            let preview = Preview::new(&self.heading, self.layout, Duration::ZERO, shown, viewer);
+            preview.state().pace.shortest = Duration::from_millis(2);
             preview
         }
     }
@@ -263,7 +241,7 @@ radiance_w_m2_sr_nm = 0.4
         let viewer = Viewer::open(&address, "stage", [70, 50]).expect("it listens");
         let preview = stage.preview(Some(&path), Some(viewer));
         let seen_often = stage.render(&preview, &|| {
-            if preview.effort().count == 0 {
+            if preview.state().count == 0 {
                 return;
             }
             // Every one is a whole PNG of the picture's size.
@@ -272,7 +250,7 @@ radiance_w_m2_sr_nm = 0.4
             assert_eq!((size.width(), size.height()), (70, 50));
         });
         assert_eq!(seen_often.film, unseen.film);
-        let looks = preview.effort().count;
+        let looks = preview.state().count;
         assert!(looks > 0, "nobody looked");
         preview.show_last(&seen_often.film);
         drop(preview);
@@ -314,36 +292,19 @@ radiance_w_m2_sr_nm = 0.4
     fn a_look_before_the_first_sample_leaves_time_for_samples() {
         let stage = Stage::new();
         let shown = Path::new("no/such/folder/shown.png");
-        let mut preview = stage.preview(Some(shown), None);
-        preview.shortest = Duration::from_secs(60);
-        preview.state().last -= Duration::from_secs(61);
+        let preview = stage.preview(Some(shown), None);
+        preview.state().pace.shortest = Duration::from_secs(60);
+        preview.state().pace.last -= Duration::from_secs(61);
         assert!(preview.is_due());
         let go = AtomicBool::new(false);
         let begun = begin(&stage.world, &stage.heading.job, None, &go);
         preview.show(&begun.expect("a small film"));
         assert!(!preview.is_due());
-        assert_eq!(preview.effort().count, 0, "there is nothing to see");
+        assert_eq!(preview.state().count, 0, "there is nothing to see");
     }
 
     #[test]
-    fn showing_takes_at_most_a_fiftieth_of_the_time() {
-        let stage = Stage::new();
-        let mut preview = stage.preview(Some(Path::new("x.png")), None);
-        let ago = |millis: u64| Instant::now().checked_sub(Duration::from_millis(millis));
-        let mut due = |cost: u64, since: u64, every: u64| {
-            preview.every = Duration::from_millis(every);
-            let mut state = preview.state();
-            state.cost = Duration::from_millis(cost);
-            state.last = ago(since).expect("the machine has been up for a minute");
-            drop(state);
-            preview.is_due()
-        };
-        assert!(due(0, 5100, 5000));
-        assert!(!due(0, 4000, 5000));
-        // 200 ms every ten seconds, however often it is asked for.
-        assert!(!due(200, 9000, 5000));
-        assert!(!due(200, 9000, 0));
-        assert!(due(200, 10_100, 0));
-        assert!(!stage.preview(None, None).is_due(), "nobody looks");
+    fn nothing_is_due_if_nobody_looks() {
+        assert!(!Stage::new().preview(None, None).is_due());
     }
 }

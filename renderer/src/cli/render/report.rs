@@ -1,8 +1,7 @@
-//! What a render tells of itself: times, samples, speed.
+//! What a render reports about itself: times, samples, speed.
 
 use serde_json::{Value, json};
 
-use super::Traced;
 use crate::cli::needs;
 use crate::integrator::render::{Ended, Rendered};
 
@@ -21,26 +20,16 @@ impl Times {
     }
 }
 
-/// The output of `--stats`.
-pub(super) fn report(traced: &Traced<'_>, rendered: &Rendered, times: &Times) -> Value {
-    let Traced {
-        world,
-        heading,
-        keeping,
-        preview,
-        ..
-    } = traced;
+/// The times and sums in the output of `--stats`.
+pub(super) fn stats(rendered: &Rendered, times: &Times) -> Value {
     let film = &rendered.film;
     let [paths_before, rays_before] = times.before;
-    let kept = keeping.effort();
     let pixels = f64::from(film.width()) * f64::from(film.height());
-    let mut report = json!({
-        "scene": heading.caption.name,
+    json!({
         "seconds": times.all,
         "build_seconds": times.build,
         "trace_seconds": times.trace,
         "peak_mib": needs::peak_mib(),
-        "geometry_mib": world.geometry.memory_bytes() as f64 / f64::from(1 << 20),
         "threads": rayon::current_num_threads(),
         "spp": film.drawn() as f64 / pixels,
         "spp_range": film.drawn_range(),
@@ -62,19 +51,12 @@ pub(super) fn report(traced: &Traced<'_>, rendered: &Rendered, times: &Times) ->
         // No number of JSON is infinite.
         "missing_at_most": Some(film.missing()).filter(|missing| missing.is_finite()),
         "interrupted": rendered.ended == Ended::Interrupted,
-    });
-    report["resumed_paths"] = json!(paths_before);
-    report["checkpoints"] = json!(kept.count);
-    report["checkpoint_seconds"] = json!(kept.seconds);
-    report["checkpoint_bytes"] = json!(kept.bytes);
-    let shown = preview.effort();
-    report["previews"] = json!(shown.count);
-    report["preview_seconds"] = json!(shown.seconds);
-    report
+        "resumed_paths": paths_before,
+    })
 }
 
 /// Prints times and speed.
-pub(super) fn tell_speed(rendered: &Rendered, times: &Times) {
+pub(super) fn report_speed(rendered: &Rendered, times: &Times) {
     let [paths_before, rays_before] = times.before;
     let paths = rendered.film.drawn() - paths_before;
     eprintln!(
@@ -89,7 +71,7 @@ pub(super) fn tell_speed(rendered: &Rendered, times: &Times) {
 }
 
 /// Prints the number of samples per pixel if it was not given.
-pub(super) fn tell_samples(rendered: &Rendered) {
+pub(super) fn report_samples(rendered: &Rendered) {
     let [fewest, most] = rendered.film.drawn_range();
     let pixels = f64::from(rendered.film.width()) * f64::from(rendered.film.height());
     let mean = rendered.film.drawn() as f64 / pixels;

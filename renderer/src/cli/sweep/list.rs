@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use super::tasks::{hexadecimal, identities, words_of};
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::SweepArguments;
-use crate::cli::{Failure, has_no_reader, say};
+use crate::cli::terminal::{Failure, has_no_reader, say};
 use crate::sweep::{Sweep, Target};
 
 /// Prints a line for the sweep ([`about`]), then one for each task as soon as it is read: its number,

@@ -9,8 +9,8 @@ use serde_json::Value;
 
 use super::tasks::hexadecimal;
 use crate::checkpoint::PROGRAM;
-use crate::cli::Failure;
 use crate::cli::places::{has_ending, write_whole};
+use crate::cli::terminal::Failure;
 use crate::image::{Layer, openexr};
 use crate::sweep::{Sweep, Target, Task};
 
@@ -141,11 +141,11 @@ pub(super) fn check_version(folder: &Path) -> Result<(), Failure> {
         .find(|by| by != PROGRAM)
     {
         None => Ok(()),
-        Some(version) => Err(Failure::bad(format!(
-            "{}: its tasks were done by Lamina {version}: continue the sweep with that version, or \
-             name another folder by --out",
-            folder.display()
-        ))),
+        Some(version) => Err(bad_at!(
+            folder,
+            "its tasks were done by Lamina {version}: continue the sweep with that version, or \
+             name another folder by --out"
+        )),
     }
 }
 
@@ -197,10 +197,7 @@ mod tests {
 
     #[test]
     fn means_and_errors_are_those_of_light() {
-        let layer = |name: &str| Layer {
-            name: name.to_owned(),
-            data: vec![1.0, 3.0, 5.0, 7.0],
-        };
+        let layer = |name: &str| Layer::new(name, vec![1.0, 3.0, 5.0, 7.0]);
         assert_eq!(mean(&layer("G")), Some(("mean.G".to_owned(), 4.0)));
         // Variances of pixels add up, that of the mean is their sum over the square of the count.
         assert_eq!(

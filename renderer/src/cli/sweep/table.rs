@@ -6,8 +6,8 @@ use super::list::{plain, value};
 use super::record::Record;
 use super::tasks::hexadecimal;
 use crate::checkpoint::PROGRAM;
-use crate::cli::Failure;
 use crate::cli::places::write_whole;
+use crate::cli::terminal::Failure;
 use crate::report::table::{Table, cell};
 use crate::sweep::{Sweep, Task};
 
@@ -45,7 +45,7 @@ pub(super) fn write(path: &Path, sweep: &Sweep, rows: &[Row<'_>]) -> Result<(), 
     }
     header.push("file");
     header.extend(&names);
-    let mut table = Table::new(header);
+    let mut table = Table::of(header);
     for row in rows {
         let state = match row.state {
             State::Done => "done",

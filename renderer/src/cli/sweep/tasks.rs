@@ -3,16 +3,20 @@
 use std::ops::Range;
 use std::path::Path;
 
+use leafmodel::document::path::allowed;
+use leafmodel::document::report::DocumentErrors;
+use leafmodel::document::written::Extent;
+use leafmodel::plan_file::leaf_to_toml;
 use rayon::prelude::*;
+use serde_json::json;
 
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::{Arguments, Command};
-use crate::cli::{Failure, colour, grow};
+use crate::cli::grow;
+use crate::cli::terminal::{Failure, colour};
 use crate::scene::fingerprint::fnv1a;
 use crate::scene::load::load;
 use crate::sweep::{Refused, Sweep, Target, Task};
-use leafmodel::document::path::allowed;
-use leafmodel::document::report::DocumentErrors;
 
 /// Tasks that are looked at between two looks at the errors: few at first, so that the first are
 /// there at once.
@@ -112,7 +116,7 @@ enum Why {
 }
 
 fn identity(sweep: &Sweep, task: &Task<'_>) -> Result<u64, Why> {
-    let text = match &sweep.target {
+    let identity = match &sweep.target {
         Target::Scene(path) => {
             let overrides: Vec<String> = sweep
                 .fixed
@@ -126,22 +130,24 @@ fn identity(sweep: &Sweep, task: &Task<'_>) -> Result<u64, Why> {
                 .map_err(|error| Why::Failure(Failure::bad(error)))?;
             let scene = &loaded.description;
             let film = &scene.film;
-            format!(
-                "{PROGRAM} scene {} {print:016x} {} {} {:?} {:?}",
-                scene.name,
-                sweep.spp.unwrap_or(film.spp),
-                task.seed.unwrap_or(film.seed),
-                sweep.noise.or(film.noise).filter(|noise| *noise > 0.0),
-                scene.picture
-            )
+            let noise = sweep.noise.or(film.noise).filter(|noise| *noise > 0.0);
+            json!({
+                "program": PROGRAM,
+                "scene": scene.name,
+                "fingerprint": print,
+                "spp": sweep.spp.unwrap_or(film.spp),
+                "seed": task.seed.unwrap_or(film.seed),
+                "noise": noise,
+                "picture": scene.picture,
+            })
         }
         Target::Leaf(_) => {
             let mut line = vec!["lamina".to_owned()];
             line.extend(words_of(sweep, task, None));
             let parsed = Arguments::of_line(line);
             let Ok(Some(Command::Grow(arguments))) = parsed.map(|parsed| parsed.command) else {
-                return Err(Why::Failure(Failure::bad(
-                    "the leaf's name is no word of a command",
+                return Err(Why::Failure(bad!(
+                    "the leaf's name is no word of a command"
                 )));
             };
             let (name, plan) =
@@ -149,10 +155,10 @@ fn identity(sweep: &Sweep, task: &Task<'_>) -> Result<u64, Why> {
                     grow::NotChosen::Document(errors) => Why::Document(errors),
                     grow::NotChosen::Failure(failure) => Why::Failure(failure),
                 })?;
-            format!("{PROGRAM} leaf {name} {plan:?}")
+            json!({ "program": PROGRAM, "leaf": leaf_to_toml(&name, &plan, Extent::All) })
         }
     };
-    Ok(fnv1a(text.as_bytes()))
+    Ok(fnv1a(identity.to_string().as_bytes()))
 }
 
 /// An identity as files are named.

@@ -3,8 +3,9 @@
 use crate::export::element::{Element, Layout};
 use crate::material;
 use crate::material::held::Held;
+use crate::scene::description::material::leaf::LeafTissue;
 use crate::scene::description::{
-    Description, LeafFaces, LeafOptics, LeafTissue, Material, Reflectance, SolidOptics,
+    Description, LeafFaces, LeafOptics, Material, Reflectance, SolidOptics,
 };
 use crate::scene::world::{MaterialOwner, World};
 
@@ -32,13 +33,10 @@ pub(super) fn layered(scene: &Description) -> Option<String> {
     let leaves = scene.leaves.iter();
     let leaves = leaves.map(|leaf| ("leaves", &leaf.name, Some(&leaf.value.faces)));
     let materials = scene.materials.iter().map(|material| {
-        let faces = match &material.value {
-            Material::Leaf { faces, .. } => Some(faces),
-            Material::Diffuse { .. }
-            | Material::Dielectric { .. }
-            | Material::Plastic { .. }
-            | Material::Model { .. }
-            | Material::Solid { .. } => None,
+        let faces = if let Material::Leaf(leaf) = &material.value {
+            Some(&leaf.faces)
+        } else {
+            None
         };
         ("materials", &material.name, faces)
     });
@@ -54,14 +52,7 @@ pub(super) fn layered(scene: &Description) -> Option<String> {
 /// Whether light that a material takes up comes out at other wavelengths. Measured spectra do not
 /// say what chlorophyll absorbs.
 pub(super) fn fluoresces(material: &Material) -> bool {
-    matches!(
-        material,
-        Material::Leaf {
-            tissue: LeafTissue::Held(_),
-            fluorescence: Some(_),
-            ..
-        }
-    )
+    matches!(material, Material::Leaf(leaf) if leaf.fluorescence.is_some() && material.held().is_some())
 }
 
 /// Whether a material becomes a BSDF of Mitsuba's own that scatters.
@@ -111,19 +102,17 @@ pub(super) fn bsdf(
         MaterialOwner::Scene(number) => number,
     };
     match &scene.materials[number].value {
-        Material::Diffuse { reflectance } => {
+        Material::Diffuse(of) => {
             let one_side = Element::plugin("bsdf", "diffuse");
             Element::plugin("bsdf", "twosided")
                 .called(&id)
-                .holding(one_side.holding(shared(&id, own, reflectance, spectra)))
+                .holding(one_side.holding(shared(&id, own, &of.reflectance, spectra)))
                 .laid_out(Layout::Inline)
         }
         // Mitsuba's boundary without a change of index; it is no event on a path either.
-        Material::Dielectric { eta, .. } if *eta == 1.0 => {
-            Element::plugin("bsdf", "null").called(&id)
-        }
-        Material::Dielectric { eta, roughness, .. } => {
-            let is_rough = *roughness > 0.0;
+        Material::Dielectric(of) if of.eta == 1.0 => Element::plugin("bsdf", "null").called(&id),
+        Material::Dielectric(of) => {
+            let is_rough = of.roughness > 0.0;
             let kind = if is_rough {
                 "roughdielectric"
             } else {
@@ -131,32 +120,23 @@ pub(super) fn bsdf(
             };
             let bsdf = Element::plugin("bsdf", kind)
                 .called(&id)
-                .float("int_ior", *eta)
+                .float("int_ior", of.eta)
                 .float("ext_ior", 1.0);
             if is_rough {
                 bsdf.string("distribution", "ggx")
-                    .float("alpha", *roughness)
+                    .float("alpha", of.roughness)
             } else {
                 bsdf
             }
         }
-        Material::Plastic {
-            reflectance,
-            eta,
-            roughness,
-        } => Element::plugin("bsdf", PLASTIC)
+        Material::Plastic(of) => Element::plugin("bsdf", PLASTIC)
             .called(&id)
-            .float("eta", *eta)
-            .float("alpha", *roughness)
-            .holding(shared(&id, own, reflectance, spectra)),
-        Material::Model { .. } => model(&id, own),
-        Material::Leaf {
-            tissue,
-            pigments: _,
-            faces,
-            fluorescence: _,
-        } => {
-            let bsdf = match tissue {
+            .float("eta", of.eta)
+            .float("alpha", of.roughness)
+            .holding(shared(&id, own, &of.reflectance, spectra)),
+        Material::Model(_) => model(&id, own),
+        Material::Leaf(leaf) => {
+            let bsdf = match &leaf.tissue {
                 LeafTissue::Held(held) => plugin(LEAF, held.extrapolates()),
                 LeafTissue::Measured {
                     reflectance,
@@ -165,13 +145,11 @@ pub(super) fn bsdf(
                     .holding(spectra.element("reflectance", reflectance, 1.0))
                     .holding(spectra.element("transmittance", transmittance, 1.0)),
             };
-            leaf_faces(bsdf, faces, spectra)
+            leaf_faces(bsdf, &leaf.faces, spectra)
         }
-        Material::Solid {
-            held,
-            pigments: _,
-            optics,
-        } => solid_optics(plugin(SOLID, held.extrapolates()), optics),
+        Material::Solid(solid) => {
+            solid_optics(plugin(SOLID, solid.held.extrapolates()), &solid.optics)
+        }
     }
 }
 
@@ -199,7 +177,7 @@ fn shared(
 ) -> Element {
     match (reflectance, material.colour_map()) {
         (Reflectance::Even(spectrum), _) => spectra.element("reflectance", spectrum, 1.0),
-        (Reflectance::Picture { .. } | Reflectance::OfMesh(_), map) => {
+        (Reflectance::Picture(_) | Reflectance::OfMesh(_), map) => {
             colours::texture(id, "reflectance", map)
         }
     }

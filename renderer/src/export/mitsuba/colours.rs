@@ -48,16 +48,11 @@ pub(super) fn texture(id: &str, name: &'static str, map: Option<&ColourMap>) -> 
 pub(super) fn maps(id: &str, material: &Material) -> Vec<(String, ColourMap)> {
     let colours = material.colour_map().cloned();
     let colours = colours.map(|map| (id.to_owned(), map));
-    let further = match material {
-        Material::Model(model) => {
-            let ids = ["finish", "normals"].map(|of| format!("{id}.{of}"));
-            ids.into_iter().zip(model.finish_maps()).collect()
-        }
-        Material::Diffuse(_)
-        | Material::Dielectric(_)
-        | Material::Plastic(_)
-        | Material::Leaf(_)
-        | Material::Solid(_) => Vec::new(),
+    let further = if let Material::Model(model) = material {
+        let ids = ["finish", "normals"].map(|of| format!("{id}.{of}"));
+        ids.into_iter().zip(model.finish_maps()).collect()
+    } else {
+        Vec::new()
     };
     colours.into_iter().chain(further).collect()
 }
@@ -68,20 +63,20 @@ pub(super) fn pictures(id: &str, map: &ColourMap) -> Vec<(String, Picture)> {
     let pictures = slots.filter_map(|(number, slot)| {
         let texture = slot.texture.as_ref()?;
         let [width, height] = texture.size();
-        let layer = |channel: usize, name: &str| Layer {
-            name: name.to_owned(),
-            data: texture
-                .texels()
-                .iter()
-                .map(|texel| texel[channel])
-                .collect(),
+        let layer = |channel: usize, name: &str| {
+            Layer::new(
+                name,
+                texture
+                    .texels()
+                    .iter()
+                    .map(|texel| texel[channel])
+                    .collect(),
+            )
         };
-        let picture = Picture {
-            width: width as u32,
-            height: height as u32,
-            layers: vec![layer(0, "R"), layer(1, "G"), layer(2, "B")],
-            attributes: Vec::new(),
-        };
+        let picture = Picture::new(
+            [width as u32, height as u32],
+            [layer(0, "R"), layer(1, "G"), layer(2, "B")],
+        );
         Some((file(id, number), picture))
     });
     pictures.collect()

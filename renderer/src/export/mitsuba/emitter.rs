@@ -8,7 +8,8 @@ use crate::export::element::{Element, Layout};
 use crate::light;
 use crate::light::daylight::sun::HALF_DIAMETER as SUN_HALF_DIAMETER;
 use crate::material::colour_map::ColourMap;
-use crate::scene::description::{AreaPattern, Description, Light, Named, Spectrum};
+use crate::scene::description::light::area::AreaPattern;
+use crate::scene::description::{Description, Light, Named, Spectrum};
 use crate::scene::world::World;
 use crate::spectrum::Curve;
 use crate::spectrum::rgb::Primaries;
@@ -30,10 +31,7 @@ pub(super) fn emitter(
     spectra: &mut Spectra,
 ) -> Option<Element> {
     match &light.value {
-        Light::Area { .. }
-        | Light::Constant { .. }
-        | Light::Environment { .. }
-        | Light::Overcast { .. } => None,
+        Light::Area(_) | Light::Constant(_) | Light::Environment(_) | Light::Overcast(_) => None,
         Light::Daylight(day) => {
             let irradiance = day.lights().0.irradiance().written();
             let limb = Element::plugin("texture", "lamina_sun").with("name", "radiance");
@@ -45,34 +43,25 @@ pub(super) fn emitter(
             let towards = day.towards_sun();
             Some(disk(towards, SUN_HALF_DIAMETER, emitter, world))
         }
-        Light::Distant {
-            towards,
-            angular_diameter,
-            irradiance,
-        } => {
-            let half = 0.5 * angular_diameter;
+        Light::Distant(light) => {
+            let half = 0.5 * light.angular_diameter;
             let sin = libm::sin(half);
-            let emitter = area(irradiance, None, 1.0 / (PI * sin * sin), spectra);
-            Some(disk(*towards, half, emitter, world))
+            let emitter = area(&light.irradiance, None, 1.0 / (PI * sin * sin), spectra);
+            Some(disk(light.towards, half, emitter, world))
         }
-        Light::Spot {
-            position,
-            look_at: target,
-            cone_angle,
-            penumbra_angle,
-            intensity,
-        } => {
-            let [origin, target] = [position, target].map(|place| place * UNITS_PER_METRE);
+        Light::Spot(light) => {
+            let places = [light.position, light.look_at];
+            let [origin, target] = places.map(|place| place * UNITS_PER_METRE);
             let up = (target - origin).normalize().any_orthonormal_vector();
-            let beam = cone_angle - penumbra_angle;
+            let beam = light.cone_angle - light.penumbra_angle;
             // Intensity over the square of a distance in Mitsuba's units must equal irradiance in
             // ours.
             let factor = UNITS_PER_METRE * UNITS_PER_METRE;
             let spot = Element::plugin("emitter", "spot")
                 .placed([look_at(origin, target, up)])
-                .float("cutoff_angle", cone_angle.to_degrees())
+                .float("cutoff_angle", light.cone_angle.to_degrees())
                 .float("beam_width", beam.max(0.0).to_degrees());
-            Some(spot.holding(spectra.element("intensity", intensity, factor)))
+            Some(spot.holding(spectra.element("intensity", &light.intensity, factor)))
         }
     }
 }

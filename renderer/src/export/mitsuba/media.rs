@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3Swizzles as _};
 
 use crate::export::element::Element;
-use crate::scene::description::{Description, Material, Medium, MediumPhase, Named, Spectrum};
+use crate::scene::description::{Description, Medium, MediumPhase, Named, Spectrum};
 use crate::scene::world::{MaterialOwner, World};
 use crate::spectrum::Curve;
 
@@ -49,7 +49,7 @@ pub(super) fn media<'a>(
 ) -> impl Iterator<Item = Element> + 'a {
     let used = |number: usize| {
         let mut materials = scene.materials.iter();
-        materials.any(|named| interior(&named.value) == Some(number))
+        materials.any(|named| named.value.interior() == Some(number))
     };
     let numbers = (0..scene.media.len()).filter(move |&number| used(number));
     numbers.map(|number| medium(&id(scene, number), &scene.media[number], spectra))
@@ -60,23 +60,12 @@ pub(super) fn of_material(scene: &Description, world: &World, material: usize) -
     let MaterialOwner::Scene(number) = world.owners[material] else {
         return None;
     };
-    let medium = interior(&scene.materials[number].value)?;
+    let medium = scene.materials[number].value.interior()?;
     Some(
         Element::new("ref")
             .with("name", "interior")
             .with("id", id(scene, medium)),
     )
-}
-
-fn interior(material: &Material) -> Option<usize> {
-    match material {
-        Material::Dielectric { interior, .. } => *interior,
-        Material::Diffuse { .. }
-        | Material::Plastic { .. }
-        | Material::Model { .. }
-        | Material::Leaf { .. }
-        | Material::Solid { .. } => None,
-    }
 }
 
 /// A medium: Mitsuba takes extinction and albedo.

@@ -156,7 +156,7 @@ radiance_w_m2_sr_nm = 1
             let folder = tempfile::tempdir().expect("a folder");
             let out = folder.path().join("out");
             let error = write(&scene, &world, &out).expect_err(key);
-            assert!(matches!(error, ExportError::Lens { key: named } if named == key));
+            assert!(matches!(error, ExportError::Lens(named) if named == key));
             assert!(!out.exists());
             // A pinhole has no shape.
             let (scene, world) = built(&format!(

@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::{DMat4, DVec3};
 
 use crate::export::element::{Document, Element, Layout};
-use crate::scene::description::{Description, Light, Object, ObjectShape};
+use crate::scene::description::{Description, Object, ObjectShape};
 use crate::scene::plants::Piece;
 use crate::scene::world::World;
 
@@ -77,17 +77,11 @@ pub(super) fn write(
     };
     let mut shining = BTreeMap::new();
     for (number, light) in scene.lights.iter().enumerate() {
-        if let Light::Area {
-            object,
-            radiance,
-            pattern,
-        } = &light.value
-        {
+        if let Some(area) = light.value.area() {
             let emission = emitter::emission(scene, world, number);
-            let pattern = pattern
-                .as_ref()
-                .map(|pattern| (light.name.as_str(), pattern, emission));
-            shining.insert(*object, (radiance, pattern));
+            let pattern = &area.pattern;
+            let pattern = (!pattern.is_even()).then_some((&*light.name, pattern, emission));
+            shining.insert(area.object, (&area.radiance, pattern));
         }
     }
     let mut counts: BTreeMap<Kind, usize> = BTreeMap::new();

@@ -44,15 +44,7 @@ pub(super) fn tables<'w>(
     world: &'w World,
 ) -> impl Iterator<Item = (&'w str, RadianceTable<'w>)> {
     built(scene, world).filter_map(|(light, own)| {
-        let table = own.iter().find_map(|light| match light {
-            Built::Environment(light) => Some(light.tabulated()),
-            Built::Sky(light) => Some(light.tabulated()),
-            Built::Distant(_)
-            | Built::Constant(_)
-            | Built::Sun(_)
-            | Built::Area(_)
-            | Built::Spot(_) => None,
-        });
+        let table = own.iter().find_map(Built::radiance_table);
         table.map(|table| (light.name.as_str(), table))
     })
 }
@@ -62,14 +54,12 @@ pub(super) fn emitters(scene: &Description, world: &World, spectra: &mut Spectra
     let skies: Vec<Element> = tables(scene, world)
         .map(|(light, table)| sky(light, &table))
         .collect();
-    let constant = scene.lights.iter().filter_map(|light| match &light.value {
-        Light::Constant { radiance } => Some(radiance),
-        Light::Distant { .. }
-        | Light::Environment { .. }
-        | Light::Daylight(_)
-        | Light::Overcast { .. }
-        | Light::Area { .. }
-        | Light::Spot { .. } => None,
+    let constant = scene.lights.iter().filter_map(|light| {
+        if let Light::Constant(light) = &light.value {
+            Some(&light.radiance)
+        } else {
+            None
+        }
     });
     if skies.is_empty() {
         return constant
@@ -137,15 +127,10 @@ pub(super) fn spectra(table: &RadianceTable<'_>) -> String {
 /// Three or four weights as a picture, its first row towards the zenith or at the upper border.
 pub(super) fn weights<const N: usize>(size: [usize; 2], texels: &[[f32; N]]) -> Picture {
     let layers = ["R", "G", "B", "A"].into_iter().take(N).enumerate();
-    Picture {
-        width: size[0] as u32,
-        height: size[1] as u32,
-        layers: layers
-            .map(|(channel, name)| Layer {
-                name: name.to_owned(),
-                data: texels.iter().map(|texel| texel[channel]).collect(),
-            })
-            .collect(),
-        attributes: Vec::new(),
-    }
+    Picture::new(
+        [size[0] as u32, size[1] as u32],
+        layers.map(|(channel, name)| {
+            Layer::new(name, texels.iter().map(|texel| texel[channel]).collect())
+        }),
+    )
 }

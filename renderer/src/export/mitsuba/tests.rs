@@ -442,7 +442,7 @@ fn an_earlier_export_is_replaced_and_another_folder_is_left_alone() {
     fs::write(other.join("leaf.jpg"), "dear").expect("a file");
     let refused = write(&scene, &world, &other);
     assert!(
-        matches!(refused, Err(ExportError::NotOurs { .. })),
+        matches!(refused, Err(ExportError::NotOurs(_))),
         "{refused:?}"
     );
     assert_eq!(

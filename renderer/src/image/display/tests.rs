@@ -1,22 +1,16 @@
-use super::super::{Attribute, Layer};
+use super::super::picture::{Attribute, Layer};
 use super::*;
 use crate::image::tone::from_srgb;
 use crate::spectrum::cie::{srgb_from_xyz, xyz_of};
 use crate::spectrum::planck;
 
 fn picture(width: u32, layers: &[(&str, &[f32])]) -> Picture {
-    Picture {
-        width,
-        height: layers[0].1.len() as u32 / width,
-        layers: layers
+    Picture::new(
+        [width, layers[0].1.len() as u32 / width],
+        layers
             .iter()
-            .map(|(name, data)| Layer {
-                name: (*name).to_owned(),
-                data: data.to_vec(),
-            })
-            .collect(),
-        attributes: Vec::new(),
-    }
+            .map(|(name, data)| Layer::new(*name, data.to_vec())),
+    )
 }
 
 #[test]

@@ -1,6 +1,7 @@
 use std::process::Command;
 
-use super::super::{Attribute, ImageError, Layer, MOST_TEXTURE_BYTES, Picture, REC709};
+use super::super::error::{ImageError, MOST_TEXTURE_BYTES};
+use super::super::picture::{Attribute, Layer, Picture, REC709};
 use super::{decode, decode_within, encode, read, spectral_attributes, write};
 use crate::spectrum::recorded::spectral_channel_name;
 
@@ -23,10 +24,7 @@ fn picture() -> Picture {
             f32::from_bits(0x7fc1_2345),
             f32::MIN_POSITIVE / 4.0,
         ]);
-        Layer {
-            name: name.to_owned(),
-            data,
-        }
+        Layer::new(name, data)
     };
     let mut attributes = vec![
         ("chromaticities".to_owned(), REC709),

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use super::{Direction, Sample, steps, wavelength_steps};
+use super::sample::{Direction, SAME_DEG, Sample, steps, wavelength_steps};
 
 /// Least number of azimuths around a ring from which its mean is told.
 const LEAST_AZIMUTHS: usize = 4;
@@ -78,7 +78,7 @@ fn hemisphere(rows: &[(f64, f64, f64)]) -> Option<f64> {
     }
     let thetas: Vec<f64> = rings
         .keys()
-        .map(|step| (*step as f64 * super::SAME_DEG).to_radians())
+        .map(|step| (*step as f64 * SAME_DEG).to_radians())
         .collect();
     let square = |theta: f64| libm::sin(theta).powi(2);
     let mut sum = 0.0;
@@ -106,7 +106,7 @@ fn around(ring: &[(f64, f64)]) -> Option<f64> {
     let mut ring = ring.to_vec();
     ring.sort_by(|a, b| a.0.total_cmp(&b.0));
     // 0° and 360° may both stand in a table.
-    ring.dedup_by(|a, b| (a.0 - b.0).abs() < super::SAME_DEG);
+    ring.dedup_by(|a, b| (a.0 - b.0).abs() < SAME_DEG);
     let count = ring.len();
     if count < LEAST_AZIMUTHS {
         return None;

@@ -170,7 +170,8 @@ fn an_export_of_an_asd_is_read_with_and_without_its_header() {
 fn micrometres_and_percent_are_recognised_and_reported() {
     let mut found = read("0.4 5\n0.5 10\n0.8 50\n").expect("a good file");
     let notes = converted(&mut found, &Known::default());
-    assert_eq!(notes, [micrometres(), percent()]);
+    let micrometres = guess("wavelengths are taken for µm", "wavelengths", "nm");
+    assert_eq!(notes, [micrometres, percent()]);
     assert_eq!(found.points, [(400.0, 0.05), (500.0, 0.1), (800.0, 0.5)]);
     let mut plain = read("400 0.5\n500 0.6\n").expect("a good file");
     assert!(converted(&mut plain, &Known::default()).is_empty());

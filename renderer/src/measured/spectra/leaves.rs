@@ -5,12 +5,12 @@ use std::collections::HashMap;
 use leafmodel::document::rows::{Field, Guess, Row, Rows};
 use leafmodel::document::source::quoted;
 
-use super::{Leaf, note};
 use crate::measured::Fault;
 use crate::measured::columns::{Column, Named, measure_of_cell};
 use crate::measured::known::{Known, Measure};
-use crate::measured::masks::{is_masked, masked_ranges};
-use crate::measured::units::falling;
+use crate::measured::leaf::{Leaf, before};
+use crate::measured::masks::{is_masked, left_out, masked_ranges};
+use crate::measured::units::{falling, guess, note};
 
 /// Leaves while lines are read.
 pub(super) struct Leaves<'k> {
@@ -231,47 +231,30 @@ impl Draft {
             let problem = format!("wavelength {} after {}: {help}", second.nm, first.nm);
             return Err(Fault::in_line(text, second.line, problem, ""));
         }
-        let name = if self.name.is_empty() {
-            String::new()
-        } else {
-            format!("{}: ", quoted(&self.name))
-        };
+        let name = before(&self.name);
         let mut has = self.has;
         for (measure, (word, _)) in Measure::ALL.into_iter().enumerate() {
-            if has[measure]
-                && self
-                    .points
-                    .iter()
-                    .all(|point| point.values[measure].is_none())
-            {
+            let mut values = self.points.iter().map(|point| point.values[measure]);
+            if has[measure] && values.all(|value| value.is_none()) {
                 has[measure] = false;
                 notes.push(note(format!("{name}no band has a {word}")));
             }
         }
         let is_whole = |point: &Point| (0..3).all(|of| !has[of] || point.values[of].is_some());
         let masked: Vec<bool> = self.points.iter().map(|point| !is_whole(point)).collect();
-        let bands = ranges(&self.points, &masked);
         let is_any = has.contains(&true) && masked.contains(&false);
-        if !bands.is_empty() && is_any {
-            let count = masked.iter().filter(|masked| **masked).count();
-            notes.push(note(format!(
-                "{name}{count} of {} wavelengths have no value (empty, NA, NaN, -9999 or such) and are \
-                 left out: {bands}",
-                self.points.len()
-            )));
-        }
+        let nm: Vec<f64> = self.points.iter().map(|point| point.nm).collect();
+        notes.extend(left_out(&name, &nm, &masked).filter(|_| is_any));
         if known.masked.is_none() {
             let zero = |point: &Point| (0..3).any(|of| has[of] && point.values[of] == Some(0.0));
             let zero: Vec<bool> = self.points.iter().map(zero).collect();
             let is_band = zero
                 .windows(LEAST_ZEROS)
                 .any(|run| run.iter().all(|zero| *zero));
-            let bands = ranges(&self.points, &zero);
+            let bands = masked_ranges(&nm, &zero);
             if is_band && !zero.iter().all(|zero| *zero) {
-                notes.push(Guess {
-                    what: format!("{name}values of exactly 0 are taken as measured: {bands}"),
-                    otherwise: Some(("masked", "0")),
-                });
+                let what = format!("{name}values of exactly 0 are taken as measured: {bands}");
+                notes.push(guess(what, "masked", "0"));
             }
         }
         if !is_any {
@@ -281,16 +264,13 @@ impl Draft {
             name: self.name,
             ..Leaf::default()
         };
-        for point in self.points.iter().zip(masked).filter(|(_, masked)| !masked) {
-            let point = point.0;
+        for (point, _) in self.points.iter().zip(masked).filter(|(_, masked)| !masked) {
             leaf.nm.push(point.nm);
             leaf.lines.push(point.line);
             for (_, measure) in Measure::ALL {
-                if let Some(value) =
-                    point.values[measure as usize].filter(|_| has[measure as usize])
-                {
-                    leaf.values(measure).push(value);
-                }
+                let value = point.values[measure as usize];
+                leaf.values(measure)
+                    .extend(value.filter(|_| has[measure as usize]));
             }
         }
         Ok(Some(leaf))
@@ -299,12 +279,6 @@ impl Draft {
 
 /// Neighbouring values of 0 that make a masked band likely.
 const LEAST_ZEROS: usize = 3;
-
-/// The ranges of wavelengths that are marked, in words.
-fn ranges(points: &[Point], marked: &[bool]) -> String {
-    let nm: Vec<f64> = points.iter().map(|point| point.nm).collect();
-    masked_ranges(&nm, marked)
-}
 
 fn number(table: &Rows<'_>, name: &Field, field: &Field) -> Result<f64, String> {
     let value = table.number(field).filter(|value| value.is_finite());

@@ -1,5 +1,7 @@
 use std::path::Path;
 
+use super::super::Slack;
+use super::super::known::Measure;
 use super::*;
 use crate::measured::series;
 

@@ -71,7 +71,7 @@ const COLUMNS: [(&str, &[&str]); 55] = [
 
 /// A row for each measure, and each kind of single values, of each pair.
 pub(crate) fn csv(findings: &Findings) -> String {
-    let mut table = Table::new(COLUMNS.map(|(name, _)| name));
+    let mut table = Table::of(COLUMNS.map(|(name, _)| name));
     let all = json::json(findings);
     let entries = |of: &str| all[of].as_array().into_iter().flatten();
     for (number, pair) in findings.compared.pairs.iter().enumerate() {
@@ -127,7 +127,7 @@ fn add(table: &mut Table, of: &str, entry: &Value, pair: [usize; 2], contrast: &
 
 /// A row for each measure of each leaf.
 pub(crate) fn values(findings: &Findings) -> String {
-    let mut table = Table::new(["group", "leaf", "file", "measure", "part", "value", "unit"]);
+    let mut table = Table::new("group,leaf,file,measure,part,value,unit");
     for leaf in &findings.leaves {
         for row in &leaf.rows {
             table.row([

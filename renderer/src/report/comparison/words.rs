@@ -27,6 +27,11 @@ fn dash() -> String {
     "–".to_owned()
 }
 
+/// A number with three decimals.
+fn three(number: Option<f64>) -> String {
+    number.map_or_else(dash, |number| format!("{number:.3}"))
+}
+
 /// The table for a person, a part for each pair.
 pub(crate) fn text(findings: &Findings) -> String {
     let mut parts = Vec::new();
@@ -58,24 +63,23 @@ pub(crate) fn test_of_means(findings: &Findings, pair: [usize; 2]) -> &'static s
 
 fn singles(findings: &Findings, number: usize, pair: [usize; 2], names: [&str; 2]) -> String {
     let [first, second] = names;
-    let header = ["measure", first, second, "difference", "ratio", "unit"];
-    let mut rows = vec![header.map(str::to_owned)];
-    for measure in &findings.compared.measures {
+    let rows = findings.compared.measures.iter().map(|measure| {
         let [one, other] = pair.map(|group| measure.summaries[group].map(|found| found.mean));
         let contrast = measure.contrasts[number];
         let four = |value: Option<f64>| value.map_or_else(dash, |value| short(value, 4));
-        rows.push([
+        [
             label(measure.key, measure.part),
             four(one),
             four(other),
             four(contrast.difference),
-            contrast
-                .ratio
-                .map_or_else(dash, |ratio| format!("{ratio:.3}")),
+            three(contrast.ratio),
             measure.unit.to_owned(),
-        ]);
-    }
-    in_columns(&rows)
+        ]
+    });
+    in_columns(
+        ["measure", first, second, "difference", "ratio", "unit"],
+        rows,
+    )
 }
 
 fn grouped(findings: &Findings, number: usize, pair: [usize; 2], names: [&str; 2]) -> String {
@@ -90,8 +94,7 @@ fn grouped(findings: &Findings, number: usize, pair: [usize; 2], names: [&str; 2
         "M–W p",
         "Holm",
     ];
-    let mut rows = vec![header.map(str::to_owned)];
-    for measure in &findings.compared.measures {
+    let rows = findings.compared.measures.iter().map(|measure| {
         let [one, other] = pair.map(|group| {
             measure.summaries[group].map_or_else(dash, |found| {
                 let spread = found.deviation.map_or_else(dash, |sd| short(sd, 2));
@@ -102,27 +105,22 @@ fn grouped(findings: &Findings, number: usize, pair: [usize; 2], names: [&str; 2
         let p = |tested: Option<Tested>, of: fn(Tested) -> f64| {
             tested.map_or_else(dash, |tested| shown_p(of(tested)))
         };
-        rows.push([
+        let untested = || contrast.untested.map_or_else(dash, str::to_owned);
+        [
             label(measure.key, measure.part),
             one,
             other,
-            contrast
-                .ratio
-                .map_or_else(dash, |ratio| format!("{ratio:.3}")),
-            contrast.hedges_g.map_or_else(
-                || contrast.untested.map_or_else(dash, str::to_owned),
-                shown_effect,
-            ),
+            three(contrast.ratio),
+            contrast.hedges_g.map_or_else(untested, shown_effect),
             p(contrast.means(), |tested| tested.p),
             p(contrast.means(), |tested| tested.holm),
             p(contrast.orders(), |tested| tested.p),
             p(contrast.orders(), |tested| tested.holm),
-        ]);
-    }
-    in_columns(&rows)
+        ]
+    });
+    in_columns(header, rows)
 }
 
-/// An effect with its interval.
 pub(crate) fn shown_effect(effect: Effect) -> String {
     let [low, high] = effect.interval;
     let two = |value: f64| {
@@ -164,8 +162,7 @@ fn spreads(findings: &Findings, number: usize, pair: [usize; 2], names: [&str; 2
         "Holm",
         "unit",
     ];
-    let mut rows = vec![header.map(str::to_owned)];
-    for distribution in &findings.compared.distributions {
+    let rows = findings.compared.distributions.iter().map(|distribution| {
         let [one, other] = pair.map(|group| {
             distribution.medians[group].map_or_else(dash, |median| {
                 format!("{} ({})", short(median, 4), distribution.counts[group])
@@ -177,21 +174,19 @@ fn spreads(findings: &Findings, number: usize, pair: [usize; 2], names: [&str; 2
             let none = || contrast.untested.map_or_else(dash, str::to_owned);
             tested.map_or_else(none, |tested| shown_p(of(tested)))
         };
-        let apart = findings.distance(&contrast);
-        rows.push([
+        [
             distribution.kind.to_owned(),
             one,
             other,
-            apart.map_or_else(dash, |apart| format!("{apart:.3}")),
+            three(findings.distance(&contrast)),
             p(|tested| tested.p),
             tested.map_or_else(dash, |tested| shown_p(tested.holm)),
             distribution.unit.to_owned(),
-        ]);
-    }
-    in_columns(&rows)
+        ]
+    });
+    in_columns(header, rows)
 }
 
-/// What remains after the correction, in words; a line for each kind of test.
 pub(crate) fn conclusions(findings: &Findings) -> Vec<String> {
     let compared = &findings.compared;
     let contrasts = || {

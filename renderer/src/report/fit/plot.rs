@@ -1,6 +1,6 @@
 //! A drawing of measured and fitted spectra, and of what is left.
 
-use super::{Fitted, shown};
+use super::fitted::{Fitted, shown};
 use crate::plot::{Anchor, Axis, Canvas};
 
 /// Leaves that are drawn; more would be a book.

@@ -7,7 +7,6 @@ use crate::report::table::in_columns;
 
 /// Every figure with its unit, reliability and source.
 pub(crate) fn table() -> String {
-    let head = ["figure", "value", "unit", "trust", "source"].map(str::to_owned);
     let layers = Anatomy::figures().into_iter().map(|mut figure| {
         figure.of.insert_str(0, "leaf of layers, ");
         figure
@@ -21,6 +20,5 @@ pub(crate) fn table() -> String {
             figure.source.to_owned(),
         ]
     });
-    let rows: Vec<[String; 5]> = std::iter::once(head).chain(figures).collect();
-    in_columns(&rows)
+    in_columns(["figure", "value", "unit", "trust", "source"], figures)
 }

@@ -78,8 +78,7 @@ pub(crate) fn faces(contents: &Contents) -> String {
         "R plates",
         "T plates",
     ];
-    let mut rows = vec![head.map(str::to_owned)];
-    for nm in COMPARED_NM {
+    let rows = COMPARED_NM.map(|nm| {
         let at = ProspectD::coefficients_extrapolated(nm);
         let faces = leaf.faces(&at, Resolution::FAST);
         let [adaxial, abaxial] = faces.normal;
@@ -96,11 +95,11 @@ pub(crate) fn faces(contents: &Contents) -> String {
             plates.transmittance,
         ];
         let mut cells = figures.map(|figure| format!("{figure:.3}")).into_iter();
-        rows.push(std::array::from_fn(|column| match column {
+        std::array::from_fn(|column| match column {
             0 => nm.to_string(),
             _ => cells.next().expect("there is a figure for each column"),
-        }));
-    }
+        })
+    });
     let cells = match leaf.cells() {
         Cells::Full => "full of water",
         Cells::Empty => "empty",
@@ -108,6 +107,6 @@ pub(crate) fn faces(contents: &Contents) -> String {
     let thickness = leaf.thickness_um();
     format!(
         "{thickness:.0} µm thick, cells {cells}\n{}",
-        in_columns(&rows)
+        in_columns(head, rows)
     )
 }

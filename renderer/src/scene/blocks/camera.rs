@@ -1,19 +1,19 @@
 //! `[camera.perspective]` and `[camera.orthographic]`.
 
 use glam::DVec3;
+use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
 use leafmodel::document::names::NameIn;
-use leafmodel::document::value_kind::{Degrees, Integer, Number, Numbers, Vector};
+use leafmodel::document::value_kind::{Degrees, DegreesList, Kind, Number, Vector};
 
 use super::report;
 use crate::camera::thin_lens::{ANGLES_DEG, Field, Focus, Iris, Lens, LensError, Opening};
 use crate::camera::view::{Near, Projection, View};
+pub(super) use crate::geometry::instance::COORDINATES_M;
 use crate::scene::description::{Camera, FocusObject};
 
-/// Limits of world coordinates, m. Beyond them single precision does not resolve a leaf.
-pub(super) const COORDINATES_M: Limits = Limits::closed(-1e6, 1e6);
 /// Limits of the size on the sensor over the size in the scene.
 const MAGNIFICATIONS: Limits = Limits::closed(1e-6, 1000.0);
 /// Limits of lengths of lens and sensor, mm.
@@ -55,7 +55,7 @@ fn perspective(camera: &mut Camera, keys: &mut Keys<'_>) {
     place(&mut camera.view, about, keys);
     let lens = lens(keys);
     let focus = focus(&lens, camera, keys);
-    // What does not fit together is told after what cannot stand alone.
+    // What does not fit together is reported after what cannot stand alone.
     let view = &mut camera.view;
     if !check_view(view, keys) {
         return;
@@ -81,6 +81,30 @@ fn perspective(camera: &mut Camera, keys: &mut Keys<'_>) {
     }
 }
 
+/// The number of a key that is there. If it is wrong, that is reported, and it is 1.
+fn needed(
+    key: &'static str,
+    kind: impl Kind<Of = f64>,
+    about: &'static str,
+    keys: &mut Keys<'_>,
+) -> f64 {
+    let mut number = 1.0;
+    keys.needed(key, &mut number, kind, about);
+    number
+}
+
+/// Height of the recorded frame, m.
+fn sensor_height(about: &'static str, keys: &mut Keys<'_>) -> f64 {
+    let mut sensor_mm = 1000.0 * SENSOR_HEIGHT;
+    keys.key(
+        "sensor_height_mm",
+        &mut sensor_mm,
+        Number(LENGTHS_MM),
+        about,
+    );
+    sensor_mm / 1000.0
+}
+
 /// What the file wants to be sharp.
 enum Wanted {
     Plane(Focus),
@@ -95,77 +119,39 @@ fn lens(keys: &mut Keys<'_>) -> Lens {
     for chosen in keys.one_of(&fields, Some(fields[0])) {
         if chosen == "vertical_fov_deg" {
             let [least, most] = ANGLES_DEG;
-            let limits = Degrees(Limits::closed(least, most));
+            let limits = Limits::closed(least, most);
             let about = "Angle from the lower to the upper edge of the picture.";
-            let mut angle = 1.0;
-            keys.needed(chosen, &mut angle, limits, about);
-            lens.field = Field::Angle(angle);
+            lens.field = Field::Angle(needed(chosen, Degrees(limits), about, keys));
         } else {
             let about = "Focal length, instead of the angle. The angle then follows from the \
                 sensor's height, and gets smaller as the focus comes nearer.";
-            let mut length_mm = 50.0;
-            keys.needed(chosen, &mut length_mm, Number(LENGTHS_MM), about);
+            let length_mm = needed(chosen, Number(LENGTHS_MM), about, keys);
             lens.field = Field::FocalLength(length_mm / 1000.0);
         }
     }
-    let mut sensor_mm = 1000.0 * SENSOR_HEIGHT;
     let about = "Height of the recorded frame; 24 is that of small-format film.";
-    keys.key(
-        "sensor_height_mm",
-        &mut sensor_mm,
-        Number(LENGTHS_MM),
-        about,
-    );
-    lens.sensor_height = sensor_mm / 1000.0;
+    lens.sensor_height = sensor_height(about, keys);
     let openings = ["aperture_diameter_mm", "f_number"];
     for chosen in keys.one_of_or_none(&openings, Some(openings[0])) {
         if chosen == "f_number" {
             let about = "Focal length over the diameter of the lens opening, instead of the \
                 diameter. Smaller is less sharp before and behind the sharp plane.";
-            let mut number = 8.0;
-            keys.needed(
-                chosen,
-                &mut number,
-                Number(Limits::closed(0.5, 1000.0)),
-                about,
-            );
-            lens.opening = Opening::FNumber(number);
+            let limits = Number(Limits::closed(0.5, 1000.0));
+            lens.opening = Opening::FNumber(needed(chosen, limits, about, keys));
         } else {
             let mut aperture_mm = 0.0;
             let about = "Diameter of the lens opening; 0 is a pinhole.";
-            keys.key(
-                chosen,
-                &mut aperture_mm,
-                Number(Limits::closed(0.0, 1e6)),
-                about,
-            );
+            let limits = Number(Limits::closed(0.0, 1e6));
+            keys.key(chosen, &mut aperture_mm, limits, about);
             lens.opening = Opening::Diameter(aperture_mm / 1000.0);
         }
     }
-    let about = "Straight blades of the iris: light out of focus has so many corners; 0 is a \
-        circle, otherwise at least 3. The opening keeps its area.";
-    let blades = &mut lens.iris.blades;
-    keys.key("blades", blades, Integer::within(0, 32), about);
-    if let 1 | 2 = *blades {
-        let problem = format!("{blades} blades close no opening");
-        keys.refuse(&["blades"], problem, "write 0 for a circle, or 3 to 32");
-    }
-    let about = "Turn of the blades in the picture's plane, against the clock; at 0 a corner is on \
-        top.";
-    let limits = Degrees(Limits::closed(-360.0, 360.0));
-    keys.key("blade_rotation_deg", &mut lens.iris.rotation, limits, about);
-    let about = "Share of its diameter by which the lens's rim cuts the opening in the picture's \
-        corners, in proportion less towards the middle. Light out of focus looks like a cat's \
-        eye there, and corners get darker: at 1 they are black.";
-    let limits = Number(Limits::closed(0.0, 1.0));
-    keys.key("cats_eye", &mut lens.iris.cats_eye, limits, about);
-    let mut tilt_deg = [0.0; 2];
+    lens.iris.declare(keys);
     let about = "Turns of the lens, but not of the film, about the picture's axes to the right and \
         up, right-handed. They tilt the sharp plane: a positive first number brings it nearer \
         at the top of the picture.";
-    let limits = Numbers::<2>(Limits::closed(-45.0, 45.0));
-    keys.key("tilt_deg", &mut tilt_deg, limits, about);
-    lens.tilt = tilt_deg.map(f64::to_radians);
+    let limits = DegreesList::<2>(Limits::closed(-45.0, 45.0));
+    keys.key("tilt_deg", &mut lens.tilt, limits, about);
     lens
 }
 
@@ -178,9 +164,7 @@ fn focus(lens: &Lens, camera: &mut Camera, keys: &mut Keys<'_>) -> Option<Wanted
                 let limits = Number(Limits::above(0.0, 1e7));
                 let about = "Distance of the sharp plane along the axis; without it and the next \
                     three keys that of `look_at_m`.";
-                let mut distance = 1.0;
-                keys.needed(chosen, &mut distance, limits, about);
-                Wanted::Plane(Focus::Distance(distance))
+                Wanted::Plane(Focus::Distance(needed(chosen, limits, about, keys)))
             }
             "focus_point_m" => {
                 let about = "Point through which the sharp plane goes, instead of its distance.";
@@ -201,8 +185,7 @@ fn focus(lens: &Lens, camera: &mut Camera, keys: &mut Keys<'_>) -> Option<Wanted
             _ => {
                 let about = "Size on the sensor over size in the scene, on the sharp plane, \
                     instead of its distance: 1 is life size. It needs `focal_length_mm`.";
-                let mut times = 1.0;
-                keys.needed(chosen, &mut times, Number(MAGNIFICATIONS), about);
+                let times = needed(chosen, Number(MAGNIFICATIONS), about, keys);
                 keys.exclude("vertical_fov_deg", chosen);
                 Wanted::Plane(Focus::Magnification(times))
             }
@@ -256,24 +239,16 @@ fn orthographic(camera: &mut Camera, keys: &mut Keys<'_>) {
         if chosen == "height_m" {
             let about = "Height of what the picture shows.";
             let limits = Number(Limits::closed(1e-6, 1e6));
-            keys.needed(chosen, &mut height, limits, about);
+            height = needed(chosen, limits, about, keys);
             keys.exclude(chosen, "sensor_height_mm");
         }
         if chosen == "magnification" {
             let about = "Size on the sensor over size in the scene, instead of the height: 1 is \
                 life size.";
-            let mut times = 1.0;
-            keys.needed(chosen, &mut times, Number(MAGNIFICATIONS), about);
-            let mut sensor_mm = 1000.0 * SENSOR_HEIGHT;
+            let times = needed(chosen, Number(MAGNIFICATIONS), about, keys);
             let about = "Height of the recorded frame, for `magnification`; 24 is that of \
                 small-format film.";
-            keys.key(
-                "sensor_height_mm",
-                &mut sensor_mm,
-                Number(LENGTHS_MM),
-                about,
-            );
-            height = sensor_mm / 1000.0 / times;
+            height = sensor_height(about, keys) / times;
         }
     }
     camera.view.projection = Projection::Orthographic { height };

@@ -1,24 +1,23 @@
 //! `[film.rgb]` and `[film.spectral]`.
 
 use leafmodel::document::context::Context;
+use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
+use leafmodel::document::number_lists::Rising;
 use leafmodel::document::schema::Type;
 use leafmodel::document::tree::{Node, Value};
-use leafmodel::document::value_kind::{Integer, Kind, Number};
-use leafmodel::document::values::{
-    integers_at, list, number, number_at, numbers_at, wrong_length, wrong_type,
-};
+use leafmodel::document::value_kind::{Kind, Number};
+use leafmodel::document::values::{integers_at, list, number, numbers_at};
 
 use super::sensitivities::{LEAST_SHARE, Sensitivities};
-use crate::film::MOST_SAMPLES;
 use crate::scene::description::{Band, Film, FilmKind};
 use crate::spectrum::cie;
 use crate::spectrum::observer::Observer;
 
 /// Range of wavelengths of the renderer, nm.
-pub(super) const WAVELENGTHS_NM: Limits = Limits::closed(360.0, 2500.0);
+pub(in crate::scene) const WAVELENGTHS_NM: Limits = Limits::closed(360.0, 2500.0);
 /// Most pixels along one side; both sides at most give 2^28 pixels.
 const MOST_PIXELS: u64 = 16384;
 const MOST_BANDS: usize = 32;
@@ -33,7 +32,7 @@ const KINDS: [Variant<Film>; 2] = [
         },
         is: |film| matches!(film.kind, FilmKind::Rgb { .. }),
         declare: |film, keys| {
-            sampling(film, keys);
+            film.declare(keys);
             if let FilmKind::Rgb { range_nm, observer } = &mut film.kind {
                 let about = "Wavelengths that paths carry, first and last. The default is where \
                     PROSPECT-D has data and the observer sees nearly everything.";
@@ -44,9 +43,9 @@ const KINDS: [Variant<Film>; 2] = [
                     range_nm: *range_nm,
                 };
                 keys.key("sensitivities", observer, kind, about);
-                tell_unseen(*range_nm, observer, keys);
+                warn_of_unseen(*range_nm, observer, keys);
             }
-            tell_range(film, keys);
+            set_range(film, keys);
         },
     },
     Variant {
@@ -59,7 +58,7 @@ const KINDS: [Variant<Film>; 2] = [
         },
         is: |film| matches!(film.kind, FilmKind::Spectral { .. }),
         declare: |film, keys| {
-            sampling(film, keys);
+            film.declare(keys);
             if let FilmKind::Spectral { bands } = &mut film.kind {
                 let mut width_nm = bands.first().map_or(10.0, |band| band.width_nm);
                 let limits = Number(Limits::closed(0.0, 200.0));
@@ -69,7 +68,7 @@ const KINDS: [Variant<Film>; 2] = [
                     nm.";
                 keys.required("bands_nm", bands, Bands { width_nm }, about);
             }
-            tell_range(film, keys);
+            set_range(film, keys);
         },
     },
 ];
@@ -92,40 +91,30 @@ impl Film {
     }
 }
 
+impl Film {
+    pub(in crate::scene) fn declare_size(&mut self, keys: &mut Keys<'_>) {
+        let mut size = [self.width, self.height];
+        keys.required("size", &mut size, Pixels, "Pixels across and down.");
+        [self.width, self.height] = size;
+    }
+
+    pub(in crate::scene) fn declare_noise(&mut self, keys: &mut Keys<'_>) {
+        let mut noise = self.noise.unwrap_or(0.0);
+        let limits = Number(Limits::closed(0.0, 1.0));
+        let about = "Relative error at which a part of the picture has enough samples: 0.01 is one \
+            percent (adaptive sampling); 0 gives every pixel `spp` samples.";
+        keys.key("noise", &mut noise, limits, about);
+        self.noise = (noise > 0.0).then_some(noise);
+    }
+}
+
 /// The keys of `[film]`.
 pub(super) fn film(film: &mut Film, keys: &mut Keys<'_>) {
     keys.kind(film, &KINDS);
 }
 
-fn sampling(film: &mut Film, keys: &mut Keys<'_>) {
-    let mut size = [film.width, film.height];
-    keys.required("size", &mut size, Pixels, "Pixels across and down.");
-    [film.width, film.height] = size;
-    let count = Integer::within(1, MOST_SAMPLES.into());
-    let about = "Samples a pixel; with `noise` the most.";
-    keys.required("spp", &mut film.spp, count, about);
-    let mut noise = film.noise.unwrap_or(0.0);
-    let limits = Number(Limits::closed(0.0, 1.0));
-    let about = "Relative error at which a part of the picture has enough samples: 0.01 is one \
-        percent (adaptive sampling); 0 gives every pixel `spp` samples.";
-    keys.key("noise", &mut noise, limits, about);
-    film.noise = (noise > 0.0).then_some(noise);
-    let seed = Integer::within(0, u64::MAX);
-    keys.key(
-        "seed",
-        &mut film.seed,
-        seed,
-        "Seed of every random number; same file, same seed, \
-        same bytes.",
-    );
-    let limits = Number(Limits::closed(0.0, 8.0));
-    let about = "Radius of the Gaussian reconstruction filter; 0 is a box of one pixel, which \
-        keeps pixels independent of each other.";
-    keys.key("filter_radius_px", &mut film.filter_radius, limits, about);
-}
-
 /// Sets the wavelengths that the film needs, for all blocks read after it.
-fn tell_range(film: &Film, keys: &Keys<'_>) {
+fn set_range(film: &Film, keys: &Keys<'_>) {
     let Some(block) = keys.reader() else {
         return;
     };
@@ -144,7 +133,7 @@ fn tell_range(film: &Film, keys: &Keys<'_>) {
 }
 
 /// Warns of a film that leaves out much of what the eye sees.
-fn tell_unseen(range_nm: [f64; 2], observer: &Observer, keys: &Keys<'_>) {
+fn warn_of_unseen(range_nm: [f64; 2], observer: &Observer, keys: &Keys<'_>) {
     let given = keys
         .reader()
         .and_then(|block| Some((block.cx, block.node("range_nm")?)));
@@ -191,7 +180,7 @@ impl Kind for Pixels {
 
 /// Two wavelengths, the first below the second.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Range;
+pub(in crate::scene) struct Range;
 
 impl Kind for Range {
     type Of = [f64; 2];
@@ -238,35 +227,18 @@ impl Kind for Bands {
     type Of = Vec<Band>;
 
     fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<Vec<Band>> {
-        let Value::List(nodes) = &node.value else {
-            wrong_type(cx, node, key, Self::WANTED);
-            return None;
+        let kind = Rising {
+            limits: self.limits(),
+            most: MOST_BANDS,
+            wanted: Self::WANTED,
         };
-        if nodes.is_empty() || nodes.len() > MOST_BANDS {
-            wrong_length(cx, &node.at, key, "a list", nodes.len(), Self::WANTED);
-            return None;
-        }
-        let errors = cx.error_count();
-        let mut bands: Vec<Band> = Vec::with_capacity(nodes.len());
-        for node in nodes {
-            let Some(center_nm) = number_at(cx, node, key, self.limits()) else {
-                continue;
-            };
-            if let Some(last) = bands.last().filter(|last| last.center_nm >= center_nm) {
-                let error = DocumentError::NotRising {
-                    key: key.to_owned(),
-                    before: last.center_nm,
-                    after: center_nm,
-                };
-                cx.error(&node.at, error);
-                break;
-            }
-            bands.push(Band {
-                center_nm,
-                width_nm: self.width_nm,
-            });
-        }
-        (cx.error_count() == errors).then_some(bands)
+        let width_nm = self.width_nm;
+        let bands = kind.read(cx, node, key)?.into_iter();
+        let bands = bands.map(|center_nm| Band {
+            center_nm,
+            width_nm,
+        });
+        Some(bands.collect())
     }
 
     fn write(&self, bands: &Vec<Band>) -> Value {

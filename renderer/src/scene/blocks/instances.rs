@@ -7,13 +7,11 @@
 //! - **Always true**: numbers are finite and in range, shapes are among the object's.
 //! - **Left out**: relations between rows. Instances may overlap.
 //!
-//! Rows are read on all threads. The first [`MOST_TOLD`] wrong rows are reported, the others are
+//! Rows are read on all threads. The first [`MOST_REPORTED`] wrong rows are reported, the others are
 //! only counted, so that reports stay short and fast for a million rows.
 
-mod column_names;
 mod columns;
 mod npy;
-mod row_error;
 mod text;
 
 use std::collections::BTreeMap;
@@ -21,8 +19,9 @@ use std::fs;
 use std::path::Path;
 
 use glam::DMat4;
+use rayon::prelude::*;
 
-use self::row_error::RowError;
+use self::columns::{RowError, WrongRow};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::error::DocumentError;
@@ -32,7 +31,7 @@ use leafmodel::document::source::{Place, escaped};
 use leafmodel::document::value_kind::{FilePath, NamedFile, Word};
 
 /// Greatest number of wrong rows of a file that are reported one by one.
-const MOST_TOLD: usize = 20;
+const MOST_REPORTED: usize = 20;
 
 /// Greatest number of rows of a file, so that the picture's 32-bit layers can number them.
 const MOST_ROWS: usize = 1 << 24;
@@ -52,19 +51,8 @@ struct Table<'a> {
     frame: DMat4,
 }
 
-/// A row with errors.
-#[derive(Debug)]
-struct WrongRow {
-    /// Its line number, or for an array its row number, from 1.
-    line: usize,
-    /// The row as a report shows it.
-    shown: String,
-    /// Its errors, each with a range of bytes of `shown`.
-    errors: Vec<(std::ops::Range<usize>, RowError)>,
-}
-
 /// The result of reading some rows of a file.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Rows {
     places: Vec<InstancePlace>,
     /// The first wrong ones.
@@ -73,35 +61,27 @@ struct Rows {
 }
 
 impl Rows {
-    /// Stores the result of a row; `told` gives the text to show if it is wrong.
-    fn push(
-        &mut self,
-        row: Result<InstancePlace, Vec<RowError>>,
-        told: impl FnOnce(Vec<RowError>) -> WrongRow,
-    ) {
-        match row {
-            Ok(place) => self.places.push(place),
-            Err(errors) => {
-                self.wrong_count += 1;
-                if self.wrong.len() < MOST_TOLD {
-                    self.wrong.push(told(errors));
-                }
-            }
+    /// Reads rows on all threads, each with its number; `wrong` is one with errors.
+    fn read<R: Copy + Sync>(
+        rows: &[(usize, R)],
+        read: impl Fn(R) -> Result<InstancePlace, Vec<RowError>> + Sync,
+        wrong: impl Fn(usize, R, Vec<RowError>) -> WrongRow,
+    ) -> Self {
+        let found = rows.par_iter().map(|(_, row)| read(*row).ok());
+        let found: Vec<Option<InstancePlace>> = found.collect();
+        // The errors of the few that are reported are found again.
+        let missing = rows.iter().zip(&found).filter(|(_, place)| place.is_none());
+        let errors = missing
+            .take(MOST_REPORTED)
+            .filter_map(|((number, row), _)| {
+                let errors = read(*row).err()?;
+                Some(wrong(*number, *row, errors))
+            });
+        Self {
+            wrong: errors.collect(),
+            wrong_count: found.iter().filter(|place| place.is_none()).count(),
+            places: found.into_iter().flatten().collect(),
         }
-    }
-
-    /// Joins the rows of pieces of the file, in their order.
-    fn joined(pieces: Vec<Self>) -> Self {
-        let mut all = Self::default();
-        all.places
-            .reserve_exact(pieces.iter().map(|piece| piece.places.len()).sum());
-        for piece in pieces {
-            all.places.extend_from_slice(&piece.places);
-            all.wrong_count += piece.wrong_count;
-            let room = MOST_TOLD - all.wrong.len();
-            all.wrong.extend(piece.wrong.into_iter().take(room));
-        }
-        all
     }
 }
 
@@ -188,12 +168,16 @@ impl<'a> Table<'a> {
 
     /// Reports an error of the file as a whole at its name in the scene.
     fn refuse(&self, cx: &Context, at: &Place, problem: String, help: &str) {
-        let error = DocumentError::BadFile {
+        cx.error(at, self.bad_file(problem, help));
+    }
+
+    /// An error of the file.
+    fn bad_file(&self, problem: String, help: &str) -> DocumentError {
+        DocumentError::BadFile {
             path: self.name.clone(),
             problem,
             help: help.to_owned(),
-        };
-        cx.error(at, error);
+        }
     }
 
     /// Whether a file may have this many rows; reports an error otherwise.
@@ -221,12 +205,12 @@ impl<'a> Table<'a> {
                     source,
                     span: span.clone(),
                 };
-                cx.error(&place, error.told(self));
+                cx.error(&place, error.clone());
             }
         }
-        let untold = rows.wrong_count - rows.wrong.len();
-        if untold > 0 {
-            let problem = format!("has {untold} more wrong rows after those that are shown");
+        let unshown = rows.wrong_count - rows.wrong.len();
+        if unshown > 0 {
+            let problem = format!("has {unshown} more wrong rows after those that are shown");
             self.refuse(cx, at, problem, "mend the program that wrote the file");
         }
         (rows.wrong_count == 0).then_some(())

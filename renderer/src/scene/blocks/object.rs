@@ -2,6 +2,7 @@
 //! many.
 
 use glam::{DMat3, DMat4, DVec3};
+use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::value_kind::{Number, Numbers, Vector};
@@ -9,76 +10,54 @@ use leafmodel::document::values::{listed, wrong_length};
 
 use super::camera::COORDINATES_M;
 use super::instances::instances;
-use super::name_list::NamesIn;
 use super::placement::{ANGLES_DEG, SCALES, turn};
 use super::report;
-use super::scatter::scatter;
 use super::volume::volume;
+use crate::geometry::scatter::Rest;
 use crate::scene::authored::Object;
+use crate::scene::description::name_list::NamesIn;
 use crate::scene::description::{self, ObjectShape};
 
-impl Object {
-    /// An object with all defaults.
-    pub(super) fn nowhere() -> Self {
-        Self {
-            plant: None,
-            placed: description::Object::nowhere(),
-        }
-    }
-}
-
-impl description::Object {
-    /// An object without shapes, at the origin.
-    pub(in crate::scene) fn nowhere() -> Self {
-        Self {
-            shapes: Vec::new(),
-            to_world: DMat4::IDENTITY,
-            instances: None,
-            strewn: None,
-            volume: None,
-        }
-    }
-}
-
-/// The keys of one of `[objects]`.
-pub(super) fn object(object: &mut Object, keys: &mut Keys<'_>) {
-    let names = shapes(object, keys);
-    let Object {
-        plant,
-        placed: object,
-    } = object;
-    placement(object, keys);
-    let shapes = keys.is_sound().then_some(names.as_slice());
-    let frame = keys.is_sound().then_some(object.to_world);
-    let about = "Where the object stands, if in more than one place.";
-    keys.optional_block(
-        "instances",
-        &mut object.instances,
-        Vec::new,
-        about,
-        |places, keys| {
-            instances(places, keys, shapes, frame);
-        },
-    );
-    scatter(object, plant.is_some(), keys);
-    volume(object, keys);
-    let in_one_place = object.instances.is_none() && !object.is_spread();
-    if in_one_place && names.len() > 1 && keys.is_sound() {
-        let problem = format!(
-            "names {} shapes ({}) and stands in one place",
-            names.len(),
-            listed(names.iter().map(String::as_str))
+impl Declared for Object {
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        let names = shapes(self, keys);
+        let Self {
+            plant,
+            placed: object,
+        } = self;
+        placement(object, keys);
+        let shapes = keys.is_sound().then_some(names.as_slice());
+        let frame = keys.is_sound().then_some(object.to_world);
+        let about = "Where the object stands, if in more than one place.";
+        keys.optional_block(
+            "instances",
+            &mut object.instances,
+            Vec::new,
+            about,
+            |places, keys| {
+                instances(places, keys, shapes, frame);
+            },
         );
-        let help = "name one shape, or say where each stands: `instances.file = \"places.csv\"`, \
+        scatter(object, plant.is_some(), keys);
+        volume(object, keys);
+        let in_one_place = object.instances.is_none() && !object.is_spread();
+        if in_one_place && names.len() > 1 && keys.is_sound() {
+            let problem = format!(
+                "names {} shapes ({}) and stands in one place",
+                names.len(),
+                listed(names.iter().map(String::as_str))
+            );
+            let help = "name one shape, or say where each stands: `instances.file = \"places.csv\"`, \
             `scatter` or `volume`";
-        let error = DocumentError::Impossible {
-            key: keys
-                .reader()
-                .map_or_else(String::new, |block| block.path.clone()),
-            problem,
-            help: help.to_owned(),
-        };
-        keys.report(&[], error);
+            let error = DocumentError::Impossible {
+                key: keys
+                    .reader()
+                    .map_or_else(String::new, |block| block.path.clone()),
+                problem,
+                help: help.to_owned(),
+            };
+            keys.report(&[], error);
+        }
     }
 }
 
@@ -91,46 +70,49 @@ fn shapes(object: &mut Object, keys: &mut Keys<'_>) -> Vec<String> {
         keys.leave(&["material"]);
     }
     for kind in chosen.drain(..) {
+        let (section, what, about) = match kind {
+            "mesh" => ("meshes", "the name of a mesh", "Shape."),
+            "plant" => (
+                "plants",
+                "the name of a plant",
+                "That plant instead: the foot of its main axis at the origin, z up.",
+            ),
+            "solid" => (
+                "solids",
+                "the name of a body of solid tissue",
+                "That body instead, in the frame of its shape.",
+            ),
+            _ => (
+                "leaves",
+                "the name of a leaf",
+                "A grown leaf instead: base at the origin, midrib along +y, adaxial side +z; of a compound \
+                 leaf the whole, with the foot of its petiole at the origin.",
+            ),
+        };
+        if kind != "mesh" {
+            keys.exclude(kind, "material");
+        }
+        keys.needed(kind, &mut named, NamesIn(section, what), about);
+        let own = named.iter().map(|(number, _)| *number);
         match kind {
             "mesh" => {
                 let mut materials = Vec::new();
-                let kind = NamesIn("meshes", "the name of a mesh");
-                let about = "Shape.";
-                keys.needed("mesh", &mut named, kind, about);
                 let kind = NamesIn("materials", "the name of a material");
                 let about = "What it is made of.";
                 keys.needed("material", &mut materials, kind, about);
                 mesh_shapes(object, keys, &named, &materials);
             }
             "plant" => {
-                keys.exclude("plant", "material");
-                let kind = NamesIn("plants", "the name of a plant");
-                let about = "That plant instead: the foot of its main axis at the origin, z up.";
-                keys.needed("plant", &mut named, kind, about);
-                object.plant = named.first().map(|(plant, _)| *plant);
+                object.plant = own.clone().next();
                 if named.len() > 1 {
                     let problem = "an object is one plant".to_owned();
                     keys.refuse(&["plant"], problem, "write an object for each");
                 }
             }
             "solid" => {
-                keys.exclude("solid", "material");
-                let kind = NamesIn("solids", "the name of a body of solid tissue");
-                let about = "That body instead, in the frame of its shape.";
-                keys.needed("solid", &mut named, kind, about);
-                let solids = named.iter().map(|(solid, _)| *solid);
-                object.placed.shapes = solids.map(|solid| ObjectShape::Solid { solid }).collect();
+                object.placed.shapes = own.map(|solid| ObjectShape::Solid { solid }).collect();
             }
-            _ => {
-                keys.exclude("leaf", "material");
-                let kind = NamesIn("leaves", "the name of a leaf");
-                let about = "A grown leaf instead: base at the origin, midrib along +y, adaxial \
-                    side +z; of a compound leaf the whole, with the foot of its petiole at the \
-                    origin.";
-                keys.needed("leaf", &mut named, kind, about);
-                let leaves = named.iter().map(|(leaf, _)| *leaf);
-                object.placed.shapes = leaves.map(|leaf| ObjectShape::Leaf { leaf }).collect();
-            }
+            _ => object.placed.shapes = own.map(|leaf| ObjectShape::Leaf { leaf }).collect(),
         }
     }
     named.into_iter().map(|(_, name)| name).collect()
@@ -160,6 +142,35 @@ fn mesh_shapes(
         material: *material,
     });
     object.placed.shapes = pairs.collect();
+}
+
+/// The key `scatter` of an object, which may be a plant.
+fn scatter(object: &mut description::Object, is_plant: bool, keys: &mut Keys<'_>) {
+    keys.exclude("instances", "scatter");
+    let about = "Where copies of the object are strewn, instead of its own place.";
+    let strewn = &mut object.strewn;
+    keys.optional_block("scatter", strewn, Box::default, about, |own, keys| {
+        own.declare(keys);
+    });
+    if let Some(strewn) = &object.strewn {
+        let is_leaf = |shape: &ObjectShape| matches!(shape, ObjectShape::Leaf { .. });
+        let only_leaves = !is_plant && object.shapes.iter().all(is_leaf);
+        let differ = strewn.individuals > 1 || strewn.days.is_some();
+        if keys.is_sound() && differ && !only_leaves {
+            let key = if strewn.days.is_some() {
+                "days"
+            } else {
+                "individuals"
+            };
+            let problem = "only leaves are grown apart".to_owned();
+            let help = "take it out; a plant has its own `individuals` and `days`";
+            keys.refuse(&["scatter", key], problem, help);
+        }
+        if keys.is_sound() && is_plant && matches!(strewn.plan.rest, Rest::Settled { .. }) {
+            let problem = "a plant stands where it grows".to_owned();
+            keys.refuse(&["scatter", "settle"], problem, "take it out");
+        }
+    }
 }
 
 /// Local to world: `matrix`, or scale, then rotations about x, y, z, then position.

@@ -12,6 +12,7 @@ use leafmodel::document::values::listed;
 
 use super::Purpose;
 use crate::scene::authored::{Authored, Light};
+use crate::scene::description::instrument::incident::{covers_par, is_dark};
 use crate::scene::description::{self, InstrumentKind, Material, Mesh, Named, ObjectShape};
 
 /// Sections to whose blocks others refer.
@@ -45,7 +46,7 @@ pub(super) fn check(scene: &Authored, keys: &Keys<'_>, purpose: Purpose) {
     check_strewn(scene, keys);
     check_colours(scene, keys);
     check_samples(scene, keys);
-    super::instrument::incident::check_lights(scene, keys);
+    check_incident(scene, keys);
     if cx.error_count() == 0 {
         warn_of_the_unused(scene, keys);
     }
@@ -79,7 +80,7 @@ fn check_white_light(scene: &Authored, keys: &Keys<'_>) {
             known.extend(["sun", "sky"].map(|part| format!("{}.{part}", light.name)));
         }
     }
-    // That there is no light at all, is told already.
+    // That there is no light at all is reported already.
     if known.is_empty() || known.contains(name) {
         return;
     }
@@ -98,17 +99,14 @@ fn check_shining(scene: &Authored, keys: &Keys<'_>) {
     let mut shining = BTreeSet::new();
     let is_plain = |mesh: usize| {
         let mesh = scene.meshes.get(mesh);
-        mesh.is_some_and(|mesh| !matches!(mesh.value, Mesh::Gltf { .. }))
+        mesh.is_some_and(|mesh| !matches!(mesh.value, Mesh::Gltf(_)))
     };
     for light in &scene.lights {
-        let Light::Single(shining_light) = &light.value else {
-            continue;
-        };
-        let description::Light::Area { object, .. } = *shining_light else {
+        let Light::Single(description::Light::Area(area)) = &light.value else {
             continue;
         };
         // An unknown name is reported where it is written.
-        let Some(named) = scene.objects.get(object) else {
+        let Some(named) = scene.objects.get(area.object) else {
             continue;
         };
         let placed = &named.value.placed;
@@ -123,10 +121,8 @@ fn check_shining(scene: &Authored, keys: &Keys<'_>) {
             "is a body of solid tissue, and those do not shine"
         } else if shape.is_some_and(|shape| is_no_surface(scene, *shape)) {
             "is the boundary of a medium, and those do not shine"
-        } else if shining.insert(object) {
-            if shining_light.emitting_object().is_some()
-                && placed.first_mesh().is_some_and(is_plain)
-            {
+        } else if shining.insert(area.object) {
+            if area.pattern.emission && placed.first_mesh().is_some_and(is_plain) {
                 let problem = format!("`{}` has no mesh from a glTF file", named.name);
                 let help = "leave `emission` out, or name an object with a mesh of the kind `gltf`";
                 let path = ["lights", &light.name, "area", "emission"];
@@ -146,10 +142,7 @@ fn check_shining(scene: &Authored, keys: &Keys<'_>) {
 
 /// Whether a shape is a mesh whose material is the boundary of a medium or no boundary at all.
 fn is_no_surface(scene: &Authored, shape: ObjectShape) -> bool {
-    let material = match shape {
-        ObjectShape::Mesh { material, .. } => scene.materials.get(material),
-        ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
-    };
+    let material = shape.mesh().and_then(|(_, own)| scene.materials.get(own));
     material.is_some_and(|named| named.value.is_transparent_to_paths())
 }
 
@@ -204,6 +197,33 @@ fn check_samples(scene: &Authored, keys: &Keys<'_>) {
     }
 }
 
+/// A light whose spectrum an instrument takes has one, with light in it.
+fn check_incident(scene: &Authored, keys: &Keys<'_>) {
+    for instrument in &scene.instruments {
+        let incident = instrument.value.incident.as_ref();
+        let light = incident.and_then(|incident| scene.lights.get(incident.light?));
+        let Some(light) = light else { continue };
+        let name = &light.name;
+        let spectrum = match &light.value {
+            Light::Single(light) => Some(light.relative_spectrum()),
+            Light::Rig(_) => None,
+        };
+        let problem = match spectrum {
+            None => format!("`{name}` is a rig of several lights"),
+            Some(spectrum) if !covers_par(&spectrum) => {
+                format!("the spectrum of `{name}` does not cover 400 to 700 nm")
+            }
+            Some(spectrum) if is_dark(&spectrum) => {
+                format!("`{name}` has no light from 400 to 700 nm")
+            }
+            Some(_) => continue,
+        };
+        let kind = instrument.value.kind.word();
+        let path = ["instruments", &instrument.name, kind, "incident", "light"];
+        keys.refuse(&path, problem, "write a `spectrum` instead");
+    }
+}
+
 /// A material that takes the colours of a mesh needs one from a glTF file, and is made for that.
 fn check_colours(scene: &Authored, keys: &Keys<'_>) {
     let taken = |material: &Named<Material>| material.value.colours_of();
@@ -212,29 +232,17 @@ fn check_colours(scene: &Authored, keys: &Keys<'_>) {
         let Some(mesh) = taken(material).and_then(|mesh| scene.meshes.get(mesh)) else {
             continue;
         };
-        if !matches!(mesh.value, Mesh::Gltf { .. }) {
+        if !matches!(mesh.value, Mesh::Gltf(_)) {
             let problem = format!(
                 "the mesh `{}` is from no glTF file and has no colours",
                 mesh.name
             );
-            let kind = match material.value {
-                Material::Plastic { .. } => "plastic",
-                Material::Model { .. } => "gltf",
-                Material::Diffuse { .. }
-                | Material::Dielectric { .. }
-                | Material::Leaf { .. }
-                | Material::Solid { .. } => "diffuse",
+            let help = if material.value.reflectance().is_some() {
+                "write `reflectance` or `picture` instead, or name a mesh of the kind `gltf`"
+            } else {
+                "name a mesh of the kind `gltf`"
             };
-            let help = match material.value {
-                Material::Model { .. } => "name a mesh of the kind `gltf`",
-                Material::Plastic { .. }
-                | Material::Diffuse { .. }
-                | Material::Dielectric { .. }
-                | Material::Leaf { .. }
-                | Material::Solid { .. } => {
-                    "write `reflectance` or `picture` instead, or name a mesh of the kind `gltf`"
-                }
-            };
+            let kind = material.value.kind();
             keys.refuse(&["materials", &material.name, kind, "mesh"], problem, help);
         }
     }
@@ -256,7 +264,7 @@ fn check_colours(scene: &Authored, keys: &Keys<'_>) {
     }
     for object in &scene.objects {
         for shape in &object.value.placed.shapes {
-            let ObjectShape::Mesh { mesh, material } = *shape else {
+            let Some((mesh, material)) = shape.mesh() else {
                 continue;
             };
             let Some(material) = scene.materials.get(material) else {
@@ -283,28 +291,15 @@ fn warn_of_the_unused(scene: &Authored, keys: &Keys<'_>) {
     let Some(root) = keys.reader() else {
         return;
     };
-    let used = |wanted: fn(&ObjectShape) -> Option<usize>| -> BTreeSet<usize> {
-        let objects = scene.objects.iter();
-        objects
-            .flat_map(|object| object.value.placed.shapes.iter().filter_map(wanted))
-            .collect()
+    let objects = scene.objects.iter();
+    let shapes = objects.flat_map(|object| object.value.placed.shapes.iter().copied());
+    let used = |wanted: fn(ObjectShape) -> Option<usize>| -> BTreeSet<usize> {
+        shapes.clone().filter_map(wanted).collect()
     };
-    let meshes = used(|shape| match shape {
-        ObjectShape::Mesh { mesh, .. } => Some(*mesh),
-        ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
-    });
-    let mut materials = used(|shape| match shape {
-        ObjectShape::Mesh { material, .. } => Some(*material),
-        ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
-    });
-    let mut leaves = used(|shape| match shape {
-        ObjectShape::Leaf { leaf } => Some(*leaf),
-        ObjectShape::Mesh { .. } | ObjectShape::Solid { .. } => None,
-    });
-    let solids = used(|shape| match shape {
-        ObjectShape::Solid { solid } => Some(*solid),
-        ObjectShape::Mesh { .. } | ObjectShape::Leaf { .. } => None,
-    });
+    let meshes = used(|shape| Some(shape.mesh()?.0));
+    let mut materials = used(|shape| Some(shape.mesh()?.1));
+    let mut leaves = used(ObjectShape::leaf);
+    let solids = used(ObjectShape::solid);
     let objects = scene.objects.iter();
     let plants: BTreeSet<usize> = objects.filter_map(|object| object.value.plant).collect();
     for plant in plants.iter().filter_map(|&plant| scene.plants.get(plant)) {
@@ -314,14 +309,7 @@ fn warn_of_the_unused(scene: &Authored, keys: &Keys<'_>) {
         materials.extend(plant.value.potting.iter().flatten());
     }
     let media = scene.materials.iter();
-    let media = media.filter_map(|named| match named.value {
-        Material::Dielectric { interior, .. } => interior,
-        Material::Diffuse { .. }
-        | Material::Plastic { .. }
-        | Material::Model { .. }
-        | Material::Leaf { .. }
-        | Material::Solid { .. } => None,
-    });
+    let media = media.filter_map(|named| named.value.interior());
     let media: BTreeSet<usize> = media.collect();
     for (section, used) in [
         ("media", media),

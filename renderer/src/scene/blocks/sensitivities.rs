@@ -6,20 +6,16 @@ use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::nearest::nearest;
-use leafmodel::document::path::{Wanted, resolve};
 use leafmodel::document::reader::Block;
-use leafmodel::document::schema::{EntrySchema, Group, Is, Type};
+use leafmodel::document::schema::Type;
 use leafmodel::document::source::{Place, escaped};
-use leafmodel::document::tree::{Entry, Node, Table, Value};
-use leafmodel::document::value_kind::Kind;
+use leafmodel::document::tree::{Node, Table, Value};
+use leafmodel::document::value_kind::{FilePath, Kind, NamedFile};
 use leafmodel::document::values::{listed, wrong_type};
 
-use super::table_file::{bad_file, bytes, report, text};
+use super::table_file::TableFile;
 use crate::measured::sensitivities;
 use crate::spectrum::observer::{CHANNELS, Camera, NotACamera, Observer};
-
-/// Most bytes of a file.
-const MOST_BYTES: u64 = 1 << 20;
 
 /// Least share of a channel's response that a film should record.
 pub(super) const LEAST_SHARE: f64 = 0.95;
@@ -50,33 +46,23 @@ impl Kind for Sensitivities {
         if Observer::names().any(|name| name == value.name()) {
             return Value::Text(value.name().to_owned());
         }
-        let node = Node::unplaced(Value::Text(value.name().to_owned()));
-        Value::Table(Table(vec![Entry {
-            key: "file".to_owned(),
-            key_at: node.at.clone(),
-            node,
-        }]))
+        let file = Value::Text(value.name().to_owned());
+        Value::Table(Table::of([("file", file)]))
     }
 
     fn describe(&self) -> Type {
-        let mut form = Keys::describe(|_| {});
-        form.add(EntrySchema {
-            key: "file".to_owned(),
-            about: "A table of wavelength in nm and the sensitivities of red, green and blue.",
-            required: false,
-            is: Is::Value {
-                of: Type::Text("the path of a CSV file"),
-                default: None,
-            },
-        });
-        form.groups.push(Group {
-            keys: vec!["file"],
-            required: true,
+        let form = Keys::describe(|keys| {
+            keys.one_of(&["file"], None);
+            keys.optional("file", &mut None, FILE, ABOUT_FILE);
         });
         let names = Observer::names().map(str::to_owned).collect();
         Type::AnyOf(vec![Type::Word(names), Type::Table(form)], WANTED)
     }
 }
+
+const FILE: FilePath = FilePath::of("the path of a CSV file", &["csv", "tsv", "txt"], 1 << 20);
+const ABOUT_FILE: &str =
+    "A table of wavelength in nm and the sensitivities of red, green and blue.";
 
 impl Sensitivities {
     fn form(self, cx: &Context, node: &Node, key: &str, path: String) -> Option<Observer> {
@@ -95,11 +81,17 @@ impl Sensitivities {
                 found
             }
             Value::Table(table) => {
+                let mut observer = None;
                 let form = Block::new(cx, table, path, node.at.clone());
-                let chosen = form.exactly_one(&["file"]);
-                let named = chosen.and_then(|_| form.text("file", "the path of a CSV file"));
-                let observer = named.and_then(|(path, at)| self.of_file(cx, path, at));
-                form.finish();
+                Keys::read(form, None, |keys| {
+                    keys.one_of(&["file"], None);
+                    let mut named = None;
+                    keys.optional("file", &mut named, FILE, ABOUT_FILE);
+                    let at = keys.reader().and_then(|form| form.node("file"));
+                    observer = named
+                        .zip(at)
+                        .and_then(|(file, node)| self.of_file(cx, &file, &node.at));
+                });
                 observer
             }
             Value::Integer(_)
@@ -113,24 +105,12 @@ impl Sensitivities {
         }
     }
 
-    fn of_file(self, cx: &Context, path: &str, at: &Place) -> Option<Observer> {
-        let wanted = Wanted {
-            endings: &["csv", "tsv", "txt"],
-            most_bytes: MOST_BYTES,
-        };
-        let file = resolve(cx, path, at, wanted)?;
-        let bytes = bytes(cx, &file, path, at)?;
-        let text = &*text(cx, path, at, &bytes)?;
-        let rows = match sensitivities::read(text) {
-            Ok(rows) => rows,
-            Err(fault) => {
-                report(cx, path, at, text, &fault);
-                return None;
-            }
-        };
-        match Camera::new(path, rows) {
+    fn of_file(self, cx: &Context, named: &NamedFile, at: &Place) -> Option<Observer> {
+        let file = TableFile::read(cx, &named.file, &named.written, at)?;
+        let rows = file.sound(sensitivities::read(&file.text))?;
+        match Camera::new(&named.written, rows) {
             Ok(camera) => {
-                self.check(cx, &camera, path, at)?;
+                self.check(&camera, &file)?;
                 Some(Observer::Camera(Arc::new(camera)))
             }
             Err(problem) => {
@@ -139,47 +119,44 @@ impl Sensitivities {
                     NotACamera::Dependent => "give the three channels different sensitivities",
                     NotACamera::Disordered | NotACamera::Negative => "mend the table",
                 };
-                cx.error(at, bad_file(path, problem.to_string(), help));
+                file.refuse(problem.to_string(), help);
                 None
             }
         }
     }
 
     /// Refuses a camera with a channel that sees nothing on the film, and warns of what is left out.
-    fn check(self, cx: &Context, camera: &Camera, path: &str, at: &Place) -> Option<()> {
+    fn check(self, camera: &Camera, file: &TableFile<'_>) -> Option<()> {
+        const HELP: &str = "widen `range_nm` of the film to what the camera sees";
         let [low, high] = self.range_nm;
         let shares = camera.share_within(self.range_nm);
         let rows = camera.rows();
-        let [first, last] = [&rows[0], &rows[rows.len() - 1]];
-        let path_shown = escaped(path, 2 * QUOTED);
         for (i, channel) in CHANNELS.into_iter().enumerate() {
             if shares[i] <= 0.0 {
                 let problem = format!(
                     "has a channel `{channel}` that sees nothing from {low} to {high} nm, which the film \
                      records"
                 );
-                let help = "widen `range_nm` of the film to what the camera sees";
-                cx.error(at, bad_file(path, problem, help));
+                file.refuse(problem, HELP);
                 return None;
             }
             if shares[i] < LEAST_SHARE {
                 let percent = 100.0 * (1.0 - shares[i]);
                 let message = format!(
-                    "\"{path_shown}\": the film leaves out {percent:.0} % of what the channel `{channel}` sees"
+                    "the film leaves out {percent:.0} % of what the channel `{channel}` sees"
                 );
-                let help = "widen `range_nm` of the film to what the camera sees";
-                cx.warn(at, "scene::range", message, help);
+                file.warn("scene::range", &message, HELP);
             }
             let most = rows.iter().fold(0.0_f64, |most, row| most.max(row.1[i]));
-            for (nm, values) in [first, last] {
+            for (nm, values) in [&rows[0], &rows[rows.len() - 1]] {
                 if values[i] > MOST_AT_END * most && *nm > low && *nm < high {
                     let share = 100.0 * values[i] / most;
                     let message = format!(
-                        "\"{path_shown}\": the channel `{channel}` ends at {nm} nm with {share:.0} % of its \
-                         greatest sensitivity, and counts as 0 beyond"
+                        "the channel `{channel}` ends at {nm} nm with {share:.0} % of its greatest \
+                         sensitivity, and counts as 0 beyond"
                     );
                     let help = "continue the table to where the camera sees nothing";
-                    cx.warn(at, "scene::range", message, help);
+                    file.warn("scene::range", &message, help);
                 }
             }
         }

@@ -6,20 +6,19 @@ use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::{Limits, Plain};
 use leafmodel::document::reader::Block;
-use leafmodel::document::schema::{EntrySchema, Group, Is, Type};
+use leafmodel::document::schema::Type;
 use leafmodel::document::source::Place;
-use leafmodel::document::tree::{Entry, Node, Table, Value};
-use leafmodel::document::value_kind::{Kind, Number, Word};
+use leafmodel::document::tree::{Node, Table, Value};
+use leafmodel::document::value_kind::{Kind, NamedFile, Number, Word};
 use leafmodel::document::values::{finite_at, list, number, number_at, wrong_length, wrong_type};
 
-use super::table_file::{self, Rows};
-use crate::measured::units;
-use crate::scene::description::Spectrum;
+use super::table_file::{self, Rows, first_gap};
 use crate::spectrum::library;
+use crate::spectrum::written::Spectrum;
 
 /// A spectrum with its role.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SpectrumOf {
+pub(in crate::scene) enum SpectrumOf {
     /// A share of light, 0 to 1.
     Share,
     /// A ratio of two shares, above 0.
@@ -80,83 +79,23 @@ impl Kind for SpectrumOf {
     }
 
     fn write(&self, spectrum: &Spectrum) -> Value {
-        let table = |entries: &[(&str, Value)]| {
-            let entries = entries.iter().map(|(key, value)| {
-                let node = Node::unplaced(value.clone());
-                Entry {
-                    key: (*key).to_owned(),
-                    key_at: node.at.clone(),
-                    node,
-                }
-            });
-            Value::Table(Table(entries.collect()))
-        };
-        match spectrum {
-            Spectrum::Constant(value) => number(*value),
+        let scaled = |key, value, scale| [(key, number(value)), ("scale", number(scale))];
+        Value::Table(match spectrum {
+            Spectrum::Constant(value) => return number(*value),
             Spectrum::Table { points, .. } => {
-                let rows = points
-                    .iter()
-                    .map(|(nm, value)| list([*nm, *value].map(number)));
-                table(&[("table", list(rows))])
+                let rows = points.iter();
+                let rows = rows.map(|(nm, value)| list([*nm, *value].map(number)));
+                Table::of([("table", list(rows))])
             }
-            Spectrum::D65 { scale } => table(&[("d65", number(*scale))]),
+            Spectrum::D65 { scale } => Table::of([("d65", number(*scale))]),
             Spectrum::Blackbody { kelvin, scale } => {
-                table(&[("blackbody_k", number(*kelvin)), ("scale", number(*scale))])
+                Table::of(scaled("blackbody_k", *kelvin, *scale))
             }
-        }
+        })
     }
 
     fn describe(&self) -> Type {
-        let mut form = Keys::describe(|keys| {
-            keys.key("scale", &mut 1.0, Number(FACTORS), "Factor on the values.");
-        });
-        for key in self.keys() {
-            let (about, of) = match *key {
-                "table" => {
-                    let row = vec![
-                        Type::Number(TABLE_WAVELENGTHS_NM),
-                        Type::Number(Limits::closed(f64::MIN, f64::MAX)),
-                    ];
-                    let rows = Type::List {
-                        of: Box::new(Type::Tuple(row)),
-                        least: 2,
-                        most: usize::MAX >> 11,
-                        wanted: "a list of [wavelength in nm, value]",
-                    };
-                    ("Linear between rows, whose wavelengths rise.", rows)
-                }
-                "file" => (
-                    "Such a table in a file, ASCII export of an ASD, or a `.sig` file of an SVC.",
-                    Type::Text("the path of a CSV file"),
-                ),
-                "measured" => {
-                    let about = "A measured surface by its name.";
-                    (about, Word(&SURFACES).describe())
-                }
-                "soil_moisture" => {
-                    let about = "Bare soil of this moisture, 0 dry to 1 wet.";
-                    (about, Type::Number(MOISTURE))
-                }
-                "d65" => {
-                    let about = "CIE standard illuminant D65, with this value at 560 nm.";
-                    (about, Type::Number(FACTORS))
-                }
-                _ => {
-                    let about = "A black body of this temperature, 1 at 560 nm.";
-                    (about, Type::Number(KELVIN))
-                }
-            };
-            form.add(EntrySchema {
-                key: (*key).to_owned(),
-                about,
-                required: false,
-                is: Is::Value { of, default: None },
-            });
-        }
-        form.groups.push(Group {
-            keys: self.keys().to_vec(),
-            required: true,
-        });
+        let form = Keys::describe(|keys| self.declare("", &mut None, keys));
         Type::AnyOf(
             vec![Type::Number(self.limits()), Type::Table(form)],
             self.forms(),
@@ -165,11 +104,9 @@ impl Kind for SpectrumOf {
 }
 
 /// Range of wavelengths of tables, nm; solar spectra start in the far ultraviolet.
-pub(super) const TABLE_WAVELENGTHS_NM: Limits = Limits::closed(1.0, 1e7);
+pub(in crate::scene) const TABLE_WAVELENGTHS_NM: Limits = Limits::closed(1.0, 1e7);
 /// Where CIE standard illuminant D65 is defined, nm.
-pub(super) const D65_NM: [f64; 2] = [300.0, 830.0];
-/// Moisture of soil.
-const MOISTURE: Limits = Limits::closed(0.0, 1.0);
+pub(in crate::scene) const D65_NM: [f64; 2] = [300.0, 830.0];
 /// Names of the measured surfaces, with their numbers.
 static SURFACES: [(&str, usize); library::SURFACES.len()] = numbered();
 
@@ -183,9 +120,7 @@ const fn numbered() -> [(&'static str, usize); library::SURFACES.len()] {
     numbered
 }
 
-const FACTORS: Limits = Limits::above(0.0, 1e12);
-/// Range of temperatures of black bodies, K.
-const KELVIN: Limits = Limits::closed(100.0, 1e6);
+const FACTORS: Number = Number(Limits::above(0.0, 1e12));
 
 impl SpectrumOf {
     fn form(self, cx: &Context, node: &Node, key: &str, path: String) -> Option<Spectrum> {
@@ -195,7 +130,9 @@ impl SpectrumOf {
             }
             Value::Table(table) => {
                 let form = Block::new(cx, table, path, node.at.clone());
-                read_form(&form, key, self)
+                let mut spectrum = None;
+                Keys::read(form, None, |keys| self.declare(key, &mut spectrum, keys));
+                spectrum
             }
             Value::Text(_) | Value::Flag(_) | Value::Other(..) | Value::List(_) => {
                 wrong_type(cx, node, key, self.forms());
@@ -203,99 +140,134 @@ impl SpectrumOf {
             }
         }
     }
-}
 
-fn read_form(form: &Block<'_>, key: &str, role: SpectrumOf) -> Option<Spectrum> {
-    let chosen = form.exactly_one(role.keys());
-    let spectrum = match chosen {
-        Some("d65") => form.number("d65", FACTORS).and_then(|scale| {
-            require_coverage(form.cx, &form.at, "the illuminant D65", D65_NM)
-                .then_some(Spectrum::D65 { scale })
-        }),
-        Some("blackbody_k") => {
-            let kelvin = form.number("blackbody_k", KELVIN);
-            let scale = form.number_or("scale", FACTORS, 1.0);
-            kelvin.map(|kelvin| Spectrum::Blackbody { kelvin, scale })
+    /// The keys of the forms that have some, at the key of this name.
+    fn declare(self, key: &str, spectrum: &mut Option<Spectrum>, keys: &mut Keys<'_>) {
+        let chosen = keys.one_of(self.keys(), None);
+        let mut scale = 1.0;
+        // Whoever writes a factor knows the unit.
+        let guess = self == Self::Share && chosen == ["file"] && !keys.has("scale");
+        if chosen != ["d65"] {
+            keys.key("scale", &mut scale, FACTORS, "Factor on the values.");
         }
-        Some("measured") => {
-            let scale = form.number_or("scale", FACTORS, 1.0);
-            form.node("measured")
-                .and_then(|node| Word(&SURFACES).read(form.cx, node, "measured"))
-                .and_then(|number| shipped(form, library::surface(number), scale, key, role))
-        }
-        Some("soil_moisture") => {
-            let scale = form.number_or("scale", FACTORS, 1.0);
-            form.number("soil_moisture", MOISTURE)
-                .and_then(|moisture| shipped(form, library::soil(moisture), scale, key, role))
-        }
-        Some("table") => {
-            let scale = form.number_or("scale", FACTORS, 1.0);
-            form.node("table")
-                .and_then(|node| inline_rows(form.cx, node, key))
-                .and_then(|rows| checked_table(form, &rows, scale, key, role))
-        }
-        Some(_) => {
-            // Whoever writes a factor knows the unit.
-            let guess = role == SpectrumOf::Share && form.node("scale").is_none();
-            let scale = form.number_or("scale", FACTORS, 1.0);
-            form.text("file", "the path of a CSV file")
-                .and_then(|(path, at)| table_file::rows(form.cx, path, at, guess))
-                .and_then(|rows| checked_table(form, &rows, scale, key, role))
-        }
-        None => {
-            // `scale` is known in most forms, and the error was already reported.
-            form.node("scale");
-            None
-        }
-    };
-    form.finish();
-    spectrum
-}
-
-/// A spectrum of the library.
-fn shipped(
-    form: &Block<'_>,
-    points: Vec<(f64, f64)>,
-    scale: f64,
-    key: &str,
-    role: SpectrumOf,
-) -> Option<Spectrum> {
-    let places = vec![[form.at.clone(), form.at.clone()]; points.len()];
-    let rows = Rows {
-        points,
-        places,
-        ..Rows::default()
-    };
-    checked_table(form, &rows, scale, key, role)
-}
-
-/// The rows `[[nm, value], …]` of a table in the scene file.
-fn inline_rows(cx: &Context, node: &Node, key: &str) -> Option<Rows> {
-    const WANTED: &str = "a list of [wavelength in nm, value]";
-    let Value::List(list) = &node.value else {
-        wrong_type(cx, node, key, WANTED);
-        return None;
-    };
-    let mut rows = Rows::default();
-    let before_this = cx.error_count();
-    for row in list {
-        if let Value::List(pair) = &row.value
-            && let [wavelength, value] = pair.as_slice()
-        {
-            let point = (
-                finite_at(cx, wavelength, key, "a number"),
-                finite_at(cx, value, key, "a number"),
-            );
-            if let (Some(wavelength_nm), Some(number)) = point {
-                rows.points.push((wavelength_nm, number));
-                rows.places.push([wavelength.at.clone(), value.at.clone()]);
+        for form in chosen {
+            let rows = match form {
+                "table" => {
+                    let mut rows = None;
+                    let about = "Linear between rows, whose wavelengths rise.";
+                    keys.optional("table", &mut rows, InlineRows(key), about);
+                    rows
+                }
+                "file" => {
+                    let mut named = None;
+                    let about = "Such a table in a file, ASCII export of an ASD, or a `.sig` file of an SVC.";
+                    keys.optional("file", &mut named, table_file::SPECTRUM, about);
+                    Self::in_file(named.as_ref(), guess, keys)
+                }
+                "measured" => {
+                    let mut number = None;
+                    let about = "A measured surface by its name.";
+                    keys.optional("measured", &mut number, Word(&SURFACES), about);
+                    number.and_then(|number| shipped(library::surface(number), keys))
+                }
+                "soil_moisture" => {
+                    let mut moisture = None;
+                    let about = "Bare soil of this moisture, 0 dry to 1 wet.";
+                    let limits = Number(Limits::closed(0.0, 1.0));
+                    keys.optional("soil_moisture", &mut moisture, limits, about);
+                    moisture.and_then(|moisture| shipped(library::soil(moisture), keys))
+                }
+                "d65" => {
+                    let mut scale = None;
+                    let about = "CIE standard illuminant D65, with this value at 560 nm.";
+                    keys.optional("d65", &mut scale, FACTORS, about);
+                    if let (Some(scale), Some(form)) = (scale, keys.reader())
+                        && require_coverage(form.cx, &form.at, "the illuminant D65", D65_NM)
+                    {
+                        *spectrum = Some(Spectrum::D65 { scale });
+                    }
+                    None
+                }
+                _ => {
+                    let mut kelvin = None;
+                    let about = "A black body of this temperature, 1 at 560 nm.";
+                    let limits = Number(Limits::closed(100.0, 1e6));
+                    keys.optional("blackbody_k", &mut kelvin, limits, about);
+                    *spectrum = kelvin.map(|kelvin| Spectrum::Blackbody { kelvin, scale });
+                    None
+                }
+            };
+            if let (Some(rows), Some(form)) = (rows, keys.reader()) {
+                *spectrum = checked_table(form, &rows, scale, key, self);
             }
-        } else {
-            wrong_type(cx, row, key, WANTED);
-            return None;
         }
     }
-    (cx.error_count() == before_this).then_some(rows)
+
+    fn in_file(named: Option<&NamedFile>, guess: bool, keys: &Keys<'_>) -> Option<Rows> {
+        let form = keys.reader()?;
+        table_file::rows(form.cx, named?, &form.node("file")?.at, guess)
+    }
+}
+
+/// A spectrum of the library, whose rows have no places of their own.
+fn shipped(points: Vec<(f64, f64)>, keys: &Keys<'_>) -> Option<Rows> {
+    let at = &keys.reader()?.at;
+    Some(Rows {
+        places: vec![[at.clone(), at.clone()]; points.len()],
+        points,
+        file: None,
+    })
+}
+
+/// The rows `[[nm, value], …]` of a table in the scene file, at the key of this name.
+struct InlineRows<'k>(&'k str);
+
+const ROWS: &str = "a list of [wavelength in nm, value]";
+
+impl Kind for InlineRows<'_> {
+    type Of = Rows;
+
+    fn read(&self, cx: &Context, node: &Node, _: &str) -> Option<Rows> {
+        let Value::List(list) = &node.value else {
+            wrong_type(cx, node, self.0, ROWS);
+            return None;
+        };
+        let mut rows = Rows::default();
+        let before_this = cx.error_count();
+        for row in list {
+            if let Value::List(pair) = &row.value
+                && let [wavelength, value] = pair.as_slice()
+            {
+                let point = [wavelength, value].map(|node| finite_at(cx, node, self.0, "a number"));
+                if let [Some(wavelength_nm), Some(number)] = point {
+                    rows.points.push((wavelength_nm, number));
+                    rows.places.push([wavelength.at.clone(), value.at.clone()]);
+                }
+            } else {
+                wrong_type(cx, row, self.0, ROWS);
+                return None;
+            }
+        }
+        (cx.error_count() == before_this).then_some(rows)
+    }
+
+    fn write(&self, rows: &Rows) -> Value {
+        let rows = rows.points.iter();
+        list(rows.map(|(nm, value)| list([*nm, *value].map(number))))
+    }
+
+    fn describe(&self) -> Type {
+        let number = Type::Number(Limits::closed(f64::MIN, f64::MAX));
+        Type::List {
+            of: Box::new(Type::Tuple(vec![
+                Type::Number(TABLE_WAVELENGTHS_NM),
+                number,
+            ])),
+            least: 2,
+            most: usize::MAX >> 11,
+            wanted: ROWS,
+        }
+    }
 }
 
 /// A table whose wavelengths rise, whose values are allowed, and which covers the film.
@@ -342,25 +314,16 @@ fn checked_table(
         && let Some(file) = &rows.file
     {
         let nm: Vec<f64> = points.iter().map(|point| point.0).collect();
-        let mut gaps = units::gaps(&nm, units::WIDE_GAP);
-        let found = gaps.find_map(|at| {
-            let error = table_file::gap(cx, file, [nm[at - 1], nm[at]])?;
-            Some((at, error))
-        });
-        if let Some((at, error)) = found {
+        if let Some((at, error)) = first_gap(cx, file, &nm) {
             cx.error(&rows.places[at][0], error);
             return None;
         }
     }
     let limits = role.limits();
     // Percent times 0.01 may round to just above 1.
-    let clamped = |value: f64| match role {
-        SpectrumOf::Share if value > 1.0 && value < 1.0 + 1e-9 => 1.0,
-        SpectrumOf::Share
-        | SpectrumOf::Ratio
-        | SpectrumOf::Emission
-        | SpectrumOf::PerMillimetre
-        | SpectrumOf::PerMetre => value,
+    let clamped = |value: f64| {
+        let is_rounded = role == SpectrumOf::Share && value > 1.0 && value < 1.0 + 1e-9;
+        if is_rounded { 1.0 } else { value }
     };
     if let Some(bad) = points
         .iter()

@@ -9,26 +9,18 @@ use super::camera::COORDINATES_M;
 use crate::geometry::scatter::{Arrangement, Centres, Inclination, Volume};
 use crate::scene::description::Object;
 
-/// Words for distributions of inclinations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Named {
-    Spherical,
-    Uniform,
-    Planophile,
-    Erectophile,
-    Plagiophile,
-    Extremophile,
-    Beta,
-}
+/// A Beta distribution before its numbers are read.
+const BETA: Inclination = Inclination::Beta { mu: 1.0, nu: 1.0 };
 
-const INCLINATIONS: [(&str, Named); 7] = [
-    ("spherical", Named::Spherical),
-    ("uniform", Named::Uniform),
-    ("planophile", Named::Planophile),
-    ("erectophile", Named::Erectophile),
-    ("plagiophile", Named::Plagiophile),
-    ("extremophile", Named::Extremophile),
-    ("beta", Named::Beta),
+/// Words for distributions of inclinations.
+const INCLINATIONS: [(&str, Inclination); 7] = [
+    ("spherical", Inclination::Spherical),
+    ("uniform", Inclination::Uniform),
+    ("planophile", Inclination::Planophile),
+    ("erectophile", Inclination::Erectophile),
+    ("plagiophile", Inclination::Plagiophile),
+    ("extremophile", Inclination::Extremophile),
+    ("beta", BETA),
 ];
 
 /// Lengths of rows and crowns, m.
@@ -85,36 +77,25 @@ fn afloat(volume: &mut Volume, keys: &mut Keys<'_>) {
 }
 
 fn inclination(volume: &mut Volume, keys: &mut Keys<'_>) {
-    let (mut named, mut beta) = match volume.inclination {
-        Inclination::Spherical => (Named::Spherical, None),
-        Inclination::Uniform => (Named::Uniform, None),
-        Inclination::Planophile => (Named::Planophile, None),
-        Inclination::Erectophile => (Named::Erectophile, None),
-        Inclination::Plagiophile => (Named::Plagiophile, None),
-        Inclination::Extremophile => (Named::Extremophile, None),
-        Inclination::Beta { mu, nu } => (Named::Beta, Some([mu, nu])),
-    };
+    let mut beta = None;
+    let own = &mut volume.inclination;
+    if let Inclination::Beta { mu, nu } = *own {
+        (beta, *own) = (Some([mu, nu]), BETA);
+    }
     let about = "The distribution of the angle between their +z and the vertical, after de Wit, or \
         a Beta distribution.";
-    keys.key("inclination", &mut named, Word(&INCLINATIONS), about);
+    keys.key("inclination", own, Word(&INCLINATIONS), about);
     let about = "µ and ν of the Beta distribution (Goel and Strebel): density (1 − t)^(µ−1) \
         t^(ν−1) of t, the angle over 90°.";
     let limits = Numbers::<2>(Limits::closed(0.1, 1000.0));
     keys.optional("beta", &mut beta, limits, about);
-    volume.inclination = match (named, beta) {
-        (Named::Spherical, _) => Inclination::Spherical,
-        // The last is refused below.
-        (Named::Uniform, _) | (Named::Beta, None) => Inclination::Uniform,
-        (Named::Planophile, _) => Inclination::Planophile,
-        (Named::Erectophile, _) => Inclination::Erectophile,
-        (Named::Plagiophile, _) => Inclination::Plagiophile,
-        (Named::Extremophile, _) => Inclination::Extremophile,
-        (Named::Beta, Some([mu, nu])) => Inclination::Beta { mu, nu },
-    };
-    if keys.is_sound() && (named == Named::Beta) != beta.is_some() {
+    if keys.is_sound() && (*own == BETA) != beta.is_some() {
         let problem = "`inclination = \"beta\"` and `beta` belong together".to_owned();
         let help = "write both: `inclination = \"beta\"`, `beta = [2.77, 1.172]`";
         keys.refuse(&["inclination"], problem, help);
+    }
+    if let Some([mu, nu]) = beta.filter(|_| *own == BETA) {
+        *own = Inclination::Beta { mu, nu };
     }
 }
 

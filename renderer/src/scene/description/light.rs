@@ -1,163 +1,209 @@
-//! Lights.
+//! Lights: each kind is a file with its keys and with how the tracer's light is made of it.
 
-use std::path::{Path, PathBuf};
+pub mod area;
+pub mod constant;
+mod daylight;
+pub mod distant;
+pub mod environment;
+pub mod overcast;
+pub mod spot;
+
+use std::path::Path;
 
 use glam::DVec3;
+use leafmodel::document::context::QUOTED;
+use leafmodel::document::declared::Declared;
+use leafmodel::document::error::DocumentError;
+use leafmodel::document::keys::Keys;
+use leafmodel::document::source::escaped;
+use leafmodel::document::value_kind::{FileOnly, FilePath};
+use thiserror::Error;
 
-use super::{Daylight, Spectrum};
+use self::area::{Area, Surface};
+use self::constant::Constant;
+use self::distant::Distant;
+use self::environment::Environment;
+use self::overcast::Overcast;
+use self::spot::Spotlight;
+use crate::light;
+use crate::light::daylight::Daylight;
+use crate::scene::assets::{self, AssetError, RgbPicture};
+use crate::spectrum::written::Spectrum;
 
 /// A light.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Declared)]
 pub enum Light {
     /// A disc at infinity, like the sun.
-    Distant {
-        /// Unit vector towards the light.
-        towards: DVec3,
-        /// Angular diameter of the disc, rad, > 0.
-        angular_diameter: f64,
-        /// Irradiance on a surface facing it, W m⁻² nm⁻¹.
-        irradiance: Spectrum,
-    },
+    #[key(last = refuse_darkness)]
+    Distant(Distant),
     /// The same radiance from everywhere.
-    Constant {
-        /// Its radiance, W m⁻² sr⁻¹ nm⁻¹.
-        radiance: Spectrum,
-    },
+    #[key(last = refuse_darkness)]
+    Constant(Constant),
     /// A latitude–longitude picture at infinity, up is +z.
-    Environment {
-        /// EXR, Radiance HDR, PNG or JPEG with RGB, resolved and inside the scene's folder.
-        file: PathBuf,
-        /// The layer of an EXR; `None` is that without a name.
-        layer: Option<String>,
-        /// Factor on the picture.
-        scale: f64,
-        /// Rotation about +z, rad.
-        rotation: f64,
-        /// Spectrum of RGB 1 1 1, W m⁻² sr⁻¹ nm⁻¹.
-        white: Spectrum,
-    },
-    /// The sun and a clear sky.
+    #[key(last = refuse_darkness)]
+    Environment(Environment),
+    /// The sun and a clear sky, with the spectra of a day.
+    #[key(with = daylight::daylight)]
     Daylight(Daylight),
-    /// A sky that is covered with cloud.
-    Overcast {
-        /// Irradiance on a horizontal surface, W m⁻² nm⁻¹.
-        irradiance: Spectrum,
-        /// Share of light that the ground far around reflects.
-        ground_albedo: f64,
+    /// A sky that is covered with cloud, brightest in the zenith.
+    #[key(last = refuse_darkness)]
+    Overcast(Overcast),
+    /// An object whose surface shines to the side of its normal.
+    #[key(last = refuse_darkness)]
+    Area(Area),
+    /// A point that shines into a cone.
+    #[key(last = refuse_darkness)]
+    Spot(Spotlight),
+}
+
+/// Why a light cannot be made.
+#[derive(Debug, Error)]
+pub enum LightError {
+    /// Its picture cannot be read or has other contents.
+    #[error("lights.{name}: {source}")]
+    Picture {
+        /// Name of the light.
+        name: String,
+        /// What is wrong with it.
+        source: AssetError,
     },
-    /// An object whose surface emits on the side of its normal.
-    Area {
-        /// The object.
-        object: usize,
-        /// Its radiance, W m⁻² sr⁻¹ nm⁻¹; with a pattern, where that is 1.
-        radiance: Spectrum,
-        /// How the radiance varies over the texture coordinates; `None` is even.
-        pattern: Option<AreaPattern>,
+    /// An area light varies over texture coordinates that its mesh lacks.
+    #[error(
+        "lights.{name}.area: the mesh of its object has no texture coordinates, over which `edge` \
+         and `picture` are spread: leave them out, or use a mesh with them, such as a rectangle"
+    )]
+    NoTextureCoordinates {
+        /// Name of the light.
+        name: String,
     },
-    /// A point that emits into a cone (a spotlight).
-    Spot {
-        /// The point, m.
-        position: DVec3,
-        /// Point on the cone's axis, m; not the light's own.
-        look_at: DVec3,
-        /// Half angle of the cone, outside which there is no light, rad, > 0.
-        cone_angle: f64,
-        /// Width of the edge inside the cone, over which intensity falls to 0 linearly in the
-        /// angle, rad, at most `cone_angle`.
-        penumbra_angle: f64,
-        /// Radiant intensity on the axis, W sr⁻¹ nm⁻¹.
-        intensity: Spectrum,
+    /// An area light takes the emission of a model that emits nothing.
+    #[error(
+        "lights.{name}.area: no material of its object's mesh emits light: leave `emission` out, so that it \
+         shines evenly"
+    )]
+    NoEmission {
+        /// Name of the light.
+        name: String,
     },
+}
+
+/// What a light is made in.
+pub(in crate::scene) struct Surroundings<'w> {
+    /// The light's name in the scene.
+    pub(in crate::scene) name: &'w str,
+    /// The origin of rays.
+    pub(in crate::scene) origin: DVec3,
+    /// The surface of the object that shines.
+    pub(in crate::scene) surface: Option<Surface<'w>>,
+    /// What was changed of its picture.
+    pub(in crate::scene) notes: &'w mut Vec<String>,
 }
 
 impl Light {
     /// Number of lights that are built of it: daylight is the sun and the sky.
     pub fn parts(&self) -> usize {
-        match self {
-            Self::Daylight(_) => 2,
-            Self::Distant { .. }
-            | Self::Constant { .. }
-            | Self::Environment { .. }
-            | Self::Overcast { .. }
-            | Self::Area { .. }
-            | Self::Spot { .. } => 1,
-        }
+        if let Self::Daylight(_) = self { 2 } else { 1 }
+    }
+
+    /// The tracer's lights that it is.
+    pub(in crate::scene) fn built(
+        &self,
+        around: Surroundings<'_>,
+    ) -> Result<Vec<light::Light>, LightError> {
+        Ok(vec![match self {
+            Self::Distant(light) => light::Light::Distant(light.built()),
+            Self::Constant(light) => light::Light::Constant(light.built()),
+            Self::Environment(light) => light::Light::Environment(light.built(around)?),
+            Self::Overcast(light) => light::Light::Sky(light.built()),
+            Self::Area(light) => light::Light::Area(light.built(around)?),
+            Self::Spot(light) => light::Light::Spot(light.built(around.origin)),
+            Self::Daylight(day) => {
+                let (sun, sky) = day.lights();
+                return Ok(vec![light::Light::Sun(sun), light::Light::Sky(sky)]);
+            }
+        }])
     }
 
     /// Its spectrum, relative: of daylight, of sun and sky on a level plane.
     pub(in crate::scene) fn relative_spectrum(&self) -> Spectrum {
         match self {
-            Self::Distant { irradiance, .. } | Self::Overcast { irradiance, .. } => {
-                irradiance.clone()
-            }
-            Self::Constant { radiance } | Self::Area { radiance, .. } => radiance.clone(),
-            Self::Environment { white, .. } => white.clone(),
-            Self::Spot { intensity, .. } => intensity.clone(),
-            Self::Daylight(day) => {
-                let (sun, sky) = day.lights();
-                let up = libm::sin(day.elevation);
-                let points = sun.irradiance().points().into_iter();
-                let points = points.map(|(nm, direct)| {
-                    let diffuse = f64::from(sky.diffuse().at(nm as f32));
-                    (nm, direct * up + diffuse)
-                });
-                Spectrum::Table {
-                    points: points.collect(),
-                    extrapolate: true,
-                }
-            }
+            Self::Distant(light) => light.irradiance.clone(),
+            Self::Constant(light) => light.radiance.clone(),
+            Self::Environment(light) => light.white.clone(),
+            Self::Daylight(day) => daylight::on_level_ground(day),
+            Self::Overcast(light) => light.irradiance.clone(),
+            Self::Area(light) => light.radiance.clone(),
+            Self::Spot(light) => light.intensity.clone(),
+        }
+    }
+
+    /// The area light that it is.
+    pub fn area(&self) -> Option<&Area> {
+        if let Self::Area(area) = self {
+            Some(area)
+        } else {
+            None
         }
     }
 
     /// The object whose own materials say what it emits.
     pub fn emitting_object(&self) -> Option<usize> {
-        match self {
-            Self::Area {
-                object,
-                pattern: Some(AreaPattern { emission: true, .. }),
-                ..
-            } => Some(*object),
-            Self::Distant { .. }
-            | Self::Constant { .. }
-            | Self::Environment { .. }
-            | Self::Daylight(_)
-            | Self::Overcast { .. }
-            | Self::Area { .. }
-            | Self::Spot { .. } => None,
-        }
+        let area = self.area().filter(|area| area.pattern.emission);
+        area.map(|area| area.object)
     }
 
     /// The picture that it shines by, and the layer of it.
     pub fn picture(&self) -> Option<(&Path, Option<&str>)> {
-        match self {
-            Self::Environment { file, layer, .. } => Some((file, layer.as_deref())),
-            Self::Area { pattern, .. } => pattern.as_ref()?.picture(),
-            Self::Distant { .. }
-            | Self::Constant { .. }
-            | Self::Daylight(_)
-            | Self::Overcast { .. }
-            | Self::Spot { .. } => None,
+        if let Self::Environment(light) = self {
+            return Some((&light.file, light.layer.name()));
         }
+        let pattern = &self.area()?.pattern;
+        Some((pattern.picture.as_deref()?, pattern.layer.name()))
     }
 }
 
-/// How the radiance of an area light varies
-/// ([`Pattern`](crate::light::pattern::Pattern)).
-#[derive(Clone, Debug, PartialEq)]
-pub struct AreaPattern {
-    /// Radiance in the middle of the edges of the uv square over that in its middle, in (0, 1].
-    pub edge: f64,
-    /// EXR, Radiance HDR, PNG or JPEG with RGB, resolved and inside the scene's folder.
-    pub picture: Option<PathBuf>,
-    /// The layer of an EXR; `None` is that without a name.
-    pub layer: Option<String>,
-    /// Whether the light that the mesh's own materials emit multiplies it.
-    pub emission: bool,
+/// A picture that shines, up to 4 GiB.
+const PICTURE: FileOnly = FileOnly(FilePath::of(
+    "the path of an EXR, HDR, PNG or JPEG picture",
+    &["exr", "hdr", "png", "jpg", "jpeg"],
+    4 << 30,
+));
+
+/// Reports a light that is dark at all wavelengths of the film.
+fn refuse_darkness(light: &mut Light, keys: &mut Keys<'_>) {
+    let Some(block) = keys.reader().filter(|_| keys.is_sound()) else {
+        return;
+    };
+    if light.relative_spectrum().is_dark(block.cx.range_nm.get()) {
+        let name = block.path.rsplit('.').nth(1).unwrap_or("");
+        let name = escaped(name, QUOTED);
+        block.cx.error(&block.at, DocumentError::DarkLight { name });
+    }
 }
 
-impl AreaPattern {
-    /// Its picture, and the layer of it.
-    pub fn picture(&self) -> Option<(&Path, Option<&str>)> {
-        Some((self.picture.as_deref()?, self.layer.as_deref()))
-    }
+/// The picture of a light, and the layer of it.
+fn read_picture(
+    file: &Path,
+    layer: Option<&str>,
+    around: &mut Surroundings<'_>,
+) -> Result<RgbPicture, LightError> {
+    let name = around.name;
+    let picture = assets::shining(file, layer).map_err(|source| LightError::Picture {
+        name: name.to_owned(),
+        source,
+    })?;
+    let mut note = |fraction: f64, what: &str| {
+        if fraction > 0.0 {
+            let (file, percent) = (file.display(), 100.0 * fraction);
+            let note = format!("lights.{name}: {file}: {percent:.2} % of its pixels have {what}");
+            around.notes.push(note);
+        }
+    };
+    note(picture.below, "a channel below 0, which is taken for 0");
+    note(
+        picture.outside,
+        "colours outside of Rec. 709, whose spectra are below 0 at some wavelengths: as a part of the light of \
+         a whole scene they are right",
+    );
+    Ok(picture)
 }

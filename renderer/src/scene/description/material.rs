@@ -1,185 +1,200 @@
-//! Materials and what tissue holds.
+//! Materials: each kind is a file with its keys and with how the tracer's material is made of it.
 
-use std::path::PathBuf;
+pub mod dielectric;
+pub mod diffuse;
+pub mod leaf;
+mod measured;
+pub mod model;
+pub mod plastic;
+pub mod solid;
 
-use leafmodel::optics::Pigments;
+use std::path::Path;
+use std::sync::Arc;
 
-use super::{Reflectance, Spectrum};
+use leafmodel::document::declared::{Declared, Kinds};
+
+use self::dielectric::Boundary;
+use self::diffuse::Diffuse;
+use self::leaf::{LeafTissue, PlainLeaf};
+use self::model::GltfSurface;
+use self::plastic::Plastic;
+use self::solid::PlainSolid;
+use super::reflectance::Reflectance;
+use super::tissue::Held;
+use crate::material;
+use crate::material::colour_map::{ColourMap, ColourTexture};
+use crate::material::model::Finish;
+use crate::material::palette::Palettes;
+use crate::material::solid::ReflectanceTables;
+use crate::scene::assets::{self, AssetError};
+use crate::spectrum::Curve;
+use crate::spectrum::written::Spectrum;
 
 /// A material.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Declared)]
 pub enum Material {
     /// Lambertian.
-    Diffuse {
-        /// Its reflectance.
-        reflectance: Reflectance,
-    },
+    Diffuse(Diffuse),
     /// A smooth or rough (GGX) boundary of a transparent medium.
-    Dielectric {
-        /// Refractive index inside over outside.
-        eta: f64,
-        /// GGX roughness; 0 is smooth.
-        roughness: f64,
-        /// What fills the body, index into [`media`](super::Description::media); `None` is clear.
-        interior: Option<usize>,
-    },
-    /// A diffuse body below a rough dielectric coat.
-    Plastic {
-        /// Reflectance of the body, for light that has passed the coat.
-        reflectance: Reflectance,
-        /// Refractive index of the coat.
-        eta: f64,
-        /// Its GGX roughness.
-        roughness: f64,
-    },
-    /// All that a mesh from a glTF file says of its surface: index into
-    /// [`meshes`](super::Description::meshes).
-    Model {
-        /// The mesh.
-        mesh: usize,
-    },
-    /// A leaf of uniform contents or measured spectra (grown leaves bring their own maps).
-    Leaf {
-        /// Its tissue, which determines R and T.
-        tissue: LeafTissue,
-        /// The kinds of pigments of its contents.
-        pigments: Box<Pigments>,
-        /// The properties of its faces.
-        faces: LeafFaces,
-        /// How its chlorophyll fluoresces; `None` if it does not.
-        fluorescence: Option<Fluorescence>,
-    },
-    /// Solid tissue of uniform contents or a map (grown bodies bring their own maps).
-    Solid {
-        /// Its contents.
-        held: Held,
-        /// The kinds of pigments of its contents.
-        pigments: Box<Pigments>,
-        /// The optics of the tissue.
-        optics: SolidOptics,
-    },
+    Dielectric(Boundary),
+    /// A diffuse body below a rough clear coat: glaze, varnish, waxy bark and rind.
+    Plastic(Plastic),
+    /// The materials of a mesh from a glTF file: base colour, metal, roughness, normals.
+    #[key("gltf")]
+    Model(GltfSurface),
+    /// A leaf of uniform contents, of a map of contents, or of measured spectra.
+    Leaf(PlainLeaf),
+    /// Solid tissue of uniform contents or of a map of contents.
+    Solid(PlainSolid),
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self::Diffuse(Diffuse::default())
+    }
+}
+
+/// What a material is made of.
+pub(in crate::scene) struct Sources<'w> {
+    /// The material's name in the scene.
+    pub(in crate::scene) name: &'w str,
+    /// The palettes of pigments that were made.
+    pub(in crate::scene) palettes: &'w mut Palettes,
+    /// The tables of reflectances that were made.
+    pub(in crate::scene) reflectances: &'w mut ReflectanceTables,
+    /// The base colours of the mesh [`Material::colours_of`], if they are wanted.
+    pub(in crate::scene) colours: Option<&'w ColourMap>,
+    /// What its materials say besides, if that is wanted.
+    pub(in crate::scene) finishes: Option<&'w Arc<[Finish]>>,
+    /// What was changed of pictures.
+    pub(in crate::scene) notes: &'w mut Vec<String>,
 }
 
 impl Material {
+    /// A matt surface with a spectrum.
+    pub fn matt(spectrum: Spectrum) -> Self {
+        Self::Diffuse(Diffuse {
+            reflectance: Reflectance::Even(spectrum),
+        })
+    }
+
+    /// The tracer's material.
+    pub(in crate::scene) fn built(
+        &self,
+        sources: &mut Sources<'_>,
+    ) -> Result<material::Material, AssetError> {
+        Ok(match self {
+            Self::Diffuse(of) => material::Material::Diffuse(sources.reflectance(&of.reflectance)?),
+            Self::Dielectric(of) => material::Material::Dielectric(of.built()),
+            Self::Plastic(of) => material::Material::Plastic(Box::new(of.built(sources)?)),
+            Self::Model(_) => material::Material::Model(Box::new(GltfSurface::built(sources))),
+            Self::Leaf(of) => material::Material::Leaf(Box::new(of.built(sources)?)),
+            Self::Solid(of) => material::Material::Solid(Box::new(of.built(sources)?)),
+        })
+    }
+
+    /// The word for its kind.
+    pub(in crate::scene) fn kind(&self) -> &'static str {
+        let mut kinds = Self::KINDS.iter();
+        let own = kinds.find(|kind| (kind.is)(self));
+        own.map_or("", |kind| kind.name)
+    }
+
     /// What it holds, if it is tissue whose contents are known.
     pub fn held(&self) -> Option<&Held> {
         match self {
-            Self::Leaf {
-                tissue: LeafTissue::Held(held),
-                ..
-            }
-            | Self::Solid { held, .. } => Some(held),
-            Self::Diffuse { .. }
-            | Self::Dielectric { .. }
-            | Self::Plastic { .. }
-            | Self::Model { .. }
-            | Self::Leaf { .. } => None,
+            Self::Leaf(leaf) => match &leaf.tissue {
+                LeafTissue::Held(held) => Some(held),
+                LeafTissue::Measured { .. } => None,
+            },
+            Self::Solid(solid) => Some(&solid.held),
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Model(_) => None,
         }
+    }
+
+    /// The boundary that it is.
+    pub fn boundary(&self) -> Option<&Boundary> {
+        if let Self::Dielectric(boundary) = self {
+            Some(boundary)
+        } else {
+            None
+        }
+    }
+
+    /// What fills the body: index into [`Description::media`](super::Description::media).
+    pub fn interior(&self) -> Option<usize> {
+        self.boundary()?.interior
     }
 
     /// Whether paths need to know on which side of it they are: it bounds a medium, or it is no
     /// boundary for light at all.
     pub fn is_transparent_to_paths(&self) -> bool {
+        let boundary = self.boundary();
+        boundary.is_some_and(|of| of.interior.is_some() || of.eta == 1.0)
+    }
+
+    /// The mesh whose own colours it has: index into [`Description::meshes`](super::Description::meshes).
+    pub fn colours_of(&self) -> Option<usize> {
+        if let Self::Model(model) = self {
+            Some(model.mesh)
+        } else {
+            self.reflectance()?.mesh()
+        }
+    }
+
+    /// The picture of its reflectance, and the layer of it.
+    pub fn picture(&self) -> Option<(&Path, Option<&str>)> {
+        if let Reflectance::Picture(of) = self.reflectance()? {
+            Some((&of.file, of.layer.name()))
+        } else {
+            None
+        }
+    }
+
+    /// Its reflectance, if it is given as such.
+    pub fn reflectance(&self) -> Option<&Reflectance> {
         match self {
-            Self::Dielectric { eta, interior, .. } => interior.is_some() || *eta == 1.0,
-            Self::Diffuse { .. }
-            | Self::Plastic { .. }
-            | Self::Model { .. }
-            | Self::Leaf { .. }
-            | Self::Solid { .. } => false,
+            Self::Diffuse(of) => Some(&of.reflectance),
+            Self::Plastic(of) => Some(&of.reflectance),
+            Self::Dielectric(_) | Self::Model(_) | Self::Leaf(_) | Self::Solid(_) => None,
         }
     }
 }
 
-/// How light is scattered by a leaf.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum LeafOptics {
-    /// At its surface, by the leaf BSDF of the plate model.
-    #[default]
-    Plates,
-    /// On its way through five layers, which it may leave beside the place where it entered.
-    Layers,
-}
-
-/// The two faces of a leaf, grown or of a material.
-#[derive(Clone, Debug)]
-pub struct LeafFaces {
-    /// How light is scattered.
-    pub optics: LeafOptics,
-    /// Abaxial over adaxial reflectance; none if it follows what the leaf absorbs.
-    pub abaxial_ratio: Option<Spectrum>,
-    /// Reflectance of the abaxial face, if it was measured; then there is no ratio.
-    pub abaxial_reflectance: Option<Spectrum>,
-    /// Adaxial and abaxial coat.
-    pub coats: [Coat; 2],
-}
-
-/// Chlorophyll fluorescence of a leaf.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fluorescence {
-    /// Photons emitted for each photon that chlorophyll absorbs, in (0, 1].
-    pub quantum_efficiency: f64,
-}
-
-/// Contents of tissue per area of its surface.
-#[derive(Clone, Debug)]
-pub enum Held {
-    /// Uniform contents.
-    Contents {
-        /// The contents.
-        contents: leafmodel::optics::Contents,
-        /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
-        extrapolate: bool,
-    },
-    /// Contents read from a map: an EXR with a channel for each
-    /// [`leafmodel::optics::Constituent`].
-    Map {
-        /// The map's file, resolved and inside the scene's folder.
-        file: PathBuf,
-        /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
-        extrapolate: bool,
-    },
-}
-
-impl Held {
-    /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
-    pub fn extrapolates(&self) -> bool {
-        match self {
-            Self::Contents { extrapolate, .. } | Self::Map { extrapolate, .. } => *extrapolate,
-        }
+impl Sources<'_> {
+    fn reflectance(
+        &mut self,
+        of: &Reflectance,
+    ) -> Result<material::reflectance::Reflectance, AssetError> {
+        let map = match of {
+            Reflectance::Even(spectrum) => return Ok(Curve::from_description(spectrum).into()),
+            Reflectance::OfMesh(_) => {
+                let colours = self.colours.cloned();
+                colours.expect("a mesh whose colours are wanted was read with them")
+            }
+            Reflectance::Picture(of) => {
+                let picture = assets::reflectances(&of.file, of.layer.name())?;
+                if picture.outside > 0.0 {
+                    self.notes.push(format!(
+                        "materials.{}: {}: {:.2} % of its pixels have colours outside of Rec. 709; they come \
+                         to its border",
+                        self.name,
+                        of.file.display(),
+                        100.0 * picture.outside
+                    ));
+                }
+                let texture = ColourTexture::new(picture.width, picture.texels, [of.wrap; 2]);
+                let repeats = of.repeats.map(|count| count as f32).into();
+                ColourMap::of(texture, of.scale as f32, repeats)
+            }
+        };
+        Ok(material::reflectance::Reflectance::Picture(Box::new(map)))
     }
-}
 
-/// The optics of solid tissue.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SolidOptics {
-    /// Depth, scattering and refractive index, in range.
-    pub tissue: leafmodel::optics::solid::Solid,
-    /// The skin's surface, the same in all directions.
-    pub coat: Coat,
-}
-
-/// The tissue of a leaf, which determines R and T.
-#[derive(Clone, Debug)]
-pub enum LeafTissue {
-    /// PROSPECT-D of contents.
-    Held(Held),
-    /// Measured spectra.
-    Measured {
-        /// Directional–hemispherical reflectance, adaxial face.
-        reflectance: Spectrum,
-        /// Directional–hemispherical transmittance.
-        transmittance: Spectrum,
-    },
-}
-
-/// The rough dielectric coat of one face of a leaf.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Coat {
-    /// Refractive index.
-    pub eta: f64,
-    /// GGX roughness across the main vein.
-    pub alpha_across: f64,
-    /// GGX roughness along the main vein.
-    pub alpha_along: f64,
+    fn held(held: &Held) -> Result<material::held::Held, AssetError> {
+        Ok(match held {
+            Held::Contents { contents, .. } => material::held::Held::Uniform(*contents),
+            Held::Map { file, .. } => material::held::Held::Map(assets::contents_map(file)?),
+        })
+    }
 }

@@ -1,33 +1,82 @@
 //! What fills bodies.
 
-use super::Spectrum;
+use leafmodel::document::declared::{Declared, Words};
+use leafmodel::document::keys::Keys;
+
+use crate::scene::blocks::spectrum::SpectrumOf;
+use crate::spectrum::written::Spectrum;
+
+/// Millimetres per metre.
+const PER_MM: f64 = 1000.0;
 
 /// A homogeneous medium that absorbs and scatters light.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Declared, Default)]
+#[key(last = refuse_g)]
 pub struct Medium {
     /// Absorption coefficient, m⁻¹.
+    #[key(with = absorption)]
     pub absorption: Spectrum,
     /// Scattering coefficient, m⁻¹.
+    #[key(with = scattering)]
     pub scattering: Spectrum,
     /// Where scattered light goes.
+    #[key("phase", word)]
     pub phase: MediumPhase,
-    /// Mean cosine of the angle of scattering, for Henyey–Greenstein.
+    /// Mean cosine of the angle of scattering, for `henyey-greenstein`: 0 is even, 1 straight on.
+    #[key("g", -0.999..=0.999)]
     pub g: f64,
 }
 
 /// The phase functions of media, a closed set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Words)]
 pub enum MediumPhase {
     /// Henyey and Greenstein's function.
+    #[default]
+    #[word("henyey-greenstein")]
     HenyeyGreenstein,
     /// Particles far smaller than the wavelength.
     Rayleigh,
 }
 
-impl MediumPhase {
-    /// Their names in a file.
-    pub const WORDS: [(&'static str, Self); 2] = [
-        ("henyey-greenstein", Self::HenyeyGreenstein),
-        ("rayleigh", Self::Rayleigh),
-    ];
+fn absorption(medium: &mut Medium, keys: &mut Keys<'_>) {
+    let about = "Absorption coefficient: light is weakened e-fold over its inverse. None if neither \
+        of the keys is there.";
+    let names = ["absorption_per_mm", "absorption_per_m"];
+    coefficient(&mut medium.absorption, names, about, keys);
+}
+
+fn scattering(medium: &mut Medium, keys: &mut Keys<'_>) {
+    let about = "Scattering coefficient: its inverse is the mean way between two events. None if \
+        neither of the keys is there.";
+    let names = ["scattering_per_mm", "scattering_per_m"];
+    coefficient(&mut medium.scattering, names, about, keys);
+}
+
+/// A coefficient by one of two keys, per millimetre or per metre.
+fn coefficient(
+    coefficient: &mut Spectrum,
+    [per_mm, per_m]: [&'static str; 2],
+    about: &'static str,
+    keys: &mut Keys<'_>,
+) {
+    for chosen in keys.one_of_or_none(&[per_mm, per_m], None) {
+        let (kind, about, factor) = if chosen == per_mm {
+            (SpectrumOf::PerMillimetre, about, PER_MM)
+        } else {
+            (SpectrumOf::PerMetre, "The same per metre.", 1.0)
+        };
+        let mut written = None;
+        keys.optional(chosen, &mut written, kind, about);
+        if let Some(written) = written {
+            *coefficient = written.scaled(factor);
+        }
+    }
+}
+
+fn refuse_g(medium: &mut Medium, keys: &mut Keys<'_>) {
+    if keys.is_sound() && keys.has("g") && medium.phase == MediumPhase::Rayleigh {
+        let problem = "the phase `rayleigh` has no mean cosine to set".to_owned();
+        let help = "leave `g` out, or write `phase = \"henyey-greenstein\"`";
+        keys.refuse(&["g"], problem, help);
+    }
 }

@@ -1,12 +1,18 @@
 //! What stands in a scene, and where.
 
 use glam::{DMat4, DVec3, Mat3};
+use leafmodel::document::declared::{Declared, Defaults};
+use leafmodel::document::keys::Keys;
+use leafmodel::document::names::NameIn;
+use leafmodel::document::value_kind::Integer;
+use leafmodel::plan_file::DAYS;
 
-use crate::geometry::scatter::{Scatter, Volume};
+use super::name_list::{IndicesIn, NamesIn};
+use crate::geometry::scatter::{Amount, MOST_AT_REST, Rest, Scatter, Volume};
 
 /// Meshes, leaves or bodies placed in the scene: one shape in one place, or any number of
-/// instances.
-#[derive(Clone, Debug)]
+/// instances. The default has no shape, and is at the origin.
+#[derive(Clone, Debug, Default)]
 pub struct Object {
     /// Its shapes, at least one. Without instances there is exactly one.
     pub shapes: Vec<ObjectShape>,
@@ -25,10 +31,7 @@ pub struct Object {
 impl Object {
     /// The mesh of its first shape, index into [`Description::meshes`](super::Description::meshes).
     pub fn first_mesh(&self) -> Option<usize> {
-        match self.shapes.first()? {
-            ObjectShape::Mesh { mesh, .. } => Some(*mesh),
-            ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
-        }
+        Some(self.shapes.first()?.mesh()?.0)
     }
 
     /// Whether its places are found when the world is built.
@@ -38,18 +41,84 @@ impl Object {
 }
 
 /// Where copies of an object are strewn.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Declared, Defaults)]
+#[key(last = Self::check)]
 pub struct StrewnOn {
-    /// The object on which they lie.
+    /// The object over whose surface they are strewn, in all its places.
+    #[key("on", required, NameIn("objects", "the name of an object"))]
     pub on: usize,
-    /// Further objects that what comes to rest does not fall through.
+    /// Other objects on which they come to rest.
+    #[key("over", IndicesIn(NamesIn("objects", "the name of an object")))]
     pub over: Vec<usize>,
     /// How many and how.
+    #[key(flat)]
     pub plan: Scatter,
-    /// Different leaves of each kind that are grown.
+    /// Different leaves of each kind that are grown for it.
+    #[key("individuals", 1..=1000, default = 1)]
     pub individuals: u32,
-    /// The days of ageing of the first and the last of these; `None` leaves them as they are.
+    /// Days of ageing of the first and the last of them, the others between; the leaves need
+    /// `senescence` by `day`.
+    ///
+    /// `None` leaves them as they are.
+    #[key("days", within(DAYS))]
     pub days: Option<[f64; 2]>,
+}
+
+impl StrewnOn {
+    fn check(&mut self, keys: &mut Keys<'_>) {
+        if self.plan.scale[0] > self.plan.scale[1] {
+            let problem = "the least factor is greater than the greatest".to_owned();
+            keys.refuse(&["scale"], problem, "write the smaller one first");
+        }
+        let settles = matches!(self.plan.rest, Rest::Settled { .. });
+        for (key, needs_rest) in [
+            ("over", true),
+            ("gap_mm", true),
+            ("sink_mm", false),
+            ("furrows", false),
+            ("merge", false),
+            ("upright", false),
+        ] {
+            if keys.reader().is_some() && keys.has(key) && needs_rest != settles {
+                let (problem, help) = if settles {
+                    (
+                        "has no effect on what settles",
+                        "take it out, or leave `settle` out",
+                    )
+                } else {
+                    (
+                        "has an effect only on what settles",
+                        "write `settle = true` beside it",
+                    )
+                };
+                keys.refuse(&[key], problem.to_owned(), help);
+            }
+        }
+        if let Amount::Count(count) = self.plan.amount
+            && settles
+            && count as usize > MOST_AT_REST
+        {
+            let problem = format!("{count} are more than the {MOST_AT_REST} that may settle");
+            keys.refuse(&["count"], problem, "use fewer");
+        }
+        refuse_ages_of_one(self.individuals, self.days, keys);
+        let about = "Same numbers and seed, same places.";
+        let seed = Integer::within(0, u64::MAX);
+        keys.key("seed", &mut self.plan.seed, seed, about);
+    }
+}
+
+/// Refuses two ages of one individual.
+pub(in crate::scene) fn refuse_ages_of_one(
+    individuals: u32,
+    days: Option<[f64; 2]>,
+    keys: &Keys<'_>,
+) {
+    if individuals == 1 && days.is_some_and(|[first, last]| first != last) {
+        let problem = "one individual has one age".to_owned();
+        let help = "write `individuals = 5` beside it, or the same day twice";
+        keys.refuse(&["days"], problem, help);
+    }
 }
 
 /// The place and shape of one instance of an object.
@@ -103,4 +172,30 @@ pub enum ObjectShape {
         /// Index into [`Description::solids`](super::Description::solids).
         solid: usize,
     },
+}
+
+impl ObjectShape {
+    /// Its mesh and material.
+    pub fn mesh(self) -> Option<(usize, usize)> {
+        match self {
+            Self::Mesh { mesh, material } => Some((mesh, material)),
+            Self::Leaf { .. } | Self::Solid { .. } => None,
+        }
+    }
+
+    /// Its leaf.
+    pub fn leaf(self) -> Option<usize> {
+        match self {
+            Self::Leaf { leaf } => Some(leaf),
+            Self::Mesh { .. } | Self::Solid { .. } => None,
+        }
+    }
+
+    /// Its body.
+    pub fn solid(self) -> Option<usize> {
+        match self {
+            Self::Solid { solid } => Some(solid),
+            Self::Mesh { .. } | Self::Leaf { .. } => None,
+        }
+    }
 }

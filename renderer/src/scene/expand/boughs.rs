@@ -9,16 +9,17 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::document::names::Named;
-use leafmodel::optics::{Contents, Pigments};
+use leafmodel::optics::Contents;
 use leafmodel::plant::{Crumb, Foot, Organ, Plant as Grown, PlantError, Wall};
 
 use super::individuals::{age, ageless, individuals, scattered_ranks, users};
-use super::{Fault, Planted, walls};
+use super::{Fault, Planted, add, walls};
 use crate::geometry::shapes::Lump;
 use crate::scene::authored::Plant;
+use crate::scene::description::material::solid::PlainSolid;
 use crate::scene::description::{
-    Coat, Description, Held, InstancePlace, Leaf, Material, Mesh, ObjectShape, Reflectance, Shape,
-    SolidOptics, Spectrum,
+    Coat, Description, Held, InstancePlace, Leaf, Material, Mesh, ObjectShape, Shape, SolidOptics,
+    Spectrum,
 };
 use crate::spectrum::library;
 
@@ -240,17 +241,15 @@ fn add_crumbs(
     }
     let first = parts.shapes.len() as u32;
     for shape in 0..CRUMB_SHAPES {
-        scene.meshes.push(Named {
-            name: format!("{name}.crumb.{shape}"),
-            value: Shape::Mesh(Mesh::Lump(Lump {
-                radius: 1e-3,
-                angularity: 0.35,
-                irregularity: 0.5,
-                segments: 18,
-                seed: u64::from(shape),
-            })),
-        });
-        let mesh = scene.meshes.len() - 1;
+        let lump = Lump {
+            radius: 1e-3,
+            angularity: 0.35,
+            irregularity: 0.5,
+            segments: 18,
+            seed: u64::from(shape),
+        };
+        let name = format!("{name}.crumb.{shape}");
+        let mesh = add(&mut scene.meshes, name, Shape::Mesh(Mesh::Lump(lump)));
         parts.shapes.push(ObjectShape::Mesh { mesh, material });
     }
     parts.places.extend(crumbs.iter().map(|crumb| {
@@ -287,8 +286,7 @@ fn add_leaves(
                 } else {
                     let of = &scene.leaves[kind].name;
                     let name = format!("{of}.{name}.{}", leaf.individual + 1);
-                    scene.leaves.push(Named { name, value });
-                    scene.leaves.len() - 1
+                    add(&mut scene.leaves, name, value)
                 };
                 parts.shapes.push(ObjectShape::Leaf { leaf: number });
                 parts.shapes.len() as u32 - 1
@@ -308,13 +306,7 @@ fn material_of(
     (named, what): (Option<usize>, &str),
     usual: impl FnOnce() -> Material,
 ) -> usize {
-    named.unwrap_or_else(|| {
-        scene.materials.push(Named {
-            name: format!("{name}.{what}"),
-            value: usual(),
-        });
-        scene.materials.len() - 1
-    })
+    named.unwrap_or_else(|| add(&mut scene.materials, format!("{name}.{what}"), usual()))
 }
 
 /// Adds a body of the plant in its own frame.
@@ -325,11 +317,7 @@ fn add_body(
     body: StalkMesh,
     material: usize,
 ) {
-    scene.meshes.push(Named {
-        name,
-        value: Shape::Body(Arc::new(body)),
-    });
-    let mesh = scene.meshes.len() - 1;
+    let mesh = add(&mut scene.meshes, name, Shape::Body(Arc::new(body)));
     let shape = parts.shapes.len() as u32;
     parts.shapes.push(ObjectShape::Mesh { mesh, material });
     parts.places.push((shape, DAffine3::IDENTITY));
@@ -337,12 +325,10 @@ fn add_body(
 
 /// A matt surface of a measured spectrum.
 fn even(points: Vec<(f64, f64)>, extrapolate: bool) -> Material {
-    Material::Diffuse {
-        reflectance: Reflectance::Even(Spectrum::Table {
-            points,
-            extrapolate,
-        }),
-    }
+    Material::matt(Spectrum::Table {
+        points,
+        extrapolate,
+    })
 }
 
 fn clay(extrapolate: bool) -> Material {
@@ -355,22 +341,18 @@ fn clay(extrapolate: bool) -> Material {
 
 /// Solid tissue with these contents.
 fn tissue(contents: Contents, alpha: f64, extrapolate: bool) -> Material {
-    let usual = SolidOptics::usual();
-    Material::Solid {
+    let optics = SolidOptics::default();
+    Material::Solid(PlainSolid {
         held: Held::Contents {
             contents,
             extrapolate,
         },
-        pigments: Box::new(Pigments::default()),
+        pigments: Box::default(),
         optics: SolidOptics {
-            coat: Coat {
-                alpha_across: alpha,
-                alpha_along: alpha,
-                ..usual.coat
-            },
-            ..usual
+            coat: Coat::even(optics.coat.eta, alpha),
+            ..optics
         },
-    }
+    })
 }
 
 #[cfg(test)]

@@ -1,9 +1,8 @@
 //! Leaves of one kind that are not alike: individuals, and days of ageing.
 
 use leafmodel::blade::senescence::AgeSource;
-use leafmodel::document::names::Named;
 
-use super::{Fault, Planted};
+use super::{Fault, Planted, add};
 use crate::scene::description::{Description, Leaf, ObjectShape};
 
 /// A leaf, and others of its kind.
@@ -52,8 +51,7 @@ pub(super) fn grow_apart(scene: &mut Description, planted: &Planted) -> Result<(
                     let of = &scene.leaves[leaf].name;
                     // A list may hold the same leaf twice.
                     let name = format!("{of}.{name}.{}.{}", place + 1, number + 1);
-                    scene.leaves.push(Named { name, value });
-                    scene.leaves.len() - 1
+                    add(&mut scene.leaves, name, value)
                 };
                 shapes.push(ObjectShape::Leaf { leaf });
             }

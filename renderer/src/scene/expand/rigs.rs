@@ -9,12 +9,15 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use leafmodel::document::names::Named;
 
+use crate::geometry::shapes::Rectangle;
 use crate::light::daylight::Daylight;
 use crate::light::pattern::Pattern;
 use crate::scene::authored::{self, Rig, RigPreset};
+use crate::scene::description::light::area::{Area, AreaPattern};
+use crate::scene::description::light::constant::Constant;
+use crate::scene::description::light::overcast::Overcast;
 use crate::scene::description::{
-    AreaPattern, Description, Light, Material, Mesh, Object, ObjectShape, Reflectance, Shape,
-    Spectrum,
+    Description, Light, Material, Mesh, Object, ObjectShape, Shape, Spectrum,
 };
 
 /// Irradiance of a level sheet at the subject, of D65, W m⁻² nm⁻¹ at 560 nm. With the tone
@@ -236,10 +239,10 @@ pub(super) fn set_up(scene: &mut Description, lights: Vec<Named<authored::Light>
                 scene,
                 &name,
                 "sky",
-                Light::Overcast {
+                Light::Overcast(Overcast {
                     irradiance: Spectrum::D65 { scale: level },
                     ground_albedo: 0.2,
-                },
+                }),
             ),
             RigPreset::GoldenHour => {
                 // Before the camera, to the left: leaves are lit from behind.
@@ -261,7 +264,7 @@ fn day(elevation_deg: f64, azimuth: f64, turbidity: f64) -> Daylight {
     let mut day = Daylight {
         elevation: elevation_deg.to_radians(),
         azimuth,
-        ..Daylight::usual()
+        ..Daylight::default()
     };
     day.atmosphere.turbidity = turbidity;
     day
@@ -291,9 +294,7 @@ fn build(scene: &mut Description, rig: &str, preset: RigPreset, stage: &Stage, l
     let unit = level / (lit.sum::<f64>() + PI * even * stage.open_share(&panels));
     scene.materials.push(Named {
         name: format!("{rig}.cloth"),
-        value: Material::Diffuse {
-            reflectance: Reflectance::Even(Spectrum::Constant(CLOTH)),
-        },
+        value: Material::matt(Spectrum::Constant(CLOTH)),
     });
     let cloth = scene.materials.len() - 1;
     for panel in panels {
@@ -312,7 +313,7 @@ fn build(scene: &mut Description, rig: &str, preset: RigPreset, stage: &Stage, l
         hang(scene, rig, stage, &table, cloth, TABLE * level / ON_PAPER);
     }
     let radiance = Spectrum::D65 { scale: even * unit };
-    add(scene, rig, "room", Light::Constant { radiance });
+    add(scene, rig, "room", Light::Constant(Constant { radiance }));
 }
 
 /// Adds a panel with the radiance in its middle.
@@ -328,10 +329,10 @@ fn hang(
     let size = panel.size * stage.size;
     scene.meshes.push(Named {
         name: name.clone(),
-        value: Shape::Mesh(Mesh::Rectangle {
+        value: Shape::Mesh(Mesh::Rectangle(Rectangle {
             width: size.x,
             height: size.y,
-        }),
+        })),
     });
     let shape = ObjectShape::Mesh {
         mesh: scene.meshes.len() - 1,
@@ -342,21 +343,18 @@ fn hang(
         value: Object {
             shapes: vec![shape],
             to_world: stage.frame(panel),
-            ..Object::nowhere()
+            ..Object::default()
         },
     });
-    let pattern = (panel.edge < 1.0).then_some(AreaPattern {
-        emission: false,
-        edge: panel.edge,
-        picture: None,
-        layer: None,
-    });
-    let light = Light::Area {
+    let light = Area {
         object: scene.objects.len() - 1,
         radiance: Spectrum::D65 { scale: radiance },
-        pattern,
+        pattern: AreaPattern {
+            edge: panel.edge,
+            ..AreaPattern::default()
+        },
     };
-    add(scene, rig, panel.name, light);
+    add(scene, rig, panel.name, Light::Area(light));
 }
 
 fn add(scene: &mut Description, rig: &str, part: &str, value: Light) {

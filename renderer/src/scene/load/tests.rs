@@ -8,6 +8,7 @@ use leafmodel::document::written::Extent;
 use leafmodel::mosaic::control::{ControlImage, CylinderControl, Steered};
 use leafmodel::mosaic::pattern::{LeafFaces, MosaicPattern};
 use leafmodel::mosaic::plan::{CellType, MosaicPlan};
+use leafmodel::optics::betalains::Betalains;
 use leafmodel::optics::solid::{SCATTERING_PER_MM, Solid as Tissue};
 use leafmodel::optics::{Constituent, Contents, PerConstituent, Pigments, Texel};
 use leafmodel::plan_file::leaf_to_toml;
@@ -78,9 +79,7 @@ fn pattern(held: Contents) -> MosaicPattern {
 
 fn shapes() -> impl Strategy<Value = SolidShape> {
     prop_oneof![
-        (1.0..100.0).prop_map(|radius| SolidShape::Ellipsoid {
-            semi_axes_mm: DVec3::splat(radius)
-        }),
+        (1.0..100.0).prop_map(|radius_mm| SolidShape::Sphere { radius_mm }),
         (1.0..100.0, 1.0..100.0, 1.0..100.0).prop_map(|(x, y, z)| SolidShape::Ellipsoid {
             semi_axes_mm: DVec3::new(x, y, z)
         }),
@@ -123,7 +122,7 @@ proptest! {
                     over_mm: 2.0 * packaging,
                 }),
                 pigments: Pigments {
-                    betalain_packaging: packaging,
+                    betalains: Betalains { packaging, ..Betalains::default() },
                     ..Pigments::default()
                 },
                 map_size,

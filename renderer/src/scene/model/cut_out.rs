@@ -7,8 +7,9 @@
 //! A triangle is quartered until its parts are half as large as a texel, in which the mask is taken
 //! as linear. So rays, shadows, instruments and exports need not know of masks.
 
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 
+use super::surfaces::Vertex;
 use crate::material::colour_map::ColourTexture;
 
 /// Most triangles into which one part of a model is cut.
@@ -40,17 +41,7 @@ struct Level {
     cells: Vec<[f32; 2]>,
 }
 
-/// A corner of a triangle.
-#[derive(Clone, Copy)]
-pub(super) struct Corner {
-    pub(super) position: Vec3,
-    pub(super) normal: Vec3,
-    pub(super) uv: Vec2,
-    pub(super) colour: [f32; 3],
-    pub(super) tangent: [f32; 4],
-}
-
-impl Corner {
+impl Vertex {
     fn between(self, other: Self, share: f32) -> Self {
         Self {
             position: self.position.lerp(other.position, share),
@@ -71,7 +62,7 @@ pub(super) enum Cut {
     /// It is there as a whole.
     Whole,
     /// These parts of it are there.
-    Parts(Vec<[Corner; 3]>),
+    Parts(Vec<[Vertex; 3]>),
 }
 
 impl Mask {
@@ -102,7 +93,7 @@ impl Mask {
     }
 
     /// Cuts a triangle; `None` if it would become more than `most`, or than any may.
-    pub(super) fn cut(&self, triangle: [Corner; 3], most: usize) -> Option<Cut> {
+    pub(super) fn cut(&self, triangle: [Vertex; 3], most: usize) -> Option<Cut> {
         let is_finite = triangle.iter().all(|corner| corner.uv.is_finite());
         if !is_finite || self.is_there(&triangle) == Some(true) {
             return Some(Cut::Whole);
@@ -143,8 +134,8 @@ impl Mask {
     /// if one of them refused.
     fn quarter(
         &self,
-        triangle: [Corner; 3],
-        take: &mut dyn FnMut([Corner; 3]) -> bool,
+        triangle: [Vertex; 3],
+        take: &mut dyn FnMut([Vertex; 3]) -> bool,
         go_on: &mut dyn FnMut() -> bool,
     ) -> bool {
         let mut open = vec![triangle];
@@ -171,7 +162,7 @@ impl Mask {
     }
 
     /// Size of a triangle in texels.
-    fn span(&self, triangle: &[Corner; 3]) -> f32 {
+    fn span(&self, triangle: &[Vertex; 3]) -> f32 {
         let [width, height] = self.alpha.size().map(|count| count as f32);
         let [a, b, c] = triangle.map(|corner| corner.uv * Vec2::new(width, height));
         let extent = a.max(b).max(c) - a.min(b).min(c);
@@ -179,7 +170,7 @@ impl Mask {
     }
 
     /// Whether all of a triangle is there, or nothing, if that is sure.
-    fn is_there(&self, triangle: &[Corner; 3]) -> Option<bool> {
+    fn is_there(&self, triangle: &[Vertex; 3]) -> Option<bool> {
         let [least, most] = self.range(triangle);
         if least >= self.least {
             Some(true)
@@ -191,7 +182,7 @@ impl Mask {
     }
 
     /// Bounds of alpha over a triangle.
-    fn range(&self, triangle: &[Corner; 3]) -> [f32; 2] {
+    fn range(&self, triangle: &[Vertex; 3]) -> [f32; 2] {
         let [width, height] = self.alpha.size();
         let texel = |uv: Vec2| Vec2::new(uv.x * width as f32, (1.0 - uv.y) * height as f32) - 0.5;
         let [a, b, c] = triangle.map(|corner| texel(corner.uv));
@@ -226,9 +217,9 @@ impl Mask {
     }
 
     /// The part of a small triangle that is there: a triangle or two.
-    fn clipped(&self, triangle: [Corner; 3]) -> [Option<[Corner; 3]>; 2] {
+    fn clipped(&self, triangle: [Vertex; 3]) -> [Option<[Vertex; 3]>; 2] {
         let above = triangle.map(|corner| self.alpha.at(corner.uv)[0] - self.least);
-        let mut polygon: Vec<Corner> = Vec::with_capacity(4);
+        let mut polygon: Vec<Vertex> = Vec::with_capacity(4);
         for (this, next) in [(0, 1), (1, 2), (2, 0)] {
             if above[this] >= 0.0 {
                 polygon.push(triangle[this]);
@@ -247,12 +238,14 @@ impl Mask {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
     use crate::material::colour_map::Wrap;
 
     /// A square of texture coordinates 0 to 1, as two triangles, of area 1.
-    fn square() -> [[Corner; 3]; 2] {
-        let corner = |x: f32, y: f32| Corner {
+    fn square() -> [[Vertex; 3]; 2] {
+        let corner = |x: f32, y: f32| Vertex {
             position: Vec3::new(x, y, 0.0),
             normal: Vec3::Z,
             uv: Vec2::new(x, y),
@@ -268,7 +261,7 @@ mod tests {
         [[a, b, c], [a, c, d]]
     }
 
-    fn area(triangle: &[Corner; 3]) -> f64 {
+    fn area(triangle: &[Vertex; 3]) -> f64 {
         let [a, b, c] = triangle.map(|corner| corner.position.as_dvec3());
         0.5 * (b - a).cross(c - a).z
     }
@@ -334,7 +327,7 @@ mod tests {
         };
         let mut found = 0.0;
         for triangle in square() {
-            let far = triangle.map(|corner| Corner {
+            let far = triangle.map(|corner| Vertex {
                 uv: 40.0 * corner.uv - 7.0,
                 ..corner
             });
@@ -345,7 +338,7 @@ mod tests {
         assert!((found - 0.5).abs() < 1e-3, "{found}");
         assert!(
             mask.cut(
-                square()[0].map(|c| Corner {
+                square()[0].map(|c| Vertex {
                     uv: 1e4 * c.uv,
                     ..c
                 }),

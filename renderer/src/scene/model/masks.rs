@@ -3,12 +3,11 @@
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
-use glam::Vec2;
 use gltf_json::material::AlphaMode;
 use gltf_json::validation::Checked;
 
 use super::ModelError;
-use super::cut_out::{Corner, Cut, MOST_OF_ONE, MOST_TRIANGLES, Mask};
+use super::cut_out::{Cut, MOST_OF_ONE, MOST_TRIANGLES, Mask};
 use super::pictures::Pictures;
 use super::surfaces::Patch;
 use super::textures::{Of, texture};
@@ -29,7 +28,7 @@ pub(super) fn cut_out(
         if root.materials[number].alpha_mode != Checked::Valid(AlphaMode::Mask) {
             continue;
         }
-        let key = (number, patch.uvs.is_some());
+        let key = (number, patch.has_uvs);
         let mask = match masks.entry(key) {
             Entry::Occupied(entry) => entry.into_mut(),
             Entry::Vacant(entry) => entry.insert(mask(pictures, key)?),
@@ -84,38 +83,15 @@ fn cut(patch: &mut Patch, mask: &Mask) -> Option<()> {
     let mut kept = Vec::new();
     let mut added = 0;
     for corners in std::mem::take(&mut patch.triangles) {
-        let triangle = corners.map(|corner| {
-            let corner = corner as usize;
-            Corner {
-                position: patch.positions[corner],
-                normal: patch.normals[corner],
-                uv: patch.uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[corner]),
-                colour: patch
-                    .colours
-                    .as_ref()
-                    .map_or([1.0; 3], |colours| colours[corner]),
-                tangent: patch
-                    .tangents
-                    .as_ref()
-                    .map_or([0.0; 4], |tangents| tangents[corner]),
-            }
-        });
+        let triangle = corners.map(|corner| patch.vertices[corner as usize]);
         match mask.cut(triangle, MOST_TRIANGLES - added)? {
             Cut::Whole => kept.push(corners),
             Cut::Parts(parts) => {
                 added += parts.len();
                 for part in parts {
-                    let first = patch.positions.len() as u32;
+                    let first = patch.vertices.len() as u32;
                     kept.push([first, first + 1, first + 2]);
-                    for corner in part {
-                        patch.positions.push(corner.position);
-                        patch.normals.push(corner.normal);
-                        patch.uvs.iter_mut().for_each(|uvs| uvs.push(corner.uv));
-                        let colours = patch.colours.iter_mut();
-                        colours.for_each(|colours| colours.push(corner.colour));
-                        let tangents = patch.tangents.iter_mut();
-                        tangents.for_each(|tangents| tangents.push(corner.tangent));
-                    }
+                    patch.vertices.extend(part);
                 }
             }
         }

@@ -36,14 +36,11 @@ pub(super) fn side_by_side(patches: &mut [Patch], left_out: &mut BTreeSet<String
     let mut ranges: BTreeMap<Option<usize>, (f32, f32, bool)> = BTreeMap::new();
     for patch in patches.iter() {
         let range = ranges.entry(patch.material).or_insert((0.0, 1.0, true));
-        match &patch.uvs {
-            Some(uvs) => {
-                for u in uvs.iter().map(|uv| uv.x).filter(|u| u.is_finite()) {
-                    range.0 = range.0.min(u.floor());
-                    range.1 = range.1.max(u.ceil());
-                }
-            }
-            None => range.2 = false,
+        range.2 &= patch.has_uvs;
+        let us = patch.vertices.iter().map(|vertex| vertex.uv.x);
+        for u in us.filter(|u| u.is_finite()) {
+            range.0 = range.0.min(u.floor());
+            range.1 = range.1.max(u.ceil());
         }
     }
     let is_alone = ranges.len() == 1;
@@ -70,10 +67,9 @@ pub(super) fn side_by_side(patches: &mut [Patch], left_out: &mut BTreeSet<String
     }
     for patch in patches {
         let shift = shifts[&patch.material];
-        let count = patch.vertices();
-        let uvs = patch.uvs.get_or_insert_with(|| vec![Vec2::ZERO; count]);
-        for uv in uvs {
-            uv.x += shift;
+        patch.has_uvs = true;
+        for vertex in &mut patch.vertices {
+            vertex.uv.x += shift;
         }
     }
     parts

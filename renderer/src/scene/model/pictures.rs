@@ -80,8 +80,6 @@ fn decoded(bytes: &[u8], stored: Stored) -> Result<Picture, ImageError> {
     } else if bytes.starts_with(b"\xff\xd8") {
         jpeg::decode_as(bytes, stored)
     } else {
-        Err(ImageError::Malformed {
-            what: "it is neither PNG nor JPEG".to_owned(),
-        })
+        Err(ImageError::malformed("it is neither PNG nor JPEG"))
     }
 }

@@ -21,23 +21,25 @@ const MOST_TRIANGLES: u64 = 1 << 27;
 pub(super) struct Patch {
     /// Number of its material; `None` is the one that glTF gives to what has none.
     pub(super) material: Option<usize>,
-    pub(super) positions: Vec<Vec3>,
-    /// Zero where the file has none.
-    pub(super) normals: Vec<Vec3>,
-    /// Where its base colour's picture is looked up, v upwards.
-    pub(super) uvs: Option<Vec<Vec2>>,
-    /// Factors on the base colour, each in [0, 1].
-    pub(super) colours: Option<Vec<[f32; 3]>>,
-    /// Directions of the x axis of a map of normals, and the sign of its y axis.
-    pub(super) tangents: Option<Vec<[f32; 4]>>,
+    pub(super) vertices: Vec<Vertex>,
+    pub(super) has_uvs: bool,
+    pub(super) has_colours: bool,
+    pub(super) has_tangents: bool,
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
-impl Patch {
-    /// Number of its vertices.
-    pub(super) fn vertices(&self) -> usize {
-        self.positions.len()
-    }
+/// A vertex, with defaults for what the file does not have.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Vertex {
+    pub(super) position: Vec3,
+    /// Zero where the file has none.
+    pub(super) normal: Vec3,
+    /// Where its base colour's picture is looked up, v upwards.
+    pub(super) uv: Vec2,
+    /// Factors on the base colour, each in [0, 1].
+    pub(super) colour: [f32; 3],
+    /// Direction of the x axis of a map of normals, and the sign of its y axis.
+    pub(super) tangent: [f32; 4],
 }
 
 /// All triangles of the file's scene, or of all its nodes if it has no scene.
@@ -227,101 +229,91 @@ fn patch(
     used.dedup();
     let own = |vertex: u32| used.partition_point(|&other| other < vertex) as u32;
     let positions = attribute(primitive, Semantic::Positions).expect("it was opened with them");
-    let positions = accessors.vectors::<3>(positions, &used)?;
-    let at = |position: [f32; 3]| {
-        let position = DVec3::from_array(position.map(f64::from));
-        to_scene.transform_point3(position).as_vec3()
-    };
+    let positions = accessors.vectors::<3>(positions, &used)?.into_iter();
+    let mut vertices: Vec<Vertex> = positions
+        .map(|position| Vertex {
+            position: to_scene
+                .transform_point3(DVec3::from_array(position.map(f64::from)))
+                .as_vec3(),
+            normal: Vec3::ZERO,
+            uv: Vec2::ZERO,
+            colour: [1.0; 3],
+            tangent: [0.0; 4],
+        })
+        .collect();
     let linear = DMat3::from_mat4(to_scene);
     let mirrors = linear.determinant() < 0.0;
-    let normals = match attribute(primitive, Semantic::Normals) {
-        Some(normals) => {
-            // Its cofactors are its inverse, transposed, times its determinant.
-            let side = if mirrors { -1.0 } else { 1.0 };
-            let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
-            let turned = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * side;
-            let normal = |normal: [f32; 3]| {
-                let normal = turned * DVec3::from_array(normal.map(f64::from));
-                normal.normalize_or_zero().as_vec3()
-            };
-            let normals = accessors.vectors::<3>(normals, &used)?;
-            normals.into_iter().map(normal).collect()
+    if let Some(normals) = attribute(primitive, Semantic::Normals) {
+        // Its cofactors are its inverse, transposed, times its determinant.
+        let side = if mirrors { -1.0 } else { 1.0 };
+        let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
+        let turned = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * side;
+        let normals = accessors.vectors::<3>(normals, &used)?;
+        for (vertex, normal) in vertices.iter_mut().zip(normals) {
+            let normal = turned * DVec3::from_array(normal.map(f64::from));
+            vertex.normal = normal.normalize_or_zero().as_vec3();
         }
-        None => vec![Vec3::ZERO; used.len()],
-    };
+    }
     let material = primitive.material.map(|material| material.value());
     let place = Place::of(root, material);
-    let uvs = match attribute(primitive, Semantic::TexCoords(place.set)) {
-        Some(uvs) => {
-            let uvs = accessors.vectors::<2>(uvs, &used)?.into_iter();
-            Some(uvs.map(|uv| place.uv(uv)).collect())
+    let uvs = attribute(primitive, Semantic::TexCoords(place.set));
+    if let Some(uvs) = uvs {
+        let uvs = accessors.vectors::<2>(uvs, &used)?;
+        for (vertex, uv) in vertices.iter_mut().zip(uvs) {
+            vertex.uv = place.uv(uv);
         }
-        None => None,
-    };
-    let colours = match attribute(primitive, Semantic::Colors(0)) {
-        Some(colours) => Some(accessors.colours(colours, &used)?),
-        None => None,
-    };
-    let tangents = match attribute(primitive, Semantic::Tangents) {
-        Some(tangents) if texture(root, material, Of::Normals).is_some() => {
-            let turned = |[x, y, z, sign]: [f32; 4]| {
-                let tangent = linear * DVec3::from([x, y, z].map(f64::from));
-                let [x, y, z] = tangent.normalize_or_zero().as_vec3().to_array();
-                [x, y, z, if mirrors { -sign } else { sign }]
-            };
-            let tangents = accessors.vectors::<4>(tangents, &used)?;
-            Some(tangents.into_iter().map(turned).collect())
+    }
+    let colours = attribute(primitive, Semantic::Colors(0));
+    if let Some(colours) = colours {
+        let colours = accessors.colours(colours, &used)?;
+        for (vertex, colour) in vertices.iter_mut().zip(colours) {
+            vertex.colour = colour;
         }
-        Some(_) | None => None,
-    };
+    }
+    let tangents = attribute(primitive, Semantic::Tangents);
+    let tangents = tangents.filter(|_| texture(root, material, Of::Normals).is_some());
+    if let Some(tangents) = tangents {
+        let tangents = accessors.vectors::<4>(tangents, &used)?;
+        for (vertex, [x, y, z, sign]) in vertices.iter_mut().zip(tangents) {
+            let tangent = linear * DVec3::from([x, y, z].map(f64::from));
+            let [x, y, z] = tangent.normalize_or_zero().as_vec3().to_array();
+            vertex.tangent = [x, y, z, if mirrors { -sign } else { sign }];
+        }
+    }
     let triangles = corners.iter().map(|corners| {
         let [a, b, c] = corners.map(own);
         if mirrors { [a, c, b] } else { [a, b, c] }
     });
     Ok(Patch {
         material,
-        positions: positions.into_iter().map(at).collect(),
-        normals,
-        uvs,
-        colours,
-        tangents,
+        vertices,
+        has_uvs: uvs.is_some(),
+        has_colours: colours.is_some(),
+        has_tangents: tangents.is_some(),
         triangles: triangles.collect(),
     })
 }
 
 /// All patches as one mesh.
-pub(super) fn joined(patches: Vec<Patch>) -> Result<TriangleMesh, ModelError> {
-    let has_normals = patches
-        .iter()
-        .any(|patch| patch.normals.iter().any(|normal| *normal != Vec3::ZERO));
-    let has_uvs = patches.iter().any(|patch| patch.uvs.is_some());
-    let has_colours = patches.iter().any(|patch| patch.colours.is_some());
-    let (mut positions, mut normals) = (Vec::new(), Vec::new());
-    let (mut uvs, mut triangles) = (Vec::new(), Vec::new());
-    let has_tangents = patches.iter().any(|patch| patch.tangents.is_some());
-    let (mut colours, mut tangents) = (Vec::new(), Vec::new());
+pub(super) fn joined(patches: &[Patch]) -> Result<TriangleMesh, ModelError> {
+    let mut triangles = Vec::new();
+    let mut first = 0;
     for patch in patches {
-        let first = positions.len() as u32;
-        let count = patch.vertices();
         triangles.extend(patch.triangles.iter().map(|face| face.map(|i| i + first)));
-        positions.extend(patch.positions);
-        normals.extend(patch.normals);
-        uvs.extend(patch.uvs.unwrap_or_else(|| vec![Vec2::ZERO; count]));
-        if has_colours {
-            colours.extend(patch.colours.unwrap_or_else(|| vec![[1.0; 3]; count]));
-        }
-        if has_tangents {
-            tangents.extend(patch.tangents.unwrap_or_else(|| vec![[0.0; 4]; count]));
-        }
+        first += patch.vertices.len() as u32;
     }
-    let normals = has_normals.then_some(normals);
-    let uvs = has_uvs.then_some(uvs);
+    let vertices = || patches.iter().flat_map(|patch| &patch.vertices);
+    let any = |has: fn(&Patch) -> bool| patches.iter().any(has);
+    let has_normals = vertices().any(|vertex| vertex.normal != Vec3::ZERO);
+    let positions = vertices().map(|vertex| vertex.position).collect();
+    let normals = has_normals.then(|| vertices().map(|vertex| vertex.normal).collect());
+    let uvs = any(|patch| patch.has_uvs).then(|| vertices().map(|vertex| vertex.uv).collect());
     let mut mesh = TriangleMesh::new(positions, normals, uvs, triangles)?;
-    if has_colours {
-        mesh = mesh.with_colours(colours);
+    if any(|patch| patch.has_colours) {
+        mesh = mesh.with_colours(vertices().map(|vertex| vertex.colour).collect());
     }
-    if has_tangents {
-        mesh = mesh.with_tangents(tangents);
+    if any(|patch| patch.has_tangents) {
+        mesh = mesh.with_tangents(vertices().map(|vertex| vertex.tangent).collect());
     }
     Ok(mesh)
 }

@@ -1,7 +1,10 @@
 use std::cell::Cell;
+use std::sync::Arc;
 
+use leafmodel::blade::layers::{Change, Layer, Mode};
+use leafmodel::blade::masks::{Mask, Picture};
 use leafmodel::compound::WholeLeaf;
-use leafmodel::document::written::Extent;
+use leafmodel::optics::PerConstituent;
 use leafmodel::species::find;
 
 use super::*;
@@ -80,7 +83,7 @@ fn a_damaged_file_is_told_of_and_replaced_whole() {
     let cache = PlantCache::open(folder.path()).expect("it can be used");
     let plan = &plans()[0];
     let (leaf, _) = take(&cache, plan);
-    let path = cache.path(plan);
+    let path = cache.path(&identity(plan));
     let whole = std::fs::read(&path).expect("it is there");
     let sizes = [0, 7, 16, 24, 500, whole.len() / 2, whole.len() - 1];
     let cut = sizes.map(|size| whole[..size].to_vec());
@@ -114,15 +117,42 @@ fn no_leaf_of_another_plan_or_program_is_taken() {
     let (leaf, _) = take(&cache, plan);
     let (others, is_grown) = take(&cache, &other);
     assert!(is_grown && others != leaf);
-    std::fs::copy(cache.path(plan), cache.path(&other)).expect("it can be copied");
+    std::fs::copy(cache.path(&identity(plan)), cache.path(&identity(&other)))
+        .expect("it can be copied");
     assert_eq!(take(&cache, &other), (others, true));
     assert!(cache.take_notes()[0].contains("another plan's"));
-    std::fs::write(cache.path(plan), b"lamina leaf  1\n\nand so on").expect("it can be written");
+    std::fs::write(cache.path(&identity(plan)), b"lamina leaf  1\n\nand so on")
+        .expect("it can be written");
     assert_eq!(take(&cache, plan), (leaf.clone(), true));
     assert!(cache.take_notes()[0].contains("written by Lamina 0.1.0"));
     cache.program = "lamina 0.0.0".to_owned();
     assert_eq!(take(&cache, plan), (leaf, true));
     assert!(cache.take_notes()[0].contains("another program's"));
+}
+
+#[test]
+fn other_pictures_by_the_same_names_make_another_plan() {
+    let identity_with = |value: f32| {
+        let picture = Picture {
+            file: "spots.png".to_owned(),
+            channel: None,
+            width: 1,
+            texels: vec![[value]],
+        };
+        let mut plan = plans().remove(0);
+        plan.layers.push(Layer {
+            name: "spots".to_owned(),
+            mask: Mask::Picture(Arc::new(picture)),
+            share: 1.0,
+            change: Change::Values {
+                mode: Mode::Replace,
+                values: PerConstituent::from_fn(|_| None),
+            },
+        });
+        identity(&plan)
+    };
+    assert_eq!(identity_with(0.5), identity_with(0.5));
+    assert_ne!(identity_with(0.5), identity_with(0.25));
 }
 
 #[test]
@@ -155,7 +185,7 @@ fn programs_that_share_a_folder_do_not_disturb_each_other() {
                 for _ in 0..8 {
                     assert_eq!(take(&cache, plan).0, alone);
                     // The other programs may be in the middle of reading it.
-                    let _ = std::fs::remove_file(cache.path(plan));
+                    let _ = std::fs::remove_file(cache.path(&identity(plan)));
                 }
                 assert_eq!(cache.take_notes(), Vec::<String>::new());
             });

@@ -8,7 +8,7 @@ use leafmodel::optics::{Contents, Texel};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::geometry::MeshError;
+use crate::geometry::{MeshError, TriangleMesh};
 
 /// A part of a leaf.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
@@ -58,6 +58,13 @@ pub(in crate::scene) struct MeshParts {
     /// `None` for stalks, whose contents are uniform.
     pub(in crate::scene) uvs: Option<Vec<Vec2>>,
     pub(in crate::scene) triangles: Vec<[u32; 3]>,
+}
+
+impl MeshParts {
+    /// The mesh.
+    pub(in crate::scene) fn into_mesh(self) -> Result<TriangleMesh, MeshError> {
+        TriangleMesh::new(self.positions, Some(self.normals), self.uvs, self.triangles)
+    }
 }
 
 /// The data of a map of contents.

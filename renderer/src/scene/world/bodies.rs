@@ -56,8 +56,8 @@ pub(super) fn set_drops(
         match (&mesh.value, &scene.materials[material].value) {
             (
                 description::Shape::Mesh(description::Mesh::Drop(_)),
-                description::Material::Dielectric { eta, .. },
-            ) => Some(*eta as f32).filter(|eta| *eta != 1.0),
+                description::Material::Dielectric(own),
+            ) => Some(own.eta as f32).filter(|eta| *eta != 1.0),
             _ => None,
         }
     });
@@ -81,7 +81,7 @@ pub(super) fn set_bodies(
                 return Ok(None);
             };
             let named = &scene.materials[material];
-            let description::Material::Dielectric { eta, interior, .. } = named.value else {
+            let Some(boundary) = named.value.boundary() else {
                 return Ok(None);
             };
             let mesh = instances[number].mesh;
@@ -89,8 +89,8 @@ pub(super) fn set_bodies(
                 .borrow_mut()
                 .entry(mesh)
                 .or_insert_with(|| meshes[mesh as usize].encloses_a_body());
-            let is_matched = eta == 1.0;
-            match interior {
+            let is_matched = boundary.eta == 1.0;
+            match boundary.interior {
                 Some(_) if !is_closed => Err(WorldError::OpenBody {
                     object: scene.objects[object].name.clone(),
                     material: named.name.clone(),

@@ -9,6 +9,7 @@ use crate::film::MOST_RADIANCE;
 use crate::geometry::scatter::{ScatterError, VolumeError};
 use crate::geometry::{GeometryError, ImportError, MeshError};
 use crate::scene::assets::AssetError;
+use crate::scene::description::light::LightError;
 use crate::scene::plants::{PlantError, SolidError};
 
 /// Bytes of a GiB.
@@ -17,23 +18,13 @@ const GIB: f64 = 1024.0 * 1024.0 * 1024.0;
 /// Why a described scene cannot be built.
 #[derive(Debug, Error)]
 pub enum WorldError {
-    /// A mesh of the scene is not valid.
-    #[error("meshes.{name}: {source}")]
-    Mesh {
-        /// Name in the scene.
-        name: String,
-        /// What is wrong with it.
-        source: MeshError,
-    },
-    /// A mesh file cannot be understood.
-    #[error("meshes.{name}: {file}: {source}")]
-    Import {
-        /// Name in the scene.
-        name: String,
-        /// The file.
-        file: PathBuf,
-        /// What is wrong with it.
-        source: ImportError,
+    /// A block cannot be built.
+    #[error("{place}: {source}")]
+    Block {
+        /// Where it is in the scene, such as `meshes.wall`.
+        place: String,
+        /// Why.
+        source: Box<BlockError>,
     },
     /// A file cannot be read or has other contents.
     #[error("{place}: {source}")]
@@ -43,40 +34,9 @@ pub enum WorldError {
         /// What is wrong with it.
         source: AssetError,
     },
-    /// A leaf cannot be grown.
-    #[error("leaves.{name}: {source}")]
-    Plant {
-        /// Name in the scene.
-        name: String,
-        /// Why.
-        source: Box<PlantError>,
-    },
-    /// A body of solid tissue cannot be grown.
-    #[error("solids.{name}: {source}")]
-    Solid {
-        /// Name in the scene.
-        name: String,
-        /// Why.
-        source: Box<SolidError>,
-    },
-    /// An area light with a pattern shines from a mesh without texture coordinates.
-    #[error(
-        "lights.{name}.area: the mesh of its object has no texture coordinates, over which `edge` \
-         and `picture` are spread: leave them out, or use a mesh with them, such as a rectangle"
-    )]
-    NoTextureCoordinates {
-        /// Name of the light.
-        name: String,
-    },
-    /// An area light takes the emission of a model that emits nothing.
-    #[error(
-        "lights.{name}.area: no material of its object's mesh emits light: leave `emission` out, so that it \
-         shines evenly"
-    )]
-    NoEmission {
-        /// Name of the light.
-        name: String,
-    },
+    /// A light cannot be made.
+    #[error(transparent)]
+    Light(#[from] LightError),
     /// The mesh of a body with a medium in it has holes.
     #[error(
         "objects.{object}: its mesh does not enclose a body with normals to the outside, and \
@@ -102,22 +62,6 @@ pub enum WorldError {
         needed: f64,
         /// Memory that is allowed, bytes.
         allowed: f64,
-    },
-    /// There is no room for what is strewn.
-    #[error("objects.{name}.scatter: {source}")]
-    Scatter {
-        /// Name of the object.
-        name: String,
-        /// Why.
-        source: ScatterError,
-    },
-    /// A box cannot be filled with leaves.
-    #[error("objects.{name}.volume: {source}")]
-    Volume {
-        /// Name of the object.
-        name: String,
-        /// Why.
-        source: VolumeError,
     },
     /// The picture cannot be balanced by its light.
     #[error(
@@ -151,4 +95,42 @@ pub enum WorldError {
     /// The geometry as a whole cannot be built.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
+}
+
+impl WorldError {
+    /// That a block cannot be built; `place` as in [`WorldError::Block`].
+    pub(crate) fn of<E: Into<BlockError>>(place: String) -> impl FnOnce(E) -> Self {
+        |source| Self::Block {
+            place,
+            source: Box::new(source.into()),
+        }
+    }
+}
+
+/// Why a block of a scene cannot be built.
+#[derive(Debug, Error)]
+pub enum BlockError {
+    /// A mesh is not valid.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// A mesh file cannot be understood.
+    #[error("{file}: {source}")]
+    Import {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong with it.
+        source: ImportError,
+    },
+    /// A leaf cannot be grown.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
+    /// A body of solid tissue cannot be grown.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
+    /// There is no room for what is strewn.
+    #[error(transparent)]
+    Scatter(#[from] ScatterError),
+    /// A box cannot be filled with leaves.
+    #[error(transparent)]
+    Volume(#[from] VolumeError),
 }

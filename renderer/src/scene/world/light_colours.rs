@@ -20,8 +20,7 @@ use crate::image::light_colour::LightColour;
 use crate::light::Light;
 use crate::scene::description::{self, Description};
 use crate::scene::expand::rigs::of_part;
-use crate::spectrum::rgb::basis_at;
-use crate::spectrum::{Curve, Share, WavelengthSampler};
+use crate::spectrum::{Share, WavelengthSampler};
 
 /// The colours of the scene's lights, in its order. Daylight comes with its parts `NAME.sun` and
 /// `NAME.sky`; the lights of a rig, which have one spectrum, are together called as it is.
@@ -59,7 +58,8 @@ pub(super) fn light_colours(
             // What else there is, is one light.
             (_, own) => {
                 for light in own {
-                    add(name, &mean_spectrum(light));
+                    let mean = light.mean_spectrum();
+                    add(name, &|share| mean.over(share));
                 }
             }
         }
@@ -125,33 +125,4 @@ pub(super) fn brightest(
         all.fold(0.0, f32::max)
     };
     lights.par_iter().map(of_light).reduce(|| 0.0, f32::max)
-}
-
-/// What a light sends out in a share of the range, relative to others.
-fn mean_spectrum(light: &Light) -> Box<dyn Fn(&Share) -> f64 + '_> {
-    let of_curve = |curve| -> Box<dyn Fn(&Share) -> f64 + '_> {
-        let curve: &Curve = curve;
-        Box::new(|share| curve.over(share).into())
-    };
-    match light {
-        Light::Distant(light) => of_curve(light.radiance()),
-        Light::Constant(radiance) => of_curve(radiance.curve()),
-        Light::Environment(light) => coloured(light.mean_colour(), light.white()),
-        Light::Sun(light) => of_curve(light.irradiance()),
-        Light::Sky(light) => of_curve(light.diffuse()),
-        Light::Area(light) => match light.mean_colour() {
-            Some(mean) => coloured(mean, light.radiance()),
-            None => of_curve(light.radiance()),
-        },
-        Light::Spot(light) => of_curve(light.intensity()),
-    }
-}
-
-/// The spectrum of linear sRGB where 1 1 1 is `white`.
-fn coloured(mean: [f64; 3], white: &Curve) -> Box<dyn Fn(&Share) -> f64 + '_> {
-    Box::new(move |share| {
-        let basis = mean.into_iter().zip(basis_at(share.nm));
-        let part: f64 = basis.map(|(mean, basis)| mean * f64::from(basis)).sum();
-        part * f64::from(white.over(share))
-    })
 }

@@ -1,197 +1,54 @@
 //! Conversion of lights from the description.
 
-use std::path::Path;
-
-use glam::{DVec3, Vec2};
+use glam::DVec3;
 
 use super::WorldError;
 use super::meshes::OwnSurface;
 use crate::geometry::{Instance, TriangleMesh};
 use crate::light::Light;
-use crate::light::area::AreaLight;
-use crate::light::daylight::sky::SkyLight;
-use crate::light::distant::DistantLight;
-use crate::light::environment::EnvironmentLight;
-use crate::light::pattern::{Colours, Pattern};
-use crate::light::spot::SpotLight;
-use crate::light::texels::Texels;
-use crate::material::colour_map::ColourMap;
-use crate::scene::assets::{self, RgbPicture};
-use crate::scene::description;
-use crate::spectrum::Curve;
+use crate::scene::description::Description;
+use crate::scene::description::light::Surroundings;
+use crate::scene::description::light::area::{Area, Surface};
+use trace::world::WorldObjects;
 
-/// The lights of a block of the scene, for rays around `origin`; `instance_of` gives the only instance
-/// of an emitting object. What was changed of its picture is noted.
-pub(super) fn build_lights<'i>(
-    name: &str,
-    light: &description::Light,
-    (meshes, surfaces): (&[TriangleMesh], &[OwnSurface]),
-    instance_of: impl Fn(usize) -> &'i Instance,
+/// The meshes with the surfaces that they bring along, their instances, and the first one of each object.
+type Shining<'a> = (
+    &'a [TriangleMesh],
+    &'a [OwnSurface],
+    &'a [Instance],
+    &'a [usize],
+);
+
+/// The scene's lights, for rays around `origin`; objects that emit light are told so. What was changed of
+/// pictures is noted.
+pub(super) fn build_lights(
+    scene: &Description,
+    (meshes, surfaces, instances, first): Shining<'_>,
     origin: DVec3,
+    objects: &mut WorldObjects,
     notes: &mut Vec<String>,
 ) -> Result<Vec<Light>, WorldError> {
-    Ok(vec![match light {
-        description::Light::Distant {
-            towards,
-            angular_diameter,
-            irradiance,
-        } => Light::Distant(DistantLight::new(
-            towards.as_vec3(),
-            *angular_diameter,
-            Curve::from_description(irradiance),
-        )),
-        description::Light::Constant { radiance } => {
-            Light::Constant(Curve::from_description(radiance).into())
-        }
-        description::Light::Environment {
-            file,
-            layer,
-            scale,
-            rotation,
-            white,
-        } => {
-            let picture = picture(name, (file, layer.as_deref()), notes)?;
-            let (width, height) = (picture.width, picture.texels.len() / picture.width);
-            if width != 2 * height {
-                notes.push(format!(
-                    "lights.{name}: {}: a picture of {width} × {height} pixels is not twice as wide as high; \
-                     it is stretched over the whole sphere",
-                    file.display()
-                ));
+    let mut lights = Vec::new();
+    for light in &scene.lights {
+        let surface = light.value.area().map(|area: &Area| {
+            let first = first[area.object];
+            objects.shine(first, lights.len());
+            let instance = &instances[first];
+            let mesh = instance.mesh as usize;
+            Surface {
+                mesh: &meshes[mesh],
+                to_world: instance.around(origin),
+                emission: surfaces.get(mesh).and_then(|own| own.emission.as_ref()),
             }
-            let mut texels = picture.texels;
-            // Seen from within, the azimuth grows to the left.
-            for row in texels.chunks_mut(picture.width) {
-                row.reverse();
-            }
-            Light::Environment(EnvironmentLight::new(
-                texels,
-                picture.width,
-                Curve::from_description(white).scaled(*scale as f32),
-                *rotation as f32,
-            ))
-        }
-        description::Light::Area {
-            object,
-            radiance,
-            pattern,
-        } => {
-            let instance = instance_of(*object);
-            let mesh = &meshes[instance.mesh as usize];
-            let radiance = Curve::from_description(radiance);
-            let to_world = instance.around(origin);
-            let mirrored = to_world.matrix3.determinant() < 0.0;
-            let triangles = corners(mesh, mirrored, |vertex| {
-                to_world.transform_point3(mesh.positions()[vertex])
-            });
-            Light::Area(match pattern {
-                None => AreaLight::new(&triangles, radiance),
-                Some(pattern) => {
-                    // A model without pictures needs none.
-                    let needs_uvs = !pattern.emission || pattern.edge < 1.0;
-                    if mesh.uvs().is_none() && needs_uvs {
-                        return Err(WorldError::NoTextureCoordinates {
-                            name: name.to_owned(),
-                        });
-                    }
-                    let uv_of = |vertex: usize| mesh.uvs().map_or(Vec2::ZERO, |uvs| uvs[vertex]);
-                    let uvs = corners(mesh, mirrored, uv_of);
-                    let own = surfaces.get(instance.mesh as usize);
-                    let emission = own.and_then(|own| own.emission.as_ref());
-                    let pattern = build_pattern(name, pattern, emission, notes)?;
-                    AreaLight::with_pattern(&triangles, &uvs, radiance, pattern)
-                }
-            })
-        }
-        description::Light::Spot {
-            position,
-            look_at,
-            cone_angle,
-            penumbra_angle,
-            intensity,
-        } => Light::Spot(SpotLight::new(
-            (position - origin).as_vec3(),
-            (look_at - position).normalize().as_vec3(),
-            *cone_angle,
-            *penumbra_angle,
-            Curve::from_description(intensity),
-        )),
-        description::Light::Overcast {
-            irradiance,
-            ground_albedo,
-        } => {
-            let irradiance = Curve::from_description(irradiance);
-            Light::Sky(SkyLight::overcast(&irradiance, *ground_albedo))
-        }
-        // Its parts have taken its place.
-        description::Light::Daylight(day) => {
-            let (sun, sky) = day.lights();
-            return Ok(vec![Light::Sun(sun), Light::Sky(sky)]);
-        }
-    }])
-}
-
-/// The picture of a light, and the layer of it.
-fn picture(
-    light: &str,
-    (file, layer): (&Path, Option<&str>),
-    notes: &mut Vec<String>,
-) -> Result<RgbPicture, WorldError> {
-    let picture = assets::shining(file, layer).map_err(|source| WorldError::Asset {
-        place: format!("lights.{light}"),
-        source,
-    })?;
-    if picture.below > 0.0 {
-        notes.push(format!(
-            "lights.{light}: {}: {:.2} % of its pixels have a channel below 0, which is taken for 0",
-            file.display(),
-            100.0 * picture.below
-        ));
+        });
+        lights.extend(light.value.built(Surroundings {
+            name: &light.name,
+            origin,
+            surface,
+            notes,
+        })?);
     }
-    if picture.outside > 0.0 {
-        notes.push(format!(
-            "lights.{light}: {}: {:.2} % of its pixels have colours outside of Rec. 709, whose spectra are \
-             below 0 at some wavelengths: as a part of the light of a whole scene they are right",
-            file.display(),
-            100.0 * picture.outside
-        ));
-    }
-    Ok(picture)
-}
-
-fn build_pattern(
-    light: &str,
-    pattern: &description::AreaPattern,
-    emission: Option<&ColourMap>,
-    notes: &mut Vec<String>,
-) -> Result<Pattern, WorldError> {
-    let colours = match (pattern.picture(), emission.filter(|_| pattern.emission)) {
-        (Some(file), _) => {
-            let picture = picture(light, file, notes)?;
-            Some(Colours::Picture(Texels::new(picture.texels, picture.width)))
-        }
-        (None, Some(map)) => {
-            if map.greatest() == [0.0; 3] {
-                return Err(WorldError::NoEmission {
-                    name: light.to_owned(),
-                });
-            }
-            Some(Colours::Model(map.clone()))
-        }
-        (None, None) => None,
-    };
-    Ok(Pattern::new(pattern.edge, colours))
-}
-
-/// What the three corners of each face have, counter-clockwise in the world.
-fn corners<T>(mesh: &TriangleMesh, mirrored: bool, of: impl Fn(usize) -> T) -> Vec<[T; 3]> {
-    let faces = mesh.triangles().iter();
-    faces
-        .map(|&[a, b, c]| {
-            let face = if mirrored { [a, c, b] } else { [a, b, c] };
-            face.map(|vertex| of(vertex as usize))
-        })
-        .collect()
+    Ok(lights)
 }
 
 #[cfg(test)]

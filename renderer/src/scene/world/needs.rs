@@ -1,14 +1,11 @@
 //! Memory that the things of a scene will need, said before any of them is built.
 
-use std::path::PathBuf;
-
 use super::memory::{OF_A_TRIANGLE, OF_AN_INSTANCE};
 use crate::geometry::scatter::{Amount, Volume};
+use crate::geometry::shapes::{Disc, Drop, Lump, Sphere};
 use crate::image::claimed;
 use crate::scene::assets;
-use crate::scene::description::{
-    Description, Drop, Held, Lump, Mesh, Object, ObjectShape, Reflectance, Shape, StrewnOn,
-};
+use crate::scene::description::{Description, Held, Mesh, Object, Shape, StrewnOn};
 
 /// Memory of a place of an object of two parts, as a leaf with its petiole is, bytes.
 const OF_A_PLACE: f64 = 2.0 * OF_AN_INSTANCE;
@@ -24,7 +21,7 @@ pub(crate) fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)
     let meshes = meshes.map(|(number, named)| match &named.value {
         Shape::Body(body) => body.triangles.len() as f64 * OF_A_TRIANGLE,
         Shape::Mesh(
-            Mesh::Sphere { segments, .. }
+            Mesh::Sphere(Sphere { segments, .. })
             | Mesh::Drop(Drop { segments, .. })
             | Mesh::Lump(Lump { segments, .. }),
         ) => f64::from(*segments) * f64::from(*segments) * OF_A_TRIANGLE,
@@ -33,16 +30,16 @@ pub(crate) fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)
             2.0 * across * along * OF_A_TRIANGLE
         }
         Shape::Mesh(Mesh::Masonry(wall)) => 2.0 * wall.squares() * OF_A_TRIANGLE,
-        Shape::Mesh(Mesh::Disc { segments, .. }) => f64::from(*segments) * OF_A_TRIANGLE,
-        Shape::Mesh(Mesh::Gltf { file, beside, .. }) => {
+        Shape::Mesh(Mesh::Disc(disc)) => f64::from(disc.segments) * OF_A_TRIANGLE,
+        Shape::Mesh(Mesh::Gltf(model)) => {
             // Reading reports what is wrong with it.
-            let claims = assets::claims_of_model(file, beside, scene.wanted_of(number));
+            let claims = assets::claims_of_model(model, scene.wanted_of(number));
             claims.map_or(0.0, |claims| {
                 pictures += claims.pictures;
                 claims.triangles as f64 * OF_A_TRIANGLE
             })
         }
-        Shape::Mesh(Mesh::Rectangle { .. } | Mesh::Box { .. } | Mesh::File { .. }) => 0.0,
+        Shape::Mesh(Mesh::Rectangle(_) | Mesh::Box(_) | Mesh::File(_)) => 0.0,
     });
     let meshes: f64 = meshes.fold(0.0, |sum, bytes| sum + bytes);
     let places = scene.objects.iter().map(|object| {
@@ -85,19 +82,16 @@ pub(crate) fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)
 /// Memory of the pictures of materials and lights while they are read, bytes.
 fn of_pictures(scene: &Description) -> f64 {
     let materials = scene.materials.iter().flat_map(|material| {
-        let reflectance = match material.value.reflectance() {
-            Some(Reflectance::Picture { file, .. }) => Some(file),
-            Some(Reflectance::Even(_) | Reflectance::OfMesh(_)) | None => None,
-        };
-        let held = match material.value.held() {
-            Some(Held::Map { file, .. }) => Some(file),
+        let picture = material.value.picture().map(|(file, _)| file);
+        let map = match material.value.held() {
+            Some(Held::Map { file, .. }) => Some(file.as_path()),
             Some(Held::Contents { .. }) | None => None,
         };
-        reflectance.into_iter().chain(held)
+        picture.into_iter().chain(map)
     });
     let lights = scene.lights.iter();
     let lights = lights.filter_map(|light| light.value.picture().map(|(file, _)| file));
-    let files = materials.map(PathBuf::as_path).chain(lights);
+    let files = materials.chain(lights);
     files.fold(0.0, |sum, file| sum + claimed::bytes_of_file(file))
 }
 
@@ -106,24 +100,8 @@ fn of_pictures(scene: &Description) -> f64 {
 fn leaves_afloat(scene: &Description, object: &Object, volume: &Volume) -> f64 {
     let [least, most] = volume.within;
     let ground = (most - least).truncate().element_product();
-    let Some(ObjectShape::Mesh { mesh, .. }) = object.shapes.first() else {
-        return 0.0;
-    };
-    let Shape::Mesh(mesh) = &scene.meshes[*mesh].value else {
-        return 0.0;
-    };
-    match mesh {
-        Mesh::Disc { radius, .. } => volume.lai * ground / (std::f64::consts::PI * radius * radius),
-        Mesh::Rectangle { width, height } => volume.lai * ground / (width * height),
-        Mesh::Sphere { .. }
-        | Mesh::Box { .. }
-        | Mesh::Drop(_)
-        | Mesh::Lump(_)
-        | Mesh::Terrain(_)
-        | Mesh::Masonry(_)
-        | Mesh::File { .. }
-        | Mesh::Gltf { .. } => 0.0,
-    }
+    let leaf = mesh_of(scene, object).and_then(flat_area);
+    leaf.map_or(0.0, |leaf| volume.lai * ground / leaf)
 }
 
 /// About the area over which something is strewn, m²: that of its rectangle or of an even or uneven
@@ -133,24 +111,38 @@ fn area(scene: &Description, strewn: &StrewnOn) -> f64 {
         return (most - least).element_product();
     }
     let on = &scene.objects[strewn.on].value;
-    let (Some(ObjectShape::Mesh { mesh, .. }), None) = (on.shapes.first(), &on.instances) else {
-        return 0.0;
-    };
-    let Shape::Mesh(mesh) = &scene.meshes[*mesh].value else {
-        return 0.0;
-    };
+    let mesh = mesh_of(scene, on).filter(|_| on.instances.is_none());
     let size = match mesh {
-        Mesh::Rectangle { width, height } => width * height,
-        Mesh::Terrain(terrain) => terrain.size[0] * terrain.size[1],
-        Mesh::Sphere { .. }
-        | Mesh::Box { .. }
-        | Mesh::Disc { .. }
+        Some(Mesh::Terrain(terrain)) => Some(terrain.size[0] * terrain.size[1]),
+        Some(Mesh::Rectangle(ground)) => Some(ground.width * ground.height),
+        Some(_) | None => None,
+    };
+    size.map_or(0.0, |size| {
+        let [x, y] = [on.to_world.x_axis, on.to_world.y_axis].map(glam::DVec4::truncate);
+        size * x.cross(y).length()
+    })
+}
+
+/// The mesh of an object's first shape, if the scene says what it is.
+fn mesh_of<'s>(scene: &'s Description, object: &Object) -> Option<&'s Mesh> {
+    match &scene.meshes[object.first_mesh()?].value {
+        Shape::Mesh(mesh) => Some(mesh),
+        Shape::Body(_) => None,
+    }
+}
+
+/// The area of a leaf that is given by its numbers, m².
+fn flat_area(mesh: &Mesh) -> Option<f64> {
+    match mesh {
+        Mesh::Disc(Disc { radius, .. }) => Some(std::f64::consts::PI * radius * radius),
+        Mesh::Rectangle(leaf) => Some(leaf.width * leaf.height),
+        Mesh::Sphere(_)
+        | Mesh::Box(_)
         | Mesh::Drop(_)
         | Mesh::Lump(_)
+        | Mesh::Terrain(_)
         | Mesh::Masonry(_)
-        | Mesh::File { .. }
-        | Mesh::Gltf { .. } => return 0.0,
-    };
-    let [x, y] = [on.to_world.x_axis, on.to_world.y_axis].map(glam::DVec4::truncate);
-    size * x.cross(y).length()
+        | Mesh::File(_)
+        | Mesh::Gltf(_) => None,
+    }
 }

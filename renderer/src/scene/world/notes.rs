@@ -87,13 +87,9 @@ pub(super) fn on_missing_uvs(
     meshes: &[TriangleMesh],
     materials: &[Material],
 ) -> Vec<String> {
-    let pairs = scene.objects.iter().flat_map(|object| {
-        object.value.shapes.iter().filter_map(|shape| match shape {
-            ObjectShape::Mesh { mesh, material } => Some((*mesh, *material)),
-            ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
-        })
-    });
-    let pairs: BTreeSet<(usize, usize)> = pairs.collect();
+    let objects = scene.objects.iter();
+    let shapes = objects.flat_map(|object| object.value.shapes.iter().copied());
+    let pairs: BTreeSet<(usize, usize)> = shapes.filter_map(ObjectShape::mesh).collect();
     let without = pairs.into_iter().filter(|(mesh, material)| {
         let map = materials[*material].colour_map();
         let has_picture = |map: &ColourMap| map.slots().iter().any(|slot| slot.texture.is_some());
@@ -132,13 +128,10 @@ pub(super) fn on_sizes(
         },
     ) in scene.objects.iter().enumerate()
     {
-        let lengths = object.shapes.iter().map(|shape| match shape {
-            ObjectShape::Leaf { leaf } => {
-                let is_compound = scene.leaves[*leaf].value.plan.compound.is_some();
-                let longest = LONGEST[usize::from(is_compound)];
-                Some((longest, length_of(&pieces.of(*shape), meshes)))
-            }
-            ObjectShape::Mesh { .. } | ObjectShape::Solid { .. } => None,
+        let lengths = object.shapes.iter().map(|shape| {
+            let leaf = &scene.leaves[shape.leaf()?].value;
+            let longest = LONGEST[usize::from(leaf.plan.compound.is_some())];
+            Some((longest, length_of(&pieces.of(*shape), meshes)))
         });
         let lengths: Vec<_> = lengths.collect();
         let places = strewn.get(&number).or(object.instances.as_ref());

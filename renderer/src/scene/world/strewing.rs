@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DAffine3, DMat4};
 
-use super::WorldError;
+use super::error::WorldError;
 use super::memory::Memory;
 use super::placing::Pieces;
 use crate::geometry::TriangleMesh;
@@ -68,21 +68,18 @@ impl<'a> Strewing<'a> {
 
     /// The places of each object that is strewn or floats, by its number, and notes on them.
     pub(super) fn all(mut self, notes: &mut Vec<String>) -> Result<Places, WorldError> {
-        let named = |name: &str| {
-            let name = name.to_owned();
-            |source| WorldError::Scatter { name, source }
-        };
+        let scatter = |name: &str| WorldError::of(format!("objects.{name}.scatter"));
         // Things take long to come to rest; what cannot be strewn on them is told before.
         for object in self.objects {
             if let Some(strewn) = &object.value.strewn {
-                self.check_fineness(strewn).map_err(named(&object.name))?;
+                self.check_fineness(strewn).map_err(scatter(&object.name))?;
             }
         }
         for (number, object) in self.objects.iter().enumerate() {
             if let Some(strewn) = &object.value.strewn {
                 let (places, heap) = self
                     .strew(&object.value, strewn)
-                    .map_err(named(&object.name))?;
+                    .map_err(scatter(&object.name))?;
                 notes.extend(heap.map(|height| {
                     format!(
                         "objects.{}: its things are heaped {height:.2} m high: strew fewer, or \
@@ -94,11 +91,8 @@ impl<'a> Strewing<'a> {
             }
             if let Some(volume) = &object.value.volume {
                 let places = self.fill(&object.value, volume);
-                let places = places.map_err(|source| WorldError::Volume {
-                    name: object.name.clone(),
-                    source,
-                })?;
-                self.keep(number, places);
+                let place = format!("objects.{}.volume", object.name);
+                self.keep(number, places.map_err(WorldError::of(place))?);
             }
         }
         Ok(self.found)
@@ -164,7 +158,7 @@ impl<'a> Strewing<'a> {
         let before = self
             .at_rest
             .map_or(0, |[at_rest, _]| at_rest.load(Ordering::Relaxed));
-        let tell = |wanted: usize| {
+        let count = |wanted: usize| {
             if let Some([at_rest, all]) = self.at_rest {
                 all.store(before + wanted, Ordering::Relaxed);
                 at_rest.fetch_add(1, Ordering::Relaxed);
@@ -174,7 +168,7 @@ impl<'a> Strewing<'a> {
         let most = self.memory.most(parts * self.most_parts(object));
         let places = strewn
             .plan
-            .places_told(&ground, others, &bodies, most, &tell)?;
+            .places_up_to(&ground, others, &bodies, most, &count)?;
         let most = Most::UNBOUND;
         if places.len() * parts > most.things() {
             let wanted = (places.len() * parts) as f64;

@@ -9,6 +9,8 @@
 //!
 //! which is the thin-lens law for `τ = 0`. `docs/src/theory/camera.md` derives it.
 
+use document::declared::Declared;
+use document::keys::Keys;
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -50,14 +52,30 @@ pub enum Opening {
 }
 
 /// The shape of the opening.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Declared, Default, Deserialize, PartialEq, Serialize)]
+#[key(last = Self::check)]
 pub struct Iris {
-    /// Number of straight blades, at least 3; 0 is a circle.
+    /// Straight blades of the iris: light out of focus has so many corners; 0 is a circle, otherwise at
+    /// least 3. The opening keeps its area.
+    #[key("blades", 0..=32)]
     pub blades: u32,
-    /// Turn of the polygon in the picture's plane, against the clock; 0 has a corner on top.
+    /// Turn of the blades in the picture's plane, against the clock; at 0 a corner is on top.
+    #[key("blade_rotation_deg", degrees(-360.0..=360.0))]
     pub rotation: f64,
-    /// Share of its diameter by which the opening is cut in the picture's corners, 0 to 1.
+    /// Share of its diameter by which the lens's rim cuts the opening in the picture's corners, in
+    /// proportion less towards the middle. Light out of focus looks like a cat's eye there, and corners
+    /// get darker: at 1 they are black.
+    #[key("cats_eye", 0.0..=1.0)]
     pub cats_eye: f64,
+}
+
+impl Iris {
+    fn check(&mut self, keys: &mut Keys<'_>) {
+        if let blades @ (1 | 2) = self.blades {
+            let problem = format!("{blades} blades close no opening");
+            keys.refuse(&["blades"], problem, "write 0 for a circle, or 3 to 32");
+        }
+    }
 }
 
 /// What is sharp.

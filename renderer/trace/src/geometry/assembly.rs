@@ -199,25 +199,24 @@ impl Geometry {
 
     /// The surface at a hit.
     pub fn surface(&self, hit: &Hit) -> SurfacePoint {
-        let placement = &self.placements[hit.instance as usize];
-        let mesh = &self.meshes[placement.instance.mesh as usize];
-        let corners = self.corners(placement, hit);
+        let (placement, mesh, corners) = self.at(hit);
         SurfacePoint::at(hit, corners, mesh, placement)
     }
 
-    /// Corners of the triangle of a hit, in the frame in which it is traced.
+    /// The instance and the mesh of a hit, and the corners of its triangle in the frame in which it is
+    /// traced.
     #[inline]
-    fn corners(&self, placement: &Placement, hit: &Hit) -> [Vec3; 3] {
+    fn at(&self, hit: &Hit) -> (&Placement, &TriangleMesh, [Vec3; 3]) {
+        let placement = &self.placements[hit.instance as usize];
+        let mesh = &self.meshes[placement.instance.mesh as usize];
         let tree = &self.trees[placement.carrier.tree as usize];
         let block = &tree.blocks[hit.place as usize / LANES];
-        block.corners(hit.place as usize % LANES)
+        (placement, mesh, block.corners(hit.place as usize % LANES))
     }
 
     /// How texture coordinates lie on the surface at a hit; `None` if they do not span the triangle.
     pub fn texture_scale(&self, hit: &Hit) -> Option<TextureScale> {
-        let placement = &self.placements[hit.instance as usize];
-        let mesh = &self.meshes[placement.instance.mesh as usize];
-        let corners = self.corners(placement, hit);
+        let (placement, mesh, corners) = self.at(hit);
         TextureScale::at(hit, corners, mesh, placement)
     }
 
@@ -243,9 +242,7 @@ impl Geometry {
     /// How texture coordinates change along two unit directions in the plane of the surface at a hit,
     /// 1/m; not at all if the triangle is degenerate.
     pub fn uv_per_metre(&self, hit: &Hit, directions: [Vec3; 2]) -> [Vec2; 2] {
-        let placement = &self.placements[hit.instance as usize];
-        let mesh = &self.meshes[placement.instance.mesh as usize];
-        let corners = self.corners(placement, hit);
+        let (placement, mesh, corners) = self.at(hit);
         surface::uv_per_metre(hit, corners, (mesh, placement), directions)
     }
 

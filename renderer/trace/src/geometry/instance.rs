@@ -1,5 +1,6 @@
 //! A mesh placed in the scene.
 
+use document::limits::Limits;
 use glam::{Affine3A, DAffine3, DVec3, Mat3, Mat3A};
 
 /// A mesh placed in the scene. Its place is in double precision until it is known relative to the
@@ -38,6 +39,9 @@ impl Instance {
         }
     }
 }
+
+/// Limits of world coordinates, m. Beyond them single precision does not resolve a leaf.
+pub const COORDINATES_M: Limits = Limits::closed(-1e6, 1e6);
 
 /// Distance of places from the scene's origin up to which rays are traced around that, m. Single
 /// precision resolves 0.01 mm there.

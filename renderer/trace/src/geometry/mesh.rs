@@ -412,24 +412,15 @@ impl TriangleMesh {
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        self.positions.capacity() * size_of::<Vec3>()
-            + self
-                .normals
-                .as_ref()
-                .map_or(0, |normals| normals.capacity() * size_of::<Vec3>())
-            + self
-                .uvs
-                .as_ref()
-                .map_or(0, |uvs| uvs.capacity() * size_of::<Vec2>())
-            + self
-                .colours
-                .as_ref()
-                .map_or(0, |colours| colours.capacity() * size_of::<[f32; 3]>())
-            + self
-                .tangents
-                .as_ref()
-                .map_or(0, |tangents| tangents.capacity() * size_of::<[f32; 4]>())
-            + self.triangles.capacity() * size_of::<[u32; 3]>()
+        fn bytes<T>(of_vertices: Option<&Vec<T>>) -> usize {
+            of_vertices.map_or(0, |own| own.capacity() * size_of::<T>())
+        }
+        bytes(Some(&self.positions))
+            + bytes(self.normals.as_ref())
+            + bytes(self.uvs.as_ref())
+            + bytes(self.colours.as_ref())
+            + bytes(self.tangents.as_ref())
+            + bytes(Some(&self.triangles))
     }
 }
 

@@ -13,6 +13,7 @@
 //! programme in three unknowns ([`numerics::rest`]), which is solved again after each turn.
 
 mod body;
+mod cells;
 mod drops;
 mod inclination;
 mod pile;
@@ -22,6 +23,11 @@ mod points;
 mod tests;
 mod volume;
 
+use document::declared::{Declared, Defaults};
+use document::keys::Keys;
+use document::limits::Limits;
+use document::number_lists::Rectangle;
+use document::value_kind::{Flag, Integer, Number};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use self::drops::{Nearby, Standing, merged};
@@ -34,6 +40,7 @@ pub use self::inclination::Inclination;
 pub use self::place::{MOST_AT_REST, MOST_THINGS, Most, NoPlace, ScatterError, Strewn};
 pub use self::points::{Ground, triangles};
 pub use self::volume::{Arrangement, Centres, Volume, VolumeError};
+use super::instance::COORDINATES_M;
 use crate::sampling::mixer;
 
 /// How many things lie on a surface.
@@ -46,34 +53,47 @@ pub enum Amount {
 }
 
 /// How things lie on a surface.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, Defaults, PartialEq)]
 pub struct Scatter {
     /// How many.
+    #[key(with = Self::declare_amount, default = Amount::Count(1))]
     pub amount: Amount,
-    /// The rectangle in the ground plan to which they keep: its least and greatest x and y, m.
+    /// The rectangle to which they keep: least x and y, greatest x and y.
+    #[key("within_m", Rectangle(COORDINATES_M))]
     pub within: Option<[DVec2; 2]>,
-    /// Least distance between the points where they stand, m.
+    /// Least distance between the points where they stand.
+    #[key("least_distance_mm", milli(0.0..=1e9))]
     pub least_distance: f64,
-    /// Least and greatest factor on their size, > 0.
+    /// Least and greatest factor on their size.
+    #[key("scale", above(0.0, 1e6), default = [1.0; 2])]
     pub scale: [f64; 2],
-    /// Greatest angle between a thing's own upright axis and the surface's normal (or the vertical)
-    /// before it comes to rest, rad; all directions within it are equally likely.
+    /// Greatest lean from the surface's normal, before they come to rest; all directions within it are equally likely.
+    ///
+    /// It is the angle between a thing's own upright axis and the normal or the vertical, rad.
+    #[key("tilt_deg", degrees(0.0..=180.0))]
     pub tilt: f64,
-    /// Greatest turn about that axis to either side, rad.
+    /// Greatest turn to either side about their own z.
+    #[key("turn_deg", degrees(0.0..=180.0), default = std::f64::consts::PI)]
     pub turn: f64,
-    /// Share that lies upside down.
+    /// Share of them that lies upside down, turned about its y.
+    #[key("flipped", 0.0..=1.0)]
     pub flipped: f64,
-    /// Whether things stand upright instead of along the surface's normal.
+    /// Whether they stand upright instead of along the surface's normal.
+    #[key("upright")]
     pub upright: bool,
     /// How a thing lies once it is there.
+    #[key(with = Self::declare_rest, default = Rest::Fixed { sink: 0.0 })]
     pub rest: Rest,
-    /// Share of things that stand in hollows of the surface, such as furrows above veins; without
-    /// effect on what comes to rest.
+    /// Share of what does not settle that stands in hollows of the surface, such as the furrows above
+    /// veins.
+    #[key("furrows", 0.0..=1.0)]
     pub furrows: f64,
-    /// Whether things that touch run together into one of their summed volume, as drops do; without
-    /// effect on what comes to rest.
+    /// Whether what touches runs together into one of the summed volume, as drops do; there are fewer
+    /// then.
+    #[key("merge")]
     pub merge: bool,
     /// Same plan and seed, same places.
+    #[key(default = 0)]
     pub seed: u64,
 }
 
@@ -118,8 +138,64 @@ enum Use {
 }
 
 impl Scatter {
-    /// Places for things on `ground`; what comes to rest lies on `others` too. `bodies` are the
-    /// shapes, of which each is drawn equally often.
+    /// Its keys for how many there are.
+    fn declare_amount(&mut self, keys: &mut Keys<'_>) {
+        let current = match self.amount {
+            Amount::Count(_) => "count",
+            Amount::PerSquareMetre(_) => "per_m2",
+        };
+        for chosen in keys.one_of(&["count", "per_m2"], Some(current)) {
+            if chosen == "count" {
+                let mut count = match self.amount {
+                    Amount::Count(count) => count,
+                    Amount::PerSquareMetre(_) => 1,
+                };
+                let about = "How many.";
+                let limits = Integer::within(1, MOST_THINGS as u64);
+                keys.needed("count", &mut count, limits, about);
+                self.amount = Amount::Count(count);
+            } else {
+                let mut density = match self.amount {
+                    Amount::PerSquareMetre(density) => density,
+                    Amount::Count(_) => 1.0,
+                };
+                let about = "How many for each square metre of the surface; of its ground plan if they \
+                come to rest.";
+                let limits = Number(Limits::above(0.0, 1e12));
+                keys.needed("per_m2", &mut density, limits, about);
+                self.amount = Amount::PerSquareMetre(density);
+            }
+        }
+    }
+
+    /// Its keys for how things come to lie.
+    fn declare_rest(&mut self, keys: &mut Keys<'_>) {
+        let (mut settles, mut gap_mm, mut sink_mm) = match self.rest {
+            Rest::Settled { gap } => (true, 1e3 * gap, 0.0),
+            Rest::Fixed { sink } => (false, 0.1, 1e3 * sink),
+        };
+        let about = "Whether they fall straight down, one after the other, and turn until they lie \
+        still on the surface, on `over` and on one another.";
+        keys.key("settle", &mut settles, Flag, about);
+        let about = "What is kept between things at rest, for their thickness.";
+        let limits = Number(Limits::closed(0.0, 1000.0));
+        keys.key("gap_mm", &mut gap_mm, limits, about);
+        let about = "How deep the origin of what does not settle lies below the surface; above it if \
+        negative.";
+        let limits = Number(Limits::closed(-1e6, 1e6));
+        keys.key("sink_mm", &mut sink_mm, limits, about);
+        self.rest = if settles {
+            Rest::Settled { gap: 1e-3 * gap_mm }
+        } else {
+            Rest::Fixed {
+                sink: 1e-3 * sink_mm,
+            }
+        };
+    }
+
+    /// Places for at most so many things on `ground`; what comes to rest lies on `others` too. `bodies`
+    /// are the shapes, of which each is drawn equally often. `at_rest` is called for each thing that has
+    /// come to rest, with the number of those that are wanted.
     ///
     /// # Errors
     ///
@@ -128,32 +204,13 @@ impl Scatter {
     /// # Panics
     ///
     /// If there is no body.
-    pub fn places(
-        &self,
-        ground: &Ground,
-        others: impl IntoIterator<Item = [DVec3; 3]>,
-        bodies: &[Body],
-    ) -> Result<Vec<Strewn>, ScatterError> {
-        self.places_told(ground, others, bodies, Most::UNBOUND, &|_| {})
-    }
-
-    /// As [`Scatter::places`], for at most so many things; `told` is called for each thing that has
-    /// come to rest, with the number of those that are wanted.
-    ///
-    /// # Errors
-    ///
-    /// As [`Scatter::places`].
-    ///
-    /// # Panics
-    ///
-    /// As [`Scatter::places`].
-    pub fn places_told(
+    pub fn places_up_to(
         &self,
         ground: &Ground,
         others: impl IntoIterator<Item = [DVec3; 3]>,
         bodies: &[Body],
         most: Most,
-        told: &dyn Fn(usize),
+        at_rest: &dyn Fn(usize),
     ) -> Result<Vec<Strewn>, ScatterError> {
         assert!(!bodies.is_empty(), "something is strewn");
         let rests = matches!(self.rest, Rest::Settled { .. });
@@ -208,7 +265,7 @@ impl Scatter {
                     let body = &bodies[shape];
                     match pile.settle(body, turn * scale, point.truncate(), gap) {
                         Ok((turn, at)) => {
-                            told(wanted);
+                            at_rest(wanted);
                             DAffine3::from_mat3_translation(turn, at - turn * body.middle())
                         }
                         Err(why) => {

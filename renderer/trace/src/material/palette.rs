@@ -223,7 +223,7 @@ mod tests {
 
     fn low_b() -> Pigments {
         Pigments {
-            chlorophyll: ChlorophyllMix::bands(8.0),
+            chlorophyll: Some(ChlorophyllMix::bands(8.0)),
             ..Pigments::default()
         }
     }
@@ -276,7 +276,7 @@ mod tests {
     #[test]
     fn whole_nanometres_are_the_models_own_constants() {
         let pigments = Pigments {
-            carotenoids: CarotenoidMix::bands([0.5, 0.5, 0.0, 0.0, 0.0]),
+            carotenoids: Some(CarotenoidMix::bands([0.5, 0.5, 0.0, 0.0, 0.0])),
             ..low_b()
         };
         let mut palettes = Palettes::default();

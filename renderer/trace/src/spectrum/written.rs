@@ -26,7 +26,36 @@ pub enum Spectrum {
     },
 }
 
+impl Default for Spectrum {
+    /// No light, or none of it.
+    fn default() -> Self {
+        Self::Constant(0.0)
+    }
+}
+
 impl Spectrum {
+    /// Whether it is 0 at every wavelength of a range, or at all.
+    pub fn is_dark(&self, range_nm: Option<[f64; 2]>) -> bool {
+        match self {
+            Self::Constant(value) => *value == 0.0,
+            Self::Table { points, .. } => {
+                let [low, high] = range_nm.unwrap_or([0.0, f64::INFINITY]);
+                // A table is 0 between two rows only if both are 0, so the rows just outside the range
+                // count too.
+                let first = points
+                    .partition_point(|(nm, _)| *nm <= low)
+                    .saturating_sub(1);
+                let last = points
+                    .partition_point(|(nm, _)| *nm < high)
+                    .min(points.len() - 1);
+                points[first.min(last)..=last]
+                    .iter()
+                    .all(|(_, value)| *value == 0.0)
+            }
+            Self::D65 { .. } | Self::Blackbody { .. } => false,
+        }
+    }
+
     /// This spectrum times a factor.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {

@@ -6,7 +6,7 @@ use super::small;
 use crate::mosaic::control::{ControlImage, CylinderControl, Steered};
 use crate::mosaic::testing::{sphere, square};
 use crate::mosaic::voronoi::Voronoi;
-use crate::mosaic::{Mosaic, MosaicError, MosaicPlan, SurfacePoint};
+use crate::mosaic::{Mosaic, MosaicPlan, SurfacePoint};
 
 #[test]
 fn no_cell_is_created_in_or_enters_a_blocked_area() {
@@ -32,10 +32,8 @@ fn no_cell_is_created_in_or_enters_a_blocked_area() {
         controls: vec![nowhere],
         ..plan
     };
-    assert_eq!(
-        Mosaic::grow(&surface, &plan, 5).expect_err("no room"),
-        MosaicError::AllBlocked { tries: 1000 }
-    );
+    let refused = Mosaic::grow(&surface, &plan, 5).expect_err("no room");
+    assert!(refused.to_string().contains("1000 throws"), "{refused}");
 }
 
 #[test]

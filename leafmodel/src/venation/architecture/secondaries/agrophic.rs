@@ -12,7 +12,7 @@
 use glam::DVec2;
 
 use super::{Laid, Row, Secondary, Site, one_side};
-use crate::venation::architecture::axis::Axis;
+use crate::venation::architecture::course::Axis;
 use crate::venation::architecture::{Architecture, Attachment, Secondaries};
 
 /// A comb has at least so many veins.

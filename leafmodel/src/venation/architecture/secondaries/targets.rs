@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::{Draft, Site};
 use crate::venation::architecture::ends::{assign, tip_cost};
+use crate::venation::architecture::ground::Ground;
 use crate::venation::architecture::margin::{Margin, Tip};
 
 /// Radians by which a vein to a tooth is turned as gladly as it is moved half a spacing.
@@ -30,12 +31,8 @@ pub(super) fn run_into(
     gap: f64,
     taken: &mut Vec<DVec2>,
 ) {
-    let Site {
-        margin,
-        axes,
-        blade,
-        ..
-    } = site;
+    let Site { ground, axes } = site;
+    let Ground { margin, blade, .. } = ground;
     let axis = &axes[number];
     let length = blade.length();
     let free = |tip: &&Tip| {

@@ -1,17 +1,61 @@
 //! The columns of a table of instances, and the place that a row's numbers give.
 
+use std::ops::Range;
+
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
 use super::Table;
-use super::column_names::{
-    AXES, COUNT, NAMES, POSITION, QUATERNION, ROTATION, SCALE, SHAPE, UNIT_TOLERANCE, limits,
-};
-use super::row_error::RowError;
-use crate::scene::blocks::placement::turn;
+use crate::scene::blocks::camera::COORDINATES_M;
+use crate::scene::blocks::placement::{ANGLES_DEG, SCALES, turn};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::{ENOUGH, QUOTED};
+use leafmodel::document::error::DocumentError;
+use leafmodel::document::limits::Limits;
 use leafmodel::document::nearest::nearest;
 use leafmodel::document::source::escaped;
+use leafmodel::document::values::listed;
+
+/// The columns with the ranges of their numbers, in the order in which a row stores these; shapes are
+/// looked up instead.
+const COLUMNS: [(&str, Limits); COUNT] = [
+    ("x_m", COORDINATES_M),
+    ("y_m", COORDINATES_M),
+    ("z_m", COORDINATES_M),
+    ("rotate_x_deg", ANGLES_DEG),
+    ("rotate_y_deg", ANGLES_DEG),
+    ("rotate_z_deg", ANGLES_DEG),
+    ("quaternion_w", COMPONENTS),
+    ("quaternion_x", COMPONENTS),
+    ("quaternion_y", COMPONENTS),
+    ("quaternion_z", COMPONENTS),
+    ("scale", SCALES),
+    ("scale_x", SCALES),
+    ("scale_y", SCALES),
+    ("scale_z", SCALES),
+    ("shape", SCALES),
+];
+
+/// Number of columns.
+const COUNT: usize = 15;
+const POSITION: usize = 0;
+const ROTATION: usize = 3;
+const QUATERNION: usize = 6;
+const SCALE: usize = 10;
+const AXES: usize = 11;
+/// Index of the column for the object's shape.
+pub(super) const SHAPE: usize = 14;
+
+/// Greatest deviation of a quaternion's length from 1. Quaternions with three digits pass; columns
+/// with other meanings do not.
+const UNIT_TOLERANCE: f64 = 0.01;
+
+/// The range of the components of a quaternion.
+const COMPONENTS: Limits = Limits::closed(-1.0 - UNIT_TOLERANCE, 1.0 + UNIT_TOLERANCE);
+
+/// The name of a column.
+fn name(column: usize) -> &'static str {
+    COLUMNS[column].0
+}
 
 /// The columns of a file, in its order.
 #[derive(Debug)]
@@ -31,6 +75,17 @@ pub(super) struct HeaderError {
     pub(super) help: String,
 }
 
+impl HeaderError {
+    /// The error as it appears in a scene's report.
+    pub(super) fn of_file(self, table: &Table<'_>) -> DocumentError {
+        DocumentError::Header {
+            path: table.name.clone(),
+            problem: self.problem,
+            help: self.help,
+        }
+    }
+}
+
 impl Header {
     /// Looks up the names of a header.
     pub(super) fn of(names: &[&str], shapes: usize) -> Result<Self, Vec<HeaderError>> {
@@ -45,27 +100,27 @@ impl Header {
         // The column of each field, if its name is known.
         let mut found: Vec<Option<usize>> = Vec::new();
         let mut misspelt = Vec::new();
-        for (field, name) in names.iter().take(ENOUGH).enumerate() {
-            let column = NAMES.iter().position(|known| known == name);
+        for (field, written) in names.iter().take(ENOUGH).enumerate() {
+            let column = COLUMNS.iter().position(|(known, _)| known == written);
             let is_second = column.is_some() && found.contains(&column);
             found.push(column);
             if column.is_none() {
-                let meant = nearest(name, NAMES);
+                let meant = nearest(written, COLUMNS.map(|(name, _)| name));
                 misspelt.extend(meant);
-                let problem = format!("names `{}`, which is no column", escaped(name, QUOTED));
+                let problem = format!("names `{}`, which is no column", escaped(written, QUOTED));
                 let help = meant.map_or_else(
-                    || format!("columns: {}", NAMES.join(", ")),
+                    || format!("columns: {}", COLUMNS.map(|(name, _)| name).join(", ")),
                     |meant| format!("did you mean `{meant}`?"),
                 );
                 wrong(Some(field), problem, help);
             }
             if is_second {
-                let problem = format!("names `{name}` twice");
+                let problem = format!("names `{written}` twice");
                 wrong(Some(field), problem, "keep one of the two".to_owned());
             }
         }
         let columns: Vec<usize> = found.iter().copied().flatten().collect();
-        let has = |column: usize| columns.contains(&column) || misspelt.contains(&NAMES[column]);
+        let has = |column: usize| columns.contains(&column) || misspelt.contains(&name(column));
         let mut needed: Vec<usize> = (POSITION..ROTATION).collect();
         for group in [ROTATION..QUATERNION, QUATERNION..SCALE, AXES..SHAPE] {
             // A missing angle is 0; a missing component of a position, a quaternion or of scales
@@ -83,8 +138,8 @@ impl Header {
             } else {
                 String::new()
             };
-            let problem = format!("lacks `{}`{why}", NAMES[column]);
-            wrong(None, problem, format!("add a column `{}`", NAMES[column]));
+            let problem = format!("lacks `{}`{why}", name(column));
+            wrong(None, problem, format!("add a column `{}`", name(column)));
         }
         for (one, other) in [
             (ROTATION..QUATERNION, QUATERNION..SCALE),
@@ -94,7 +149,8 @@ impl Header {
             if let (Some(one), Some(other)) = (first(one), first(other)) {
                 let problem = format!(
                     "names `{}` and `{}`, which exclude each other",
-                    NAMES[one], NAMES[other]
+                    name(one),
+                    name(other)
                 );
                 let field = found.iter().position(|column| *column == Some(other));
                 wrong(field, problem, "keep one of the two".to_owned());
@@ -104,6 +160,50 @@ impl Header {
             Ok(Self { columns })
         } else {
             Err(errors)
+        }
+    }
+}
+
+/// An error of a row.
+#[derive(Debug)]
+pub(super) struct RowError {
+    /// The column that is to be underlined; `None` is the whole row.
+    pub(super) column: Option<usize>,
+    pub(super) error: DocumentError,
+}
+
+/// A row with errors.
+#[derive(Debug)]
+pub(super) struct WrongRow {
+    /// Its line number, or for an array its row number, from 1.
+    pub(super) line: usize,
+    /// The row as a report shows it.
+    pub(super) shown: String,
+    /// Its errors, each with a range of bytes of `shown`.
+    pub(super) errors: Vec<(Range<usize>, DocumentError)>,
+}
+
+impl WrongRow {
+    /// A row whose fields are at these ranges of bytes of `shown`.
+    pub(super) fn new(
+        (line, shown): (usize, String),
+        header: &Header,
+        fields: &[Range<usize>],
+        errors: Vec<RowError>,
+    ) -> Self {
+        let whole = fields[0].start..fields[fields.len() - 1].end;
+        let place = |column: Option<usize>| {
+            let number = header.columns.iter().position(|own| Some(*own) == column);
+            number
+                .and_then(|number| fields.get(number))
+                .unwrap_or(&whole)
+        };
+        let errors = errors.into_iter();
+        let errors = errors.map(|RowError { column, error }| (place(column).clone(), error));
+        Self {
+            line,
+            errors: errors.collect(),
+            shown,
         }
     }
 }
@@ -132,33 +232,81 @@ impl Row {
     }
 
     /// Adds an error of the row.
-    pub(super) fn fail(&mut self, error: RowError) {
-        self.errors.push(error);
+    fn fail(&mut self, column: usize, error: DocumentError) {
+        let column = Some(column);
+        self.errors.push(RowError { column, error });
     }
 
-    /// Sets the number of a column; `field` is its text in the file.
-    pub(super) fn number(&mut self, column: usize, value: f64, field: impl Fn() -> String) {
-        if !value.is_finite() {
-            let field = field();
-            self.fail(RowError::NotFinite { column, field });
-        } else if !limits(column).contain(value) {
-            let field = field();
-            self.fail(RowError::Outside {
+    /// Sets the number of a column, if it is one; `field` is its text in the file.
+    pub(super) fn number(&mut self, column: usize, value: Option<f64>, field: impl Fn() -> String) {
+        let (key, limits) = (name(column).to_owned(), COLUMNS[column].1);
+        match value {
+            None => self.fail(
                 column,
-                field,
-                value,
-            });
+                DocumentError::WrongType {
+                    key,
+                    found: format!("`{}`", field()),
+                    wanted: "a number".to_owned(),
+                    help: format!("write a number within {limits}"),
+                },
+            ),
+            Some(value) if !value.is_finite() => {
+                let value = field();
+                self.fail(column, DocumentError::NotFinite { key, value });
+            }
+            Some(value) if !limits.contain(value) => self.fail(
+                column,
+                DocumentError::OutOfRange {
+                    key,
+                    value: field(),
+                    range: limits.to_string(),
+                    help: limits.advice(value),
+                },
+            ),
+            Some(value) => self.numbers[column] = value,
         }
-        self.numbers[column] = value;
     }
 
-    /// Sets the shape of a row by its number.
+    /// Sets the shape of a row by its number in the object's list.
     pub(super) fn shape(&mut self, table: &Table<'_>, number: f64, field: impl Fn() -> String) {
         let is_one = number >= 0.0 && number < table.shapes.len() as f64 && number.fract() == 0.0;
         if is_one {
             self.shape = number as u32;
+            return;
+        }
+        let (field, known) = (field(), || table.shapes.iter().map(String::as_str));
+        let error = if field.parse::<f64>().is_ok() {
+            DocumentError::OutOfRange {
+                key: name(SHAPE).to_owned(),
+                value: field,
+                range: format!("the whole numbers from 0 to {}", table.shapes.len() - 1),
+                help: format!("the object's shapes are {}", listed(known())),
+            }
         } else {
-            self.fail(RowError::NoSuchShape { field: field() });
+            DocumentError::UnknownName {
+                kind: "shape",
+                nearest: nearest(&field, known().take(ENOUGH)).map(|name| escaped(name, QUOTED)),
+                known: listed(known()),
+                name: field,
+            }
+        };
+        self.fail(SHAPE, error);
+    }
+
+    /// Sets the shape of a row by its name, or by its number.
+    pub(super) fn shape_named(&mut self, table: &Table<'_>, written: &str) {
+        let field = || escaped(written, QUOTED);
+        match table.numbers.get(written) {
+            Some(Some(number)) => self.shape(table, f64::from(*number), field),
+            Some(None) => {
+                let error = DocumentError::Impossible {
+                    key: name(SHAPE).to_owned(),
+                    problem: format!("the object lists `{}` more than once", field()),
+                    help: "write its place in the object's list, counted from 0".to_owned(),
+                };
+                self.fail(SHAPE, error);
+            }
+            None => self.shape(table, written.parse().unwrap_or(f64::NAN), field),
         }
     }
 
@@ -172,7 +320,15 @@ impl Row {
             let length = quaternion.length();
             // A wrong number has already been reported.
             if self.errors.is_empty() && (length - 1.0).abs() > UNIT_TOLERANCE {
-                self.errors.push(RowError::NotUnit { length });
+                let error = DocumentError::Impossible {
+                    key: "quaternion".to_owned(),
+                    problem: format!(
+                        "its length is {length:.4}, that of a rotation is 0.99 to 1.01"
+                    ),
+                    help: "divide its four numbers by that length".to_owned(),
+                };
+                let column = Some(QUATERNION);
+                self.errors.push(RowError { column, error });
             }
             DMat3::from_quat(quaternion.normalize())
         } else {

@@ -10,20 +10,12 @@
 
 mod header;
 
-use rayon::prelude::*;
-
 use self::header::{Array, Field};
-use super::column_names::SHAPE;
-use super::columns::{Header, Row};
-use super::row_error::RowError;
-use super::{Rows, Table, WrongRow};
+use super::columns::{Header, Row, RowError, SHAPE, WrongRow};
+use super::{Rows, Table};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::Context;
-use leafmodel::document::error::DocumentError;
 use leafmodel::document::source::Place;
-
-/// Number of rows that one thread reads at a time.
-const PIECE: usize = 1 << 14;
 
 /// Reads the rows; `None`, after a report, if the file has no readable rows.
 pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) -> Option<Rows> {
@@ -41,12 +33,7 @@ pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) ->
         Ok(header) => header,
         Err(errors) => {
             for error in errors {
-                let error = DocumentError::Header {
-                    path: table.name.clone(),
-                    problem: error.problem,
-                    help: error.help,
-                };
-                cx.error(at, error);
+                cx.error(at, error.of_file(table));
             }
             return None;
         }
@@ -64,28 +51,11 @@ pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) ->
         table.refuse(cx, at, problem, "copy or write the file anew");
         return None;
     }
-    let pieces: Vec<Rows> = bytes[array.start..]
-        .par_chunks(PIECE * array.stride)
-        .enumerate()
-        .map(|(piece, bytes)| read_piece(table, &header, &array, piece * PIECE, bytes))
-        .collect();
-    Some(Rows::joined(pieces))
-}
-
-fn read_piece(
-    table: &Table<'_>,
-    header: &Header,
-    array: &Array,
-    above: usize,
-    bytes: &[u8],
-) -> Rows {
-    let mut rows = Rows::default();
-    for (number, row) in bytes.chunks_exact(array.stride).enumerate() {
-        rows.push(read_row(table, header, array, row), |errors| {
-            wrong_row(header, array, row, above + number + 1, errors)
-        });
-    }
-    rows
+    let rows = bytes[array.start..].chunks_exact(array.stride);
+    let rows: Vec<(usize, &[u8])> = (1..).zip(rows).collect();
+    let read = |row| read_row(table, &header, &array, row);
+    let wrong = |number, row, errors| wrong_row(&header, &array, row, number, errors);
+    Some(Rows::read(&rows, read, wrong))
 }
 
 fn read_row(
@@ -101,7 +71,7 @@ fn read_row(
         if column == SHAPE {
             row.shape(table, value, shown);
         } else {
-            row.number(column, value, shown);
+            row.number(column, Some(value), shown);
         }
     }
     row.place(table)
@@ -132,21 +102,7 @@ fn wrong_row(
         shown += &format!("{} {}", field.name, field.read(bytes));
         spans.push(start..shown.len());
     }
-    let place = |error: &RowError| {
-        let column = error.column()?;
-        let field = header.columns.iter().position(|known| *known == column)?;
-        spans.get(field).cloned()
-    };
-    let whole = 0..shown.len();
-    let errors = errors
-        .into_iter()
-        .map(|error| (place(&error).unwrap_or_else(|| whole.clone()), error))
-        .collect();
-    WrongRow {
-        line: number,
-        shown,
-        errors,
-    }
+    WrongRow::new((number, shown), header, &spans, errors)
 }
 
 #[cfg(test)]
@@ -165,7 +121,7 @@ mod tests {
 
     #[test]
     fn an_array_gives_the_places_that_the_same_rows_give_as_text() {
-        let count = 3 * PIECE / 2;
+        let count = 25_000;
         let literal = format!(
             "{{'descr': [('shape', '<i8'), ('x_m', '<f8'), ('y_m', '<f4'), ('z_m', '<i4'), ('scale', '<f4')], \
              'fortran_order': False, 'shape': ({count},), }}"

@@ -4,17 +4,12 @@
 //! begins a comment; empty lines are ignored. Where anything but commas separates them, commas are
 //! decimal marks.
 
-use rayon::prelude::*;
-
 use super::super::table_file::tell;
-use super::column_names::SHAPE;
-use super::columns::{Header, HeaderError, Row};
-use super::row_error::RowError;
-use super::{Rows, Table, WrongRow};
+use super::columns::{Header, HeaderError, Row, RowError, SHAPE, WrongRow};
+use super::{Rows, Table};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::encoding::decoded;
-use leafmodel::document::error::DocumentError;
 use leafmodel::document::rows::{Decimal, Form, Guess, Separator, number};
 use leafmodel::document::source::{Place, escaped};
 
@@ -22,9 +17,6 @@ use leafmodel::document::source::{Place, escaped};
 const SEPARATORS: [char; 5] = [';', ' ', '\t', '\r', ','];
 /// The same where commas are decimal marks.
 const ALL_BUT_COMMAS: &[char] = &[';', ' ', '\t', '\r'];
-
-/// Size of the piece that one thread reads at a time, bytes.
-const PIECE: usize = 1 << 20;
 
 /// Longest line that may be a row, bytes.
 const LONGEST: usize = 1 << 14;
@@ -72,35 +64,23 @@ pub(super) fn read(
     if !table.bear(cx, at, lines.max(1)) {
         return None;
     }
-    let pieces: Vec<(Rows, usize)> = pieces(rest)
-        .into_par_iter()
-        .map(|piece| read_piece(table, &header, piece, marks))
-        .collect();
-    let mut above = line_number;
-    let mut rows = Vec::with_capacity(pieces.len());
-    for (mut piece, lines) in pieces {
-        piece.wrong.iter_mut().for_each(|row| row.line += above);
-        above += lines;
-        rows.push(piece);
-    }
-    let rows = Rows::joined(rows);
+    let lines = (line_number + 1..).zip(rest.lines());
+    let is_row = |line: &str| line.len() > LONGEST || marks.fields(line).next().is_some();
+    let rows: Vec<(usize, &str)> = lines.filter(|(_, line)| is_row(line)).collect();
+    let read = |line| read_row(table, &header, line, marks);
+    let wrong = |number, line: &str, errors| {
+        let mut shown = line.to_owned();
+        let mut fields: Vec<_> = marks.fields(line).map(|field| span(line, field)).collect();
+        if line.len() > LONGEST {
+            shown = line.chars().take(QUOTED).collect();
+            fields.clear();
+            fields.push(0..shown.len());
+        }
+        WrongRow::new((number, shown), &header, &fields, errors)
+    };
     table
-        .bear(cx, at, rows.places.len() + rows.wrong_count)
-        .then_some(rows)
-}
-
-/// The text in pieces of whole lines.
-fn pieces(text: &str) -> Vec<&str> {
-    let mut pieces = Vec::new();
-    let mut rest = text;
-    while !rest.is_empty() {
-        let bytes = rest.as_bytes();
-        let end = bytes.iter().skip(PIECE).position(|byte| *byte == b'\n');
-        let (piece, below) = rest.split_at(end.map_or(rest.len(), |end| PIECE + end + 1));
-        pieces.push(piece);
-        rest = below;
-    }
-    pieces
+        .bear(cx, at, rows.len())
+        .then(|| Rows::read(&rows, read, wrong))
 }
 
 /// How a table is written.
@@ -182,7 +162,7 @@ fn read_header(
     let errors = if names[0].parse::<f64>().is_ok() {
         vec![HeaderError {
             field: Some(0),
-            problem: format!("is missing: the table begins with `{}`", shown(names[0])),
+            problem: format!("is missing: the table begins with `{}`", escaped(names[0], QUOTED)),
             help: "begin with a line of the columns' names, such as `x_m, y_m, z_m, rotate_z_deg, scale`"
                 .to_owned(),
         }]
@@ -201,33 +181,9 @@ fn read_header(
         let span = error
             .field
             .map_or_else(|| all.clone(), |field| span(line, names[field]));
-        let error = DocumentError::Header {
-            path: table.name.clone(),
-            problem: error.problem,
-            help: error.help,
-        };
-        cx.error(&Place { source, span }, error);
+        cx.error(&Place { source, span }, error.of_file(table));
     }
     None
-}
-
-/// The rows of a piece, with lines counted from 1, and the number of its lines.
-fn read_piece(table: &Table<'_>, header: &Header, piece: &str, marks: Marks) -> (Rows, usize) {
-    let mut rows = Rows::default();
-    let mut lines = 0;
-    for line in piece.lines() {
-        lines += 1;
-        if line.len() > LONGEST {
-            let bytes = line.len();
-            let error = RowError::TooLong { bytes };
-            rows.push(Err(vec![error]), |errors| too_long(line, lines, errors));
-        } else if marks.fields(line).next().is_some() {
-            rows.push(read_row(table, header, line, marks), |errors| {
-                wrong_row(header, line, lines, errors, marks)
-            });
-        }
-    }
-    (rows, lines)
 }
 
 fn read_row(
@@ -236,6 +192,14 @@ fn read_row(
     line: &str,
     marks: Marks,
 ) -> Result<InstancePlace, Vec<RowError>> {
+    if line.len() > LONGEST {
+        let problem = format!("has a line of {} bytes", line.len());
+        return Err(vec![bad_row(
+            table,
+            problem,
+            "end each row with a line feed",
+        )]);
+    }
     let mut row = Row::of(header);
     let mut found = 0;
     for field in marks.fields(line) {
@@ -244,85 +208,32 @@ fn read_row(
             continue;
         };
         if column == SHAPE {
-            read_shape(table, &mut row, field);
-            continue;
-        }
-        match marks.number(field) {
-            Some(value) => row.number(column, value, || shown(field)),
-            None => row.fail(RowError::NotANumber {
-                column,
-                field: shown(field),
-            }),
+            row.shape_named(table, field);
+        } else {
+            row.number(column, marks.number(field), || escaped(field, QUOTED));
         }
     }
     let wanted = header.columns.len();
     if found != wanted {
         // Fields cannot be assigned to columns.
-        return Err(vec![RowError::Fields { found, wanted }]);
+        let problem = format!("has {found} fields in this row, its header names {wanted}");
+        let help = "give every row a field for each column, with decimal points";
+        return Err(vec![bad_row(table, problem, help)]);
     }
     row.place(table)
 }
 
-/// A shape by its name, or by its place in the object's list.
-fn read_shape(table: &Table<'_>, row: &mut Row, field: &str) {
-    match table.numbers.get(field) {
-        Some(Some(number)) => row.shape(table, f64::from(*number), || shown(field)),
-        Some(None) => row.fail(RowError::AmbiguousShape {
-            field: shown(field),
-        }),
-        None => {
-            let number = field.parse().unwrap_or(f64::NAN);
-            row.shape(table, number, || shown(field));
-        }
-    }
-}
-
-fn shown(field: &str) -> String {
-    escaped(field, QUOTED)
+/// An error of a row as a whole.
+fn bad_row(table: &Table<'_>, problem: String, help: &str) -> RowError {
+    let error = table.bad_file(problem, help);
+    let column = None;
+    RowError { column, error }
 }
 
 /// The range of bytes of a piece within its line.
 fn span(line: &str, piece: &str) -> std::ops::Range<usize> {
     let start = piece.as_ptr() as usize - line.as_ptr() as usize;
     start..start + piece.len()
-}
-
-/// A wrong row of which only the beginning is shown.
-fn too_long(line: &str, number: usize, errors: Vec<RowError>) -> WrongRow {
-    let shown: String = line.chars().take(QUOTED).collect();
-    let whole = 0..shown.len();
-    WrongRow {
-        line: number,
-        errors: errors
-            .into_iter()
-            .map(|error| (whole.clone(), error))
-            .collect(),
-        shown,
-    }
-}
-
-fn wrong_row(
-    header: &Header,
-    line: &str,
-    number: usize,
-    errors: Vec<RowError>,
-    marks: Marks,
-) -> WrongRow {
-    let all: Vec<&str> = marks.fields(line).collect();
-    let whole = span(line, all[0]).start..span(line, all[all.len() - 1]).end;
-    let place = |error: &RowError| {
-        let column = error.column()?;
-        let field = header.columns.iter().position(|known| *known == column)?;
-        all.get(field).map(|field| span(line, field))
-    };
-    WrongRow {
-        line: number,
-        shown: line.to_owned(),
-        errors: errors
-            .into_iter()
-            .map(|error| (place(&error).unwrap_or_else(|| whole.clone()), error))
-            .collect(),
-    }
 }
 
 #[cfg(test)]
@@ -435,18 +346,18 @@ mod tests {
     }
 
     #[test]
-    fn rows_keep_their_order_and_their_lines_over_pieces() {
+    fn rows_keep_their_order_and_their_lines_on_many_threads() {
         let mut text = "x_m y_m z_m shape\n".to_owned();
-        let count = 3 * PIECE / 40;
+        let count = 80_000;
         for row in 0..count {
             text += &format!("{row:>30} 0 0 a # row {row:>8}\n");
         }
         let places = read_all(&text).expect("good rows");
-        assert!(text.len() > 3 * PIECE && places.len() == count);
+        assert_eq!(places.len(), count);
         for (row, place) in places.iter().enumerate() {
             assert_eq!(place.translation.x, row as f64);
         }
-        // Line numbers include the header and continue across pieces.
+        // Line numbers include the header.
         let broken = text.replace(&format!("{:>30} 0 0 a", count - 2), "x 0 0 a");
         let errors = read_all(&broken).expect_err("one is no number");
         assert_eq!(errors.len(), 1);
@@ -454,7 +365,7 @@ mod tests {
     }
 
     #[test]
-    fn of_many_wrong_rows_the_first_are_told_and_the_others_counted() {
+    fn of_many_wrong_rows_the_first_are_reported_and_the_others_counted() {
         let text = "x_m y_m z_m shape\n".to_owned() + &"nan 0 inf d\n".repeat(100_000);
         let errors = read_all(&text).expect_err("all are wrong");
         assert_eq!(errors.len(), 20 * 3 + 1);

@@ -9,6 +9,8 @@ use super::{ImportError, MOST_CORNERS, RawMesh};
 use header::{Element, Header, Kind};
 use values::Values;
 
+use crate::geometry::stored_number::StoredNumber;
+
 /// The meaning of a property of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
@@ -65,12 +67,9 @@ fn vertices(element: &Element, values: &mut Values, raw: &mut RawMesh) -> Result
     for _ in 0..element.count {
         let (mut position, mut normal, mut uv) = (Vec3::ZERO, Vec3::ZERO, Vec2::ZERO);
         for (property, role) in element.properties.iter().zip(&roles) {
-            let scalar = match property.kind {
-                Kind::Scalar(scalar) => scalar,
-                Kind::List { count, item } => {
-                    values.list(count, item, |_| Ok(()))?;
-                    continue;
-                }
+            let Kind::Scalar(scalar) = property.kind else {
+                values.pass_over(property.kind)?;
+                continue;
             };
             let value = values.scalar(scalar)? as f32;
             match *role {
@@ -94,11 +93,6 @@ fn vertices(element: &Element, values: &mut Values, raw: &mut RawMesh) -> Result
     Ok(())
 }
 
-/// Whether a property of a face lists its corners.
-fn is_corners(name: &str) -> bool {
-    name == "vertex_indices" || name == "vertex_index"
-}
-
 /// The vertex of a corner. f64 holds every integer type of the format exactly.
 fn vertex(value: f64) -> Result<u32, String> {
     if value < 0.0 || value > f64::from(u32::MAX) || value.fract() != 0.0 {
@@ -109,74 +103,68 @@ fn vertex(value: f64) -> Result<u32, String> {
 
 /// Strips of triangles: each corner makes one with the two before it, until -1 ends a strip.
 fn strips(element: &Element, values: &mut Values, raw: &mut RawMesh) -> Result<(), ImportError> {
-    let lists = element.properties.iter();
-    if !lists.map(|property| &*property.name).any(is_corners) {
-        return Err(values.wrong("the tristrips have no vertex_indices".to_owned()));
-    }
-    for _ in 0..element.count {
-        for property in &element.properties {
-            match property.kind {
-                Kind::List { count, item } if is_corners(&property.name) => {
-                    let mut last = Vec::with_capacity(3);
-                    let mut is_turned = false;
-                    values.list(count, item, |value| {
-                        if value == -1.0 {
-                            last.clear();
-                            is_turned = false;
-                            return Ok(());
-                        }
-                        last.push(vertex(value)?);
-                        if let [a, b, c] = last[..] {
-                            // Every other triangle has its corners the other way round.
-                            let corners = if is_turned { [b, a, c] } else { [a, b, c] };
-                            raw.push_face(&corners);
-                            is_turned = !is_turned;
-                            last.remove(0);
-                        }
-                        Ok(())
-                    })?;
-                }
-                Kind::List { count, item } => values.list(count, item, |_| Ok(()))?,
-                Kind::Scalar(scalar) => {
-                    values.scalar(scalar)?;
-                }
+    each_list(element, values, |values, count, item| {
+        let mut last = Vec::with_capacity(3);
+        let mut is_turned = false;
+        values.list(count, item, |value| {
+            if value == -1.0 {
+                last.clear();
+                is_turned = false;
+                return Ok(());
             }
-        }
-        values.end_of_item()?;
-    }
-    Ok(())
+            last.push(vertex(value)?);
+            if let [a, b, c] = last[..] {
+                // Every other triangle has its corners the other way round.
+                let corners = if is_turned { [b, a, c] } else { [a, b, c] };
+                raw.push_face(&corners);
+                is_turned = !is_turned;
+                last.remove(0);
+            }
+            Ok(())
+        })
+    })
 }
 
 fn faces(element: &Element, values: &mut Values, raw: &mut RawMesh) -> Result<(), ImportError> {
-    let lists = element.properties.iter();
-    if !lists.map(|property| &*property.name).any(is_corners) {
-        return Err(values.wrong("the faces have no vertex_indices".to_owned()));
-    }
     let mut corners = Vec::new();
+    each_list(element, values, |values, count, item| {
+        corners.clear();
+        values.list(count, item, |value| {
+            if corners.len() == MOST_CORNERS {
+                return Err(format!("the face has more than {MOST_CORNERS} corners"));
+            }
+            corners.push(vertex(value)?);
+            Ok(())
+        })?;
+        if corners.len() < 3 {
+            return Err(values.wrong(format!(
+                "the face has {} corners; it takes 3",
+                corners.len()
+            )));
+        }
+        raw.push_face(&corners);
+        Ok(())
+    })
+}
+
+/// Reads an element whose items have lists of corners, each with the types of its length and items.
+fn each_list(
+    element: &Element,
+    values: &mut Values,
+    mut read: impl FnMut(&mut Values, StoredNumber, StoredNumber) -> Result<(), ImportError>,
+) -> Result<(), ImportError> {
+    let plural = element.name.strip_suffix('s').unwrap_or(&element.name);
+    let is_corners = |name: &str| ["vertex_indices", "vertex_index"].contains(&name);
+    if !(element.properties.iter()).any(|property| is_corners(&property.name)) {
+        return Err(values.wrong(format!("the {plural}s have no vertex_indices")));
+    }
     for _ in 0..element.count {
         for property in &element.properties {
             match property.kind {
                 Kind::List { count, item } if is_corners(&property.name) => {
-                    corners.clear();
-                    values.list(count, item, |value| {
-                        if corners.len() == MOST_CORNERS {
-                            return Err(format!("the face has more than {MOST_CORNERS} corners"));
-                        }
-                        corners.push(vertex(value)?);
-                        Ok(())
-                    })?;
-                    if corners.len() < 3 {
-                        return Err(values.wrong(format!(
-                            "the face has {} corners; it takes 3",
-                            corners.len()
-                        )));
-                    }
-                    raw.push_face(&corners);
+                    read(values, count, item)?;
                 }
-                Kind::List { count, item } => values.list(count, item, |_| Ok(()))?,
-                Kind::Scalar(scalar) => {
-                    values.scalar(scalar)?;
-                }
+                Kind::List { .. } | Kind::Scalar(_) => values.pass_over(property.kind)?,
             }
         }
         values.end_of_item()?;
@@ -190,12 +178,7 @@ fn pass_over(element: &Element, values: &mut Values) -> Result<(), ImportError> 
     }
     for _ in 0..element.count {
         for property in &element.properties {
-            match property.kind {
-                Kind::List { count, item } => values.list(count, item, |_| Ok(()))?,
-                Kind::Scalar(scalar) => {
-                    values.scalar(scalar)?;
-                }
-            }
+            values.pass_over(property.kind)?;
         }
         values.end_of_item()?;
     }

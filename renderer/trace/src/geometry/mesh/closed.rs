@@ -68,15 +68,18 @@ fn welded(positions: &[Vec3], triangles: &[[u32; 3]], origin: Vec3, cell: f32) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::shapes::{Drop, Lump, cuboid, disc, sphere};
+    use crate::geometry::shapes::{Cuboid, Disc, Drop, Lump, Sphere};
 
     #[test]
     fn spheres_boxes_and_pebbles_enclose_bodies_and_drops_and_sheets_do_not() {
         for segments in [8, 64, 97, 333] {
-            let ball = sphere(1e-3, segments).expect("a mesh");
+            let radius = 1e-3;
+            let ball = Sphere { radius, segments }.mesh().expect("a mesh");
             assert!(ball.encloses_a_body(), "{segments}");
         }
-        assert!(cuboid([2.0, 1e-3, 0.7]).expect("a mesh").encloses_a_body());
+        let size = [2.0, 1e-3, 0.7];
+        let cuboid = Cuboid { size }.mesh().expect("a mesh");
+        assert!(cuboid.encloses_a_body());
         let lump = Lump {
             radius: 0.004,
             angularity: 0.5,
@@ -91,12 +94,14 @@ mod tests {
             segments: 64,
         };
         assert!(!drop.mesh().expect("a mesh").encloses_a_body());
-        assert!(!disc(1.0, 24).expect("a mesh").encloses_a_body());
+        let disc = Disc::default().mesh().expect("a mesh");
+        assert!(!disc.encloses_a_body());
     }
 
     #[test]
     fn a_hole_or_normals_to_the_inside_are_found() {
-        let ball = sphere(1.0, 32).expect("a mesh");
+        let (radius, segments) = (1.0, 32);
+        let ball = Sphere { radius, segments }.mesh().expect("a mesh");
         let mut triangles = ball.triangles().to_vec();
         let turned = triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
         triangles.swap_remove(100);

@@ -1,55 +1,36 @@
 //! Drops on a surface: they prefer its furrows, and those that touch run together.
 
-use std::collections::HashMap;
-
 use glam::{DMat3, DVec3};
+
+use super::cells::Cells;
 
 /// Least number of triangles around a place by which its hollowness is told.
 const LEAST_AROUND: usize = 3;
 
-/// A surface by cells, so that what is near a place is found fast.
+/// The triangles of a surface by their middles.
 #[derive(Clone, Debug)]
-pub(super) struct Nearby<'a> {
-    triangles: &'a [[DVec3; 3]],
-    cell: f64,
-    cells: HashMap<[i64; 3], Vec<u32>>,
-}
+pub(super) struct Nearby<'a>(Cells<&'a [DVec3; 3]>);
 
 impl<'a> Nearby<'a> {
-    /// The triangles by their middles, in cells of an edge, m.
-    pub(super) fn of(triangles: &'a [[DVec3; 3]], cell: f64) -> Self {
-        let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
-        for (number, [a, b, c]) in triangles.iter().enumerate() {
-            let cell = cell_of((*a + *b + *c) / 3.0, cell);
-            cells.entry(cell).or_default().push(number as u32);
+    /// The triangles, in cells of an edge, m.
+    pub(super) fn of(triangles: &'a [[DVec3; 3]], edge: f64) -> Self {
+        let mut cells = Cells::of_edge(edge);
+        for triangle in triangles {
+            let [a, b, c] = *triangle;
+            cells.add((a + b + c) / 3.0, triangle);
         }
-        Self {
-            triangles,
-            cell,
-            cells,
-        }
-    }
-
-    /// Triangles whose middles lie in the cells around a place.
-    fn around(&self, place: DVec3) -> impl Iterator<Item = &'a [DVec3; 3]> + '_ {
-        let [x, y, z] = cell_of(place, self.cell);
-        let near = |n: i64| n.saturating_sub(1)..=n.saturating_add(1);
-        near(x)
-            .flat_map(move |x| near(y).flat_map(move |y| near(z).map(move |z| [x, y, z])))
-            .filter_map(|cell| self.cells.get(&cell))
-            .flatten()
-            .map(|number| &self.triangles[*number as usize])
+        Self(cells)
     }
 
     /// How far the surface within a cell's edge of a place rises above the plane there, m: above 0 in
     /// a furrow, below on a ridge, 0 where it is even.
     pub(super) fn hollowness(&self, place: DVec3, normal: DVec3) -> f64 {
         let (mut sum, mut area, mut count) = (0.0, 0.0, 0);
-        for [a, b, c] in self.around(place) {
+        for [a, b, c] in self.0.around(place) {
             let middle = (*a + *b + *c) / 3.0 - place;
             let own = (*b - *a).cross(*c - *a);
             // The other face of a thin body is no side of the furrow.
-            if middle.length() > self.cell || own.dot(normal) <= 0.0 {
+            if middle.length() > self.0.edge() || own.dot(normal) <= 0.0 {
                 continue;
             }
             sum += own.length() * middle.dot(normal);
@@ -65,7 +46,8 @@ impl<'a> Nearby<'a> {
     /// The point of the surface that is nearest to a place, and the normal there; none if there is
     /// nothing near.
     fn nearest(&self, place: DVec3) -> Option<(DVec3, DVec3)> {
-        self.around(place)
+        self.0
+            .around(place)
             .map(|triangle| {
                 let point = nearest_on(triangle, place);
                 let [a, b, c] = *triangle;
@@ -77,10 +59,6 @@ impl<'a> Nearby<'a> {
             })
             .map(|(point, normal)| (point, normal.normalize_or(DVec3::Z)))
     }
-}
-
-fn cell_of(place: DVec3, cell: f64) -> [i64; 3] {
-    (place / cell).to_array().map(|x| x.floor() as i64)
 }
 
 /// The point of a triangle that is nearest to a place (Ericson 2005, 5.1.5).
@@ -146,48 +124,38 @@ pub(super) fn merged(
         if widest <= 0.0 {
             return drops;
         }
-        let cell = 2.0 * widest;
-        let mut cells: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
+        let mut cells: Cells<usize> = Cells::of_edge(2.0 * widest);
         let mut gone = vec![false; drops.len()];
         let mut some = false;
         for number in 0..drops.len() {
-            let [x, y, z] = cell_of(drops[number].point, cell);
+            let place = drops[number].point;
             let mut own = number;
-            for dx in -1..=1 {
-                for dy in -1..=1 {
-                    for dz in -1..=1 {
-                        let Some(others) = cells.get(&[x + dx, y + dy, z + dz]) else {
-                            continue;
-                        };
-                        for &other in others {
-                            if gone[other] || other == own {
-                                continue;
-                            }
-                            let (a, b) = (&drops[own], &drops[other]);
-                            let touch = radius(a) + radius(b);
-                            if a.point.distance(b.point) < touch {
-                                let (large, small) = if radius(a) >= radius(b) {
-                                    (own, other)
-                                } else {
-                                    (other, own)
-                                };
-                                drops[large] = united(
-                                    &drops[large],
-                                    &drops[small],
-                                    [radius(&drops[large]), radius(&drops[small])],
-                                    surface,
-                                    &turned,
-                                );
-                                gone[small] = true;
-                                some = true;
-                                own = large;
-                            }
-                        }
-                    }
+            for &other in cells.around(place) {
+                if gone[other] || other == own {
+                    continue;
+                }
+                let (a, b) = (&drops[own], &drops[other]);
+                let touch = radius(a) + radius(b);
+                if a.point.distance(b.point) < touch {
+                    let (large, small) = if radius(a) >= radius(b) {
+                        (own, other)
+                    } else {
+                        (other, own)
+                    };
+                    drops[large] = united(
+                        &drops[large],
+                        &drops[small],
+                        [radius(&drops[large]), radius(&drops[small])],
+                        surface,
+                        &turned,
+                    );
+                    gone[small] = true;
+                    some = true;
+                    own = large;
                 }
             }
             if own == number {
-                cells.entry([x, y, z]).or_default().push(number);
+                cells.add(place, number);
             }
         }
         let mut kept = gone.iter().map(|gone| !gone);

@@ -63,7 +63,7 @@ pub enum ScatterError {
         rests: bool,
     },
     /// There is too little room, for the reason that occurred most often.
-    #[error("there is room for {found} of {wanted}: {}", .why.told())]
+    #[error("there is room for {found} of {wanted}: {}", .why.remedy())]
     NoRoom {
         /// How many have a place.
         found: usize,
@@ -120,7 +120,7 @@ impl NoPlace {
     pub(super) const ALL: [Self; 3] = [Self::Near, Self::Edge, Self::Steep];
 
     /// What to do about it.
-    fn told(self) -> &'static str {
+    fn remedy(self) -> &'static str {
         match self {
             Self::Near => "the others would be nearer than `least_distance_mm`",
             Self::Edge => "the others would tip over an edge of what they lie on",

@@ -1,9 +1,8 @@
 //! Random points of a surface, and the distances between them.
 
-use std::collections::HashMap;
-
 use glam::{DAffine3, DVec2, DVec3};
 
+use super::cells::Cells;
 use super::place::ScatterError;
 use crate::geometry::TriangleMesh;
 
@@ -182,42 +181,25 @@ impl Measure {
     }
 }
 
-/// Points that keep a distance from one another.
+/// Points that keep a distance from one another, if it is above 0.
 #[derive(Clone, Debug)]
-pub(super) struct Spaced {
-    least: f64,
-    points: HashMap<[i64; 3], Vec<DVec3>>,
-}
+pub(super) struct Spaced(Cells<DVec3>);
 
 impl Spaced {
     pub(super) fn new(least: f64) -> Self {
-        Self {
-            least,
-            points: HashMap::new(),
-        }
+        Self(Cells::of_edge(least))
     }
 
     /// Whether a point is far enough from all that are taken.
     pub(super) fn has_room(&self, point: DVec3) -> bool {
-        if self.least <= 0.0 {
-            return true;
-        }
-        let [x, y, z] = self.cell(point);
-        let around = |n: i64| n.saturating_sub(1)..=n.saturating_add(1);
-        let near =
-            around(x).flat_map(|x| around(y).flat_map(move |y| around(z).map(move |z| [x, y, z])));
-        let mut near = near.filter_map(|cell| self.points.get(&cell)).flatten();
-        near.all(|other| other.distance(point) >= self.least)
+        let least = self.0.edge();
+        let mut near = self.0.around(point);
+        least <= 0.0 || near.all(|other| other.distance(point) >= least)
     }
 
     pub(super) fn take(&mut self, point: DVec3) {
-        if self.least > 0.0 {
-            let cell = self.cell(point);
-            self.points.entry(cell).or_default().push(point);
+        if self.0.edge() > 0.0 {
+            self.0.add(point, point);
         }
-    }
-
-    fn cell(&self, point: DVec3) -> [i64; 3] {
-        (point / self.least).to_array().map(|x| x.floor() as i64)
     }
 }

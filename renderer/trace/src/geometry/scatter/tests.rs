@@ -3,6 +3,18 @@ use glam::Vec3;
 use super::*;
 use crate::geometry::TriangleMesh;
 
+impl Scatter {
+    /// The places of any number of things.
+    fn places(
+        &self,
+        ground: &Ground,
+        others: impl IntoIterator<Item = [DVec3; 3]>,
+        bodies: &[Body],
+    ) -> Result<Vec<Strewn>, ScatterError> {
+        self.places_up_to(ground, others, bodies, Most::UNBOUND, &|_| {})
+    }
+}
+
 /// A sheet of `n` × `n` squares over the square of side `side` around the origin.
 fn sheet(side: f64, n: u32, height: impl Fn(f64, f64) -> f64) -> TriangleMesh {
     let at = |i: u32| side * (f64::from(i) / f64::from(n) - 0.5);

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use document::declared::{Declared, Defaults};
 use glam::DVec3;
 
 use super::globe::globe;
@@ -9,14 +10,22 @@ use crate::geometry::{MeshError, TriangleMesh};
 
 /// A cap of a sphere, as a drop is that is too small for gravity to flatten it (water: below some
 /// 2 mm). It stands on z = 0 around the origin and has no base: what it stands on is its lower side.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, Defaults)]
 pub struct Drop {
-    /// Its volume, m³.
+    /// Volume; up to 1 or 2 µl gravity hardly flattens a drop of water, above it does, and the shape
+    /// is no longer that of water.
+    ///
+    /// In m³.
+    #[key("volume_ul", required, nano(1e-6..=1000.0), default = 1e-9)]
     pub volume: f64,
-    /// Angle in the water between the surface and the drop's side, rad: small where water spreads,
-    /// over π/2 on leaves that repel it.
+    /// Angle in the water between the leaf and the drop's side: some 40 to 90 on most leaves, over 140
+    /// on those that repel it.
+    ///
+    /// Radians.
+    #[key("contact_angle_deg", degrees(5.0..=170.0), default = 1.5)]
     pub contact_angle: f64,
     /// Triangles around it, half as many from rim to top.
+    #[key("segments", 8..=4096, default = 64)]
     pub segments: u32,
 }
 
@@ -26,15 +35,10 @@ const SKIRT: f64 = 0.03;
 
 impl Drop {
     /// Radius of the sphere, m: V = π R³ (2 + cos θ) (1 − cos θ)² / 3.
-    pub fn radius(&self) -> f64 {
+    pub(super) fn radius(&self) -> f64 {
         let cos = libm::cos(self.contact_angle);
         let of_unit = PI / 3.0 * (2.0 + cos) * (1.0 - cos) * (1.0 - cos);
         libm::cbrt(self.volume / of_unit)
-    }
-
-    /// Radius of the disc on which it stands, m.
-    pub fn foot_radius(&self) -> f64 {
-        self.radius() * libm::sin(self.contact_angle)
     }
 
     /// Its surface, normals to the outside.

@@ -1,19 +1,33 @@
 //! Surfaces over a lattice of longitude and latitude.
 
+use document::declared::{Declared, Defaults};
 use glam::{DVec3, Vec2, Vec3};
 
 use crate::geometry::{MeshError, TriangleMesh};
 
-/// A sphere of longitude–latitude triangles whose vertices lie on it, with its exact normals.
-///
-/// # Errors
-///
-/// [`MeshError`] if the radius is too large or too small for single precision.
-pub fn sphere(radius: f64, segments: u32) -> Result<TriangleMesh, MeshError> {
-    globe(segments, std::f64::consts::PI, |direction| {
-        let normal = direction.as_vec3();
-        (normal * radius as f32, normal)
-    })
+/// A sphere around the origin, of longitude–latitude triangles whose vertices lie on it.
+#[derive(Clone, Debug, Declared, Defaults)]
+pub struct Sphere {
+    /// Its radius.
+    #[key("radius_m", required, above(0.0, 1e6), default = 1.0)]
+    pub radius: f64,
+    /// Triangles around the equator, half as many from pole to pole.
+    #[key("segments", 8..=4096, default = 64)]
+    pub segments: u32,
+}
+
+impl Sphere {
+    /// Its surface, with its exact normals.
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError`] if the radius is too large or too small for single precision.
+    pub fn mesh(&self) -> Result<TriangleMesh, MeshError> {
+        globe(self.segments, std::f64::consts::PI, |direction| {
+            let normal = direction.as_vec3();
+            (normal * self.radius as f32, normal)
+        })
+    }
 }
 
 /// A surface that starts `open` radians from the upper pole and ends there; with π it starts at the

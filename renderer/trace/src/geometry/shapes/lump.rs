@@ -1,5 +1,6 @@
 //! Pebbles and crumbs.
 
+use document::declared::{Declared, Defaults};
 use glam::DVec3;
 
 use super::globe::globe;
@@ -8,17 +9,24 @@ use crate::sampling::mixer::random;
 
 /// A stone between rounded and broken: the surface Σ (max(nᵢ · p, 0) / hᵢ)ᵏ = 1 for planes with
 /// random normals nᵢ and distances hᵢ. A large k leaves flat faces and sharp edges.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, Defaults)]
 pub struct Lump {
-    /// Greatest distance of its planes from the middle, m.
+    /// Greatest distance of its faces from the middle.
+    #[key("radius_m", required, above(0.0, 1e6), default = 0.001)]
     pub radius: f64,
     /// 0 is rounded by water, 1 freshly broken.
+    #[key("angularity", 0.0..=1.0, default = 0.4)]
     pub angularity: f64,
-    /// How unlike the distances of its planes are: hᵢ from 1 − this to 1 of the radius.
+    /// How much nearer some of its faces are than others.
+    ///
+    /// hᵢ is from 1 − this to 1 of the radius.
+    #[key("irregularity", 0.0..=0.8, default = 0.4)]
     pub irregularity: f64,
     /// Triangles around it, half as many from pole to pole.
+    #[key("segments", 8..=4096, default = 32)]
     pub segments: u32,
     /// Same numbers and seed, same lump.
+    #[key("seed")]
     pub seed: u64,
 }
 

@@ -2,37 +2,53 @@
 
 use std::f64::consts::TAU;
 
+use document::declared::{Declared, Defaults, Words};
+use document::keys::Keys;
+use document::limits::Limits;
+use document::value_kind::Numbers;
 use glam::{DVec2, DVec3, Vec2};
 use rayon::prelude::*;
 
+use super::terrain::MOST_SQUARES;
 use crate::geometry::{MeshError, TriangleMesh};
 use crate::sampling::mixer::random;
 
 /// A wall in stretcher bond that stands on z = 0 and faces +x: bricks with rounded and chipped edges
 /// whose faces lie at x = 0 or near, and the mortar between them, which lies back.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, Defaults)]
+#[key(last = Self::check)]
 pub struct Masonry {
-    /// Extent along y, around the origin, and height, m.
+    /// Extent along y.
+    #[key("width_m", required, above(0.0, 1e6), at = 0, default = [1.0; 2])]
+    /// Height.
+    #[key("height_m", required, above(0.0, 1e6), at = 1)]
     pub size: [f64; 2],
     /// Which part of it the mesh is.
+    #[key("part", word, default = MasonryPart::Bricks)]
     pub part: MasonryPart,
-    /// Length and height of a brick, m.
+    /// Length and height of a brick.
+    #[key("brick_mm", milli(30.0..=1e4), default = [0.215, 0.065])]
     pub brick: [f64; 2],
-    /// Width of the joints, m.
+    /// Width of the joints.
+    #[key("joint_mm", milli(0.0..=1000.0), default = 0.01)]
     pub joint: f64,
-    /// How far the mortar lies behind the faces of bricks, m.
+    /// How far the mortar lies behind the faces of the bricks.
+    #[key("recess_mm", milli(0.0..=1000.0), default = 0.006)]
     pub recess: f64,
-    /// How uneven it is, 0 to 1.
+    /// How uneven, displaced and chipped bricks are: 0 new, 1 old.
+    #[key("roughness", 0.0..=1.0, default = 0.6)]
     pub roughness: f64,
     /// Of bricks that are sorted at random into so many kinds, only those of one kind: its number,
     /// and how many there are.
+    #[key(with = Self::kinds, default = [1; 2])]
     pub kind: [u32; 2],
     /// Same numbers and seed, same wall.
+    #[key("seed")]
     pub seed: u64,
 }
 
 /// The parts of a wall, which are made of different materials.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Words)]
 pub enum MasonryPart {
     /// Its bricks.
     Bricks,
@@ -70,6 +86,33 @@ struct Patch {
 }
 
 impl Masonry {
+    /// The key `kind`.
+    fn kinds(&mut self, keys: &mut Keys<'_>) {
+        let about = "Bricks are sorted at random into so many kinds; these are the ones of one kind: \
+            its number from 1, and how many kinds there are.";
+        let mut kind = self.kind.map(f64::from);
+        let limits = Numbers::<2>(Limits::closed(1.0, 16.0));
+        keys.key("kind", &mut kind, limits, about);
+        if kind[0] > kind[1] || kind.iter().any(|number| number.fract() != 0.0) {
+            let problem = format!("there is no kind {} of {}", kind[0], kind[1]);
+            let help = "write two whole numbers, such as `[1, 2]`, the first at most the second";
+            keys.refuse(&["kind"], problem, help);
+        }
+        self.kind = kind.map(|number| number as u32);
+    }
+
+    /// Refuses more squares than fit in memory.
+    fn check(&mut self, keys: &mut Keys<'_>) {
+        if self.squares() > MOST_SQUARES {
+            let problem = format!(
+                "the wall would have {:.0} million squares, more than {:.0}",
+                1e-6 * self.squares(),
+                1e-6 * MOST_SQUARES
+            );
+            keys.refuse(&["width_m"], problem, "make it smaller");
+        }
+    }
+
     /// About the number of squares of its mesh.
     pub fn squares(&self) -> f64 {
         let [width, height] = self.size;

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use document::declared::{Declared, Defaults};
+use document::keys::Keys;
 use glam::{DVec2, Vec2, Vec3};
 use rayon::prelude::*;
 
@@ -11,20 +13,34 @@ use crate::sampling::mixer::random;
 /// A rectangle around the origin whose height is a sum of waves with random directions and phases.
 /// A wave of length λ has an amplitude ∝ λ^H, with H the roughness exponent (Hurst): a profile of
 /// natural soil has some 0.5 to 0.9.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, Declared, Defaults)]
+#[key(last = Self::check)]
 pub struct Terrain {
-    /// Extent along x and y, m.
+    /// Extent along x.
+    #[key("width_m", required, above(0.0, 1e6), at = 0, default = [1.0; 2])]
+    /// Extent along y.
+    #[key("height_m", required, above(0.0, 1e6), at = 1)]
     pub size: [f64; 2],
-    /// Standard deviation of the height, m, of a ground that is large beside the longest wave.
+    /// Standard deviation of the height.
+    ///
+    /// In m, of a ground that is large compared with the longest wave.
+    #[key("deviation_mm", milli(0.0..=1e6), default = 0.002)]
     pub deviation: f64,
-    /// Longest and shortest wave, m.
+    /// Longest and shortest wave of which the ground is made.
+    #[key("waves_mm", milli(1e-3..=1e9), default = [0.2, 0.004])]
     pub waves: [f64; 2],
-    /// H, 0 to 1.
+    /// Roughness exponent: 0 is as rough at all sizes, 1 smooth in the small.
+    ///
+    /// It is H.
+    #[key("exponent", 0.0..=1.0, default = 0.7)]
     pub exponent: f64,
     /// Same numbers and seed, same ground.
+    #[key("seed")]
     pub seed: u64,
 }
 
+/// Most squares of a shape whose size decides how many it has.
+pub(super) const MOST_SQUARES: f64 = 8e6;
 /// Number of waves.
 const WAVES: u64 = 192;
 /// Vertices along the shortest wave.
@@ -39,6 +55,31 @@ struct Wave {
 }
 
 impl Terrain {
+    /// Refuses waves in the wrong order, and more squares than fit in memory.
+    fn check(&mut self, keys: &mut Keys<'_>) {
+        if self.waves[0] < self.waves[1] {
+            let problem = "the longest wave is shorter than the shortest".to_owned();
+            keys.refuse(&["waves_mm"], problem, "write the longer one first");
+        }
+        let [across, along] = self.squares();
+        if across * along > MOST_SQUARES {
+            let problem = format!(
+                "the ground would have {:.0} million squares, more than {:.0}",
+                1e-6 * across * along,
+                1e-6 * MOST_SQUARES
+            );
+            // Rounded up to two digits, so that what is reported fits.
+            let fits_mm = 1e3 * self.waves[1] * (across * along / MOST_SQUARES).sqrt();
+            let decimals = 1.0 - libm::log10(fits_mm).floor();
+            let digit = libm::exp10(-decimals);
+            let (fits_mm, decimals) =
+                ((fits_mm / digit).ceil() * digit, decimals.max(0.0) as usize);
+            let help =
+                format!("make it smaller, or its shortest wave {fits_mm:.decimals$} mm or longer");
+            keys.refuse(&["waves_mm"], problem, &help);
+        }
+    }
+
     /// Number of squares along x and y.
     pub fn squares(&self) -> [f64; 2] {
         let edge = self.waves[1] / PER_WAVE;

@@ -25,7 +25,7 @@ fn a_drop_has_its_volume_and_its_contact_angle() {
         };
         let mesh = drop.mesh().expect("a drop");
         // The skirt below the foot is a short cylinder nearly, of 3 % of the foot's radius.
-        let foot = drop.foot_radius();
+        let foot = drop.radius() * libm::sin(drop.contact_angle);
         let ratio = volume(&mesh) / 2e-9;
         let skirt = 0.03 * PI * foot.powi(3) / 2e-9;
         assert!(

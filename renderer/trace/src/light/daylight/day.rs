@@ -23,9 +23,9 @@ pub struct Daylight {
 /// Elevations of the sun for which the models hold, degrees.
 pub const ELEVATIONS_DEG: [f64; 2] = [1.0, 90.0];
 
-impl Daylight {
-    /// A usual day on open land with the sun half-way up, in the direction +x.
-    pub fn usual() -> Self {
+impl Default for Daylight {
+    /// A clear day on open land with the sun half-way up, in the direction +x.
+    fn default() -> Self {
         Self {
             elevation: std::f64::consts::FRAC_PI_4,
             azimuth: 0.0,
@@ -34,7 +34,9 @@ impl Daylight {
             forest: None,
         }
     }
+}
 
+impl Daylight {
     /// Unit vector towards the middle of the sun.
     pub fn towards_sun(&self) -> DVec3 {
         let (up, along) = libm::sincos(self.elevation);

@@ -6,38 +6,39 @@
 //! 1.3366 in 2-4, 118.3 in 2-11, the mixed gases instead of ozone in 3-8, and the air mass of
 //! \[kasten1989\].
 
+use document::declared::{Declared, Defaults};
+
 use crate::spectrum::table::parse_shipped;
 
 /// What lies between the sun and the ground.
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// The default is a clear day in the middle latitudes: the water vapour and ozone of the standard atmosphere
+/// of the United States (1976), at the mean distance of the sun.
+#[derive(Clone, Copy, Debug, Declared, Defaults, PartialEq)]
 pub struct Atmosphere {
-    /// Turbidity of \[preetham1999\]: extinction of the hazy sky over that of pure air.
+    /// Extinction by the hazy air over that by pure air: 2 very clear, 3 clear, 6 warm and moist, 10 hazy.
+    ///
+    /// Turbidity of \[preetham1999\].
+    #[key("turbidity", 2.0..=10.0, default = 3.0)]
     pub turbidity: f64,
-    /// Ozone, cm at standard pressure and temperature.
+    /// Ozone above the place, as the height of the pure gas (100 Dobson units are 0.1).
+    ///
+    /// Centimetres at standard pressure and temperature.
+    #[key("ozone_atm_cm", 0.0..=1.0, default = 0.344)]
     pub ozone_cm: f64,
-    /// Precipitable water, cm.
+    /// Water vapour above the place, as the height of the liquid.
+    #[key("water_vapour_cm", 0.0..=10.0, default = 1.42)]
     pub water_cm: f64,
-    /// Pressure at the ground, Pa.
-    pub pressure_pa: f64,
-    /// Share of light that the ground reflects.
+    /// Air pressure at the place: 1013 at the sea, 795 at 2000 m.
+    #[key("pressure_hpa", 300.0..=1100.0, default = 1013.25)]
+    pub pressure_hpa: f64,
+    /// Share of light that the ground far around reflects. It brightens the sky, and the directions below the
+    /// horizon shine with it.
+    #[key("ground_albedo", 0.0..=1.0, default = 0.2)]
     pub ground_albedo: f64,
     /// Irradiance outside of the air over that at the mean distance of the sun.
+    #[key(default = 1.0)]
     pub distance_factor: f64,
-}
-
-impl Default for Atmosphere {
-    /// A clear day in the middle latitudes: the water vapour and ozone of the standard atmosphere
-    /// of the United States (1976), at the mean distance of the sun.
-    fn default() -> Self {
-        Self {
-            turbidity: 3.0,
-            ozone_cm: 0.344,
-            water_cm: 1.42,
-            pressure_pa: 101_325.0,
-            ground_albedo: 0.2,
-            distance_factor: 1.0,
-        }
-    }
 }
 
 /// Spectral irradiance at one wavelength, W m⁻² nm⁻¹.
@@ -99,7 +100,7 @@ impl Atmosphere {
     ) -> Transmittances {
         let [_, water, ozone, mixed] = *row;
         let um2 = nm * nm * 1e-6;
-        let pressure_mass = mass * self.pressure_pa / STANDARD_PA;
+        let pressure_mass = mass * (self.pressure_hpa * 100.0) / STANDARD_PA;
         let depth = self.aerosol_depth() * libm::pow(nm / 500.0, -ALPHA);
         let log = libm::log(nm / 400.0);
         let scattered = SCATTERED_AT_400_NM * libm::exp(-SCATTERED_FALLS * log * log);
@@ -186,7 +187,7 @@ mod tests {
                     turbidity: case[1],
                     ozone_cm: case[2],
                     water_cm: case[3],
-                    pressure_pa: case[4],
+                    pressure_hpa: case[4] / 100.0,
                     ground_albedo: case[5],
                     distance_factor: distance_factor(case[6] as u32),
                 };

@@ -19,7 +19,7 @@ fn day(elevation_deg: f64, turbidity: f64, ground_albedo: f64) -> Daylight {
             ground_albedo,
             ..Atmosphere::default()
         },
-        ..Daylight::usual()
+        ..Daylight::default()
     }
 }
 

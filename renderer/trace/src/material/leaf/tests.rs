@@ -19,15 +19,15 @@ fn palettes() -> [Pigments; 6] {
     std::array::from_fn(|i| match i {
         0 => Pigments::default(),
         1 => Pigments {
-            chlorophyll: ChlorophyllMix::bands(3.1),
+            chlorophyll: Some(ChlorophyllMix::bands(3.1)),
             ..Pigments::default()
         },
         _ => Pigments {
-            anthocyanins: AnthocyaninMix::Aglycones {
+            anthocyanins: Some(AnthocyaninMix {
                 shares: [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
                 shift_nm: 5.0 * i as f64,
                 blue_fraction: 0.0,
-            },
+            }),
             ..Pigments::default()
         },
     })
@@ -148,11 +148,11 @@ fn whether_a_coat_reflects_too_much_is_a_matter_of_the_palette() {
         leaf.coat_exceeds_reflectance([655.0, 660.0]).is_some()
     };
     let blue = Pigments {
-        anthocyanins: AnthocyaninMix::Aglycones {
+        anthocyanins: Some(AnthocyaninMix {
             shares: [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
             shift_nm: 0.0,
             blue_fraction: 1.0,
-        },
+        }),
         ..Pigments::default()
     };
     assert!(!exceeds(&Pigments::default()));

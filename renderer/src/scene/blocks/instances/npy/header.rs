@@ -5,61 +5,30 @@
 
 use leafmodel::document::context::{ENOUGH, QUOTED};
 use leafmodel::document::source::escaped;
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::geometry::stored_number::StoredNumber;
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 /// Longest header that is read, bytes.
 const MOST_HEADER: usize = 1 << 16;
 
-/// How a field's numbers are stored, little-endian.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Number {
-    F32,
-    F64,
-    Signed(usize),
-    Unsigned(usize),
-}
-
-impl Number {
-    /// The type with a `NumPy` code such as `<f4`.
-    fn of(code: &str) -> Option<Self> {
-        let (order, rest) = code.split_at_checked(1)?;
-        let (kind, size) = rest.split_at_checked(1)?;
-        let size: usize = size.parse().ok()?;
-        // A single byte has no byte order.
-        if order != "<" && !(order == "|" && size == 1) {
-            return None;
-        }
-        match (kind, size) {
-            ("f", 4) => Some(Self::F32),
-            ("f", 8) => Some(Self::F64),
-            ("i", 1 | 2 | 4 | 8) => Some(Self::Signed(size)),
-            ("u", 1 | 2 | 4 | 8) => Some(Self::Unsigned(size)),
-            _ => None,
-        }
+/// The type with a `NumPy` code such as `<f4`.
+fn number_of(code: &str) -> Option<StoredNumber> {
+    let (order, rest) = code.split_at_checked(1)?;
+    let (kind, size) = rest.split_at_checked(1)?;
+    let size: usize = size.parse().ok()?;
+    // A single byte has no byte order.
+    if order != "<" && !(order == "|" && size == 1) {
+        return None;
     }
-
-    pub(super) fn size(self) -> usize {
-        match self {
-            Self::F32 => 4,
-            Self::F64 => 8,
-            Self::Signed(size) | Self::Unsigned(size) => size,
-        }
-    }
-
-    /// The number in [`Number::size`] bytes.
-    pub(super) fn read(self, bytes: &[u8]) -> f64 {
-        let mut word = [0; 8];
-        word[..bytes.len()].copy_from_slice(bytes);
-        let unsigned = u64::from_le_bytes(word);
-        match self {
-            Self::F32 => f64::from(f32::from_bits(unsigned as u32)),
-            Self::F64 => f64::from_bits(unsigned),
-            Self::Signed(size) => {
-                let unused = 64 - 8 * size as u32;
-                ((unsigned << unused).cast_signed() >> unused) as f64
-            }
-            Self::Unsigned(_) => unsigned as f64,
-        }
+    match (kind, size) {
+        ("f", 4) => Some(StoredNumber::F32),
+        ("f", 8) => Some(StoredNumber::F64),
+        ("i", 1 | 2 | 4 | 8) => Some(StoredNumber::Signed(size)),
+        ("u", 1 | 2 | 4 | 8) => Some(StoredNumber::Unsigned(size)),
+        _ => None,
     }
 }
 
@@ -68,7 +37,7 @@ impl Number {
 pub(super) struct Field {
     pub(super) name: String,
     pub(super) start: usize,
-    pub(super) number: Number,
+    pub(super) number: StoredNumber,
 }
 
 /// The contents of a header.
@@ -101,7 +70,7 @@ impl Array {
             }
         };
         let (length, rest) = rest.split_at_checked(width).ok_or_else(cut)?;
-        let length = Number::Unsigned(width).read(length) as usize;
+        let length = StoredNumber::Unsigned(width).read(length) as usize;
         if length > MOST_HEADER {
             return Err(format!(
                 "has a header of {length} bytes, more than the {MOST_HEADER} that are read"
@@ -116,27 +85,30 @@ impl Array {
 
     /// Reads the dictionary in the header.
     fn from_literal(text: &str, start: usize) -> Result<Self, String> {
-        let mut words = Words { rest: text };
-        let (mut fields, mut rows) = (None, None);
-        words.take("{")?;
-        while !words.take_if("}") {
-            let key = words.text()?;
-            words.take(":")?;
-            match key {
-                "descr" => fields = Some(words.fields()?),
-                // With one dimension both orders are the same.
-                "fortran_order" if words.take_if("False") => {}
-                "fortran_order" => words.take("True")?,
-                "shape" => rows = Some(words.one_length()?),
-                other => return Err(format!("has a header with `{}`", escaped(other, QUOTED))),
-            }
-            if !words.take_if(",") {
-                words.take("}")?;
-                break;
+        let dictionary: Dictionary = serde_json::from_str(&as_json(text))
+            .map_err(|error| format!("has a header that is not understood: {error}"))?;
+        let Value::Array(described) = &dictionary.descr else {
+            let code = dictionary.descr.as_str().unwrap_or_default();
+            return Err(format!(
+                "is an array of `{}`, without names for its columns",
+                escaped(code, QUOTED)
+            ));
+        };
+        let [length] = &dictionary.shape[..] else {
+            return Err("has another number of dimensions than 1".to_owned());
+        };
+        let rows = length.as_u64().and_then(|rows| rows.try_into().ok());
+        let rows = rows.ok_or_else(|| {
+            let shown = escaped(&length.to_string(), QUOTED);
+            format!("has a header with `{shown}` where a length is wanted")
+        })?;
+        let (mut fields, mut stride) = (Vec::new(), 0);
+        for described in described {
+            stride += Field::add(described, stride, &mut fields)?;
+            if fields.len() > ENOUGH {
+                return Err(format!("has more than {ENOUGH} fields"));
             }
         }
-        let (fields, stride) = fields.ok_or("has a header without `descr`")?;
-        let rows = rows.ok_or("has a header without `shape`")?;
         Ok(Self {
             fields,
             stride,
@@ -146,120 +118,73 @@ impl Array {
     }
 }
 
-/// The unread rest of a Python literal.
-struct Words<'t> {
-    rest: &'t str,
+impl Field {
+    /// Adds `["x_m", "<f4"]`, which begins at `start`, and returns its bytes.
+    fn add(described: &Value, start: usize, fields: &mut Vec<Self>) -> Result<usize, String> {
+        let shown = |text: &str| escaped(text, QUOTED);
+        let parts = described.as_array().map_or(&[][..], Vec::as_slice);
+        let (name, code) = match parts {
+            [Value::String(name), Value::String(code)] => (name, code),
+            [Value::String(name), Value::String(_), _] => {
+                return Err(format!("has a field `{}` of several numbers", shown(name)));
+            }
+            _ => {
+                return Err(format!(
+                    "has a header with `{}` where a name and a type are wanted",
+                    shown(&described.to_string())
+                ));
+            }
+        };
+        // Padding in aligned rows has no name: '|V4' is four bytes of padding.
+        let gap = code
+            .strip_prefix("|V")
+            .and_then(|size| size.parse::<u16>().ok());
+        if let (Some(gap), true) = (gap, name.is_empty()) {
+            return Ok(gap.into());
+        }
+        let number = number_of(code).ok_or_else(|| {
+            format!(
+                "has a field `{}` of type `{}`; read are little-endian floats of 4 or 8 bytes and integers",
+                shown(name),
+                shown(code)
+            )
+        })?;
+        fields.push(Self {
+            name: name.clone(),
+            start,
+            number,
+        });
+        Ok(number.size())
+    }
 }
 
-impl<'t> Words<'t> {
-    fn take_if(&mut self, word: &str) -> bool {
-        self.rest = self.rest.trim_start();
-        let rest = self.rest.strip_prefix(word);
-        self.rest = rest.unwrap_or(self.rest);
-        rest.is_some()
-    }
+/// The dictionary of a header.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Dictionary {
+    descr: Value,
+    /// With one dimension both orders are the same.
+    #[serde(rename = "fortran_order")]
+    _fortran_order: bool,
+    shape: Vec<Value>,
+}
 
-    fn take(&mut self, word: &str) -> Result<(), String> {
-        if self.take_if(word) {
-            return Ok(());
+/// A Python literal as `np.save` writes it, in JSON, which has other quotes and brackets and no commas
+/// before brackets.
+fn as_json(literal: &str) -> String {
+    let literal = literal
+        .replace('\'', "\"")
+        .replace('(', "[")
+        .replace(')', "]");
+    let literal = literal.replace("False", "false").replace("True", "true");
+    let mut json = String::new();
+    for (number, piece) in literal.split(',').enumerate() {
+        if number > 0 && !piece.trim_start().starts_with([']', '}']) {
+            json.push(',');
         }
-        let found = escaped(self.rest, QUOTED);
-        Err(format!(
-            "has a header with `{found}` where `{word}` is wanted"
-        ))
+        json += piece;
     }
-
-    /// Text in quotes.
-    fn text(&mut self) -> Result<&'t str, String> {
-        let quote = if self.take_if("\"") {
-            '"'
-        } else {
-            self.take("'")?;
-            '\''
-        };
-        let end = self.rest.split_once(quote);
-        let (text, rest) = end.ok_or("has a header with an open quote")?;
-        self.rest = rest;
-        Ok(text)
-    }
-
-    fn integer(&mut self) -> Result<usize, String> {
-        self.rest = self.rest.trim_start();
-        let digits = self.rest.bytes().take_while(u8::is_ascii_digit).count();
-        let (number, rest) = self.rest.split_at(digits);
-        self.rest = rest;
-        let shown = escaped(rest, QUOTED);
-        let number = number.parse();
-        number.map_err(|_| format!("has a header with `{shown}` where a length is wanted"))
-    }
-
-    /// The shape of an array of one dimension: `(3,)`.
-    fn one_length(&mut self) -> Result<usize, String> {
-        let several = "has another number of dimensions than 1".to_owned();
-        self.take("(")?;
-        if self.take_if(")") {
-            return Err(several);
-        }
-        let length = self.integer()?;
-        self.take(",")?;
-        if self.take_if(")") {
-            Ok(length)
-        } else {
-            Err(several)
-        }
-    }
-
-    /// `[('x_m', '<f4'), …]`, and the number of bytes of a row.
-    fn fields(&mut self) -> Result<(Vec<Field>, usize), String> {
-        if !self.take_if("[") {
-            return Err(format!(
-                "is an array of `{}`, without names for its columns",
-                escaped(self.text()?, QUOTED)
-            ));
-        }
-        let mut fields = Vec::new();
-        let mut start = 0;
-        while !self.take_if("]") {
-            self.take("(")?;
-            let name = self.text()?;
-            self.take(",")?;
-            let code = self.text()?;
-            if self.take_if(",") {
-                let name = escaped(name, QUOTED);
-                return Err(format!("has a field `{name}` of several numbers"));
-            }
-            self.take(")")?;
-            // Padding in aligned rows has no name: '|V4' is four bytes of padding.
-            let gap = code
-                .strip_prefix("|V")
-                .and_then(|size| size.parse::<u16>().ok());
-            if let (Some(gap), true) = (gap, name.is_empty()) {
-                start += usize::from(gap);
-            } else {
-                let number = Number::of(code).ok_or_else(|| {
-                    format!(
-                        "has a field `{}` of type `{}`; read are little-endian floats of 4 or 8 bytes and integers",
-                        escaped(name, QUOTED),
-                        escaped(code, QUOTED)
-                    )
-                })?;
-                fields.push(Field {
-                    name: name.to_owned(),
-                    start,
-                    number,
-                });
-                start += number.size();
-            }
-            if fields.len() > ENOUGH {
-                return Err(format!("has more than {ENOUGH} fields"));
-            }
-            if !self.take_if(",") {
-                self.take("]")?;
-                break;
-            }
-        }
-        Ok((fields, start))
-    }
+    json
 }
 
 #[cfg(test)]
@@ -288,7 +213,7 @@ mod tests {
 
     #[test]
     fn numbers_are_those_that_were_stored() {
-        let read = |code: &str, bytes: &[u8]| Number::of(code).expect(code).read(bytes);
+        let read = |code: &str, bytes: &[u8]| number_of(code).expect(code).read(bytes);
         assert_eq!(read("<f4", &1.5_f32.to_le_bytes()), 1.5);
         assert_eq!(read("<f8", &(-0.1_f64).to_le_bytes()), -0.1);
         assert_eq!(read("<i2", &(-3_i16).to_le_bytes()), -3.0);
@@ -314,7 +239,7 @@ mod tests {
             ("[('x_m', '<f4')]", "()", "dimensions"),
             ("[('x_m', '<f4')]", "(99999999999999999999,)", "length"),
             ("[('x_m', [('y_m', '<f4')])]", "(3,)", "wanted"),
-            ("[('x_m", "(3,)", "where"),
+            ("[('x_m", "(3,)", "not understood"),
         ] {
             let problem = of(fields, shape);
             assert!(problem.contains(said), "{fields} {shape}: {problem}");

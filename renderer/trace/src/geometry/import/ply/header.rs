@@ -2,6 +2,7 @@
 
 use super::super::ImportError;
 use crate::geometry::import::shown;
+use crate::geometry::stored_number::StoredNumber;
 
 /// Longest header that is read, bytes; useful headers are much shorter.
 const LONGEST: usize = 1 << 16;
@@ -14,40 +15,29 @@ pub(super) enum Format {
     BigEndian,
 }
 
-/// The type of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Scalar {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
-
-impl Scalar {
-    fn named(name: &str) -> Option<Self> {
-        Some(match name {
-            "char" | "int8" => Self::I8,
-            "uchar" | "uint8" => Self::U8,
-            "short" | "int16" => Self::I16,
-            "ushort" | "uint16" => Self::U16,
-            "int" | "int32" => Self::I32,
-            "uint" | "uint32" => Self::U32,
-            "float" | "float32" => Self::F32,
-            "double" | "float64" => Self::F64,
-            _ => return None,
-        })
-    }
+/// The type of a number by its name.
+fn scalar_named(name: &str) -> Option<StoredNumber> {
+    Some(match name {
+        "char" | "int8" => StoredNumber::Signed(1),
+        "uchar" | "uint8" => StoredNumber::Unsigned(1),
+        "short" | "int16" => StoredNumber::Signed(2),
+        "ushort" | "uint16" => StoredNumber::Unsigned(2),
+        "int" | "int32" => StoredNumber::Signed(4),
+        "uint" | "uint32" => StoredNumber::Unsigned(4),
+        "float" | "float32" => StoredNumber::F32,
+        "double" | "float64" => StoredNumber::F64,
+        _ => return None,
+    })
 }
 
 /// A number, or a list of numbers preceded by its length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    Scalar(Scalar),
-    List { count: Scalar, item: Scalar },
+    Scalar(StoredNumber),
+    List {
+        count: StoredNumber,
+        item: StoredNumber,
+    },
 }
 
 #[derive(Debug)]
@@ -129,13 +119,13 @@ impl Header {
                         .last_mut()
                         .ok_or_else(|| wrong("a property before any element".to_owned()))?;
                     let scalar = |name: &str| {
-                        Scalar::named(name)
+                        scalar_named(name)
                             .ok_or_else(|| wrong(format!("the type {} is not known", shown(name))))
                     };
                     let (kind, name) = match *words {
                         ["list", count, item, name] => {
                             let count = scalar(count)?;
-                            if matches!(count, Scalar::F32 | Scalar::F64) {
+                            if matches!(count, StoredNumber::F32 | StoredNumber::F64) {
                                 return Err(wrong(
                                     "the length of a list is not an integer type".to_owned(),
                                 ));

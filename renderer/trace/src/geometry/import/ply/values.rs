@@ -1,8 +1,9 @@
 //! The values of a PLY file, one after the other.
 
 use super::super::ImportError;
-use super::header::{Body, Format, Scalar};
+use super::header::{Body, Format, Kind};
 use crate::geometry::import::shown;
+use crate::geometry::stored_number::StoredNumber;
 
 /// A place in the values of a file.
 #[derive(Debug)]
@@ -38,7 +39,7 @@ impl<'a> Values<'a> {
     }
 
     /// The next number.
-    pub(super) fn scalar(&mut self, scalar: Scalar) -> Result<f64, ImportError> {
+    pub(super) fn scalar(&mut self, scalar: StoredNumber) -> Result<f64, ImportError> {
         if self.format == Format::Ascii {
             let word = self.word()?;
             let number: f64 = word
@@ -46,23 +47,33 @@ impl<'a> Values<'a> {
                 .map_err(|_| self.wrong(format!("{} is not a number", shown(word))))?;
             return Ok(number);
         }
-        Ok(match scalar {
-            Scalar::I8 => f64::from(self.number(i8::from_le_bytes, i8::from_be_bytes)?),
-            Scalar::U8 => f64::from(self.number(u8::from_le_bytes, u8::from_be_bytes)?),
-            Scalar::I16 => f64::from(self.number(i16::from_le_bytes, i16::from_be_bytes)?),
-            Scalar::U16 => f64::from(self.number(u16::from_le_bytes, u16::from_be_bytes)?),
-            Scalar::I32 => f64::from(self.number(i32::from_le_bytes, i32::from_be_bytes)?),
-            Scalar::U32 => f64::from(self.number(u32::from_le_bytes, u32::from_be_bytes)?),
-            Scalar::F32 => f64::from(self.number(f32::from_le_bytes, f32::from_be_bytes)?),
-            Scalar::F64 => self.number(f64::from_le_bytes, f64::from_be_bytes)?,
-        })
+        let size = scalar.size();
+        let Some(bytes) = self.bytes[self.byte..].get(..size) else {
+            return Err(self.wrong("the file ends before all that its header claims".to_owned()));
+        };
+        self.byte += size;
+        let mut word = [0; 8];
+        let word = &mut word[..size];
+        word.copy_from_slice(bytes);
+        if self.format == Format::BigEndian {
+            word.reverse();
+        }
+        Ok(scalar.read(word))
+    }
+
+    /// Reads a value that nobody asks for.
+    pub(super) fn pass_over(&mut self, kind: Kind) -> Result<(), ImportError> {
+        match kind {
+            Kind::Scalar(scalar) => self.scalar(scalar).map(|_| ()),
+            Kind::List { count, item } => self.list(count, item, |_| Ok(())),
+        }
     }
 
     /// Reads a list: its length, then its numbers, each of which is passed to `item`.
     pub(super) fn list(
         &mut self,
-        count: Scalar,
-        kind: Scalar,
+        count: StoredNumber,
+        kind: StoredNumber,
         mut item: impl FnMut(f64) -> Result<(), String>,
     ) -> Result<(), ImportError> {
         let length = self.scalar(count)?;
@@ -127,21 +138,5 @@ impl<'a> Values<'a> {
             std::str::from_utf8(&rest[..length]).map_err(|_| self.wrong("not text".to_owned()))?;
         self.byte += length;
         Ok(word)
-    }
-
-    fn number<T, const N: usize>(
-        &mut self,
-        little: impl Fn([u8; N]) -> T,
-        big: impl Fn([u8; N]) -> T,
-    ) -> Result<T, ImportError> {
-        let Some(&bytes) = self.bytes[self.byte..].first_chunk::<N>() else {
-            return Err(self.wrong("the file ends before all that its header claims".to_owned()));
-        };
-        self.byte += N;
-        Ok(if self.format == Format::BigEndian {
-            big(bytes)
-        } else {
-            little(bytes)
-        })
     }
 }

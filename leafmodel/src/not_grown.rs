@@ -1,0 +1,81 @@
+//! Why something does not grow.
+
+use std::fmt::Display;
+
+use thiserror::Error;
+
+use crate::document::keys::Keys;
+use crate::document::ranges::RangeError;
+
+/// Why a plan is not carried out.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("{problem}")]
+pub struct NotGrown {
+    problem: String,
+    /// Paths of keys: the first that a file has is to be changed, or else the last.
+    paths: Vec<String>,
+    help: &'static str,
+}
+
+impl NotGrown {
+    /// An error with this message.
+    pub fn because(problem: impl Display) -> Self {
+        Self {
+            problem: problem.to_string(),
+            paths: Vec::new(),
+            help: "",
+        }
+    }
+
+    /// The same as an error of a part of the plan.
+    pub fn of(part: &str, problem: impl Display) -> Self {
+        Self::because(format!("{part}: {problem}"))
+    }
+
+    /// The same with the key to change, by its path in the block of the plan, and what to write
+    /// instead. Of several keys, the first that a file has is meant.
+    #[must_use]
+    pub(crate) fn mend(mut self, path: &str, help: &'static str) -> Self {
+        self.paths.push(path.to_owned());
+        Self { help, ..self }
+    }
+
+    /// The same as an error of the block around.
+    #[must_use]
+    pub(crate) fn within(mut self, block: &str) -> Self {
+        for path in &mut self.paths {
+            *path = format!("{block}.{path}");
+        }
+        self
+    }
+
+    /// What to write instead.
+    pub(crate) fn help(&self) -> &'static str {
+        self.help
+    }
+
+    /// Reports the error at the key to change, if one is known.
+    pub(crate) fn report(&self, keys: &Keys<'_>) {
+        let mut paths = self.paths.iter().map(|path| path.split('.').collect());
+        let there = paths.find(|path: &Vec<&str>| keys.has_path(path));
+        let last = self.paths.last().map(|path| path.split('.').collect());
+        if let Some(path) = there.or(last) {
+            keys.refuse(&path, self.problem.clone(), self.help);
+        }
+    }
+}
+
+impl From<RangeError> for NotGrown {
+    fn from(error: RangeError) -> Self {
+        Self::because(error)
+    }
+}
+
+/// A [`NotGrown`] with a message written as for `format!`.
+macro_rules! not_grown {
+    ($($message:tt)*) => {
+        $crate::not_grown::NotGrown::because(format!($($message)*))
+    };
+}
+
+pub(crate) use not_grown;

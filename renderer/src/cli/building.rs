@@ -1,0 +1,45 @@
+//! From a scene file to the world that a command works with.
+
+use std::path::Path;
+
+use crate::cli::arguments::SceneArguments;
+use crate::cli::progress::Patience;
+use crate::cli::terminal::{Failure, warn};
+use crate::scene::description::Description;
+use crate::scene::load::{self, Loaded};
+use crate::scene::plant_cache::PlantCache;
+use crate::scene::world::{BuildOptions, World};
+use crate::spectrum::WavelengthSampler;
+
+/// Loads a scene and prints its warnings.
+pub(super) fn load_scene(arguments: &SceneArguments) -> Result<Loaded, Failure> {
+    let loaded = load::load(&arguments.scene, &arguments.overrides)?;
+    warn(&loaded.warnings);
+    Ok(loaded)
+}
+
+/// What the command line says about building a world.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Building<'a> {
+    /// The memory that is allowed, GiB.
+    pub(super) memory: Option<f64>,
+    /// The folder in which grown plants are kept.
+    pub(super) cache: Option<&'a Path>,
+    /// The wavelengths, if they are others than those of the film.
+    pub(super) wavelengths: Option<&'a WavelengthSampler>,
+}
+
+impl Building<'_> {
+    /// Builds a scene's world; lines on stderr report how far it is.
+    pub(super) fn world(self, scene: &Description) -> Result<World, Failure> {
+        let cache = self.cache.map(PlantCache::open);
+        let cache = cache.transpose().map_err(Failure::bad)?;
+        let patience = Patience::building(scene.leaves.len(), self.memory);
+        let options = BuildOptions {
+            cache: cache.as_ref(),
+            wavelengths: self.wavelengths,
+            ..patience.options()
+        };
+        World::build_with(scene, &options).map_err(Failure::bad)
+    }
+}

@@ -1,0 +1,41 @@
+//! The boundary of a transparent medium.
+
+use leafmodel::document::declared::{Declared, Defaults};
+use leafmodel::document::keys::Keys;
+use leafmodel::document::names::NameIn;
+
+use crate::bsdf::dielectric::Dielectric;
+
+/// A smooth or rough (GGX) boundary of a transparent medium.
+#[derive(Clone, Debug, Declared, Defaults)]
+#[key(last = Self::refuse_roughness)]
+pub struct Boundary {
+    /// Refractive index inside over outside; the normal points outside. 1 is no boundary: light goes straight on.
+    #[key("eta", 0.25..=4.0, default = 1.5)]
+    pub eta: f64,
+    /// GGX roughness; 0 is smooth.
+    #[key("roughness", 0.0..=1.0)]
+    pub roughness: f64,
+    /// What fills the body, whose mesh is closed; left out, it is clear.
+    ///
+    /// Index into [`Description::media`](crate::scene::description::Description::media).
+    #[key("interior", NameIn("media", "the name of a medium"))]
+    pub interior: Option<usize>,
+}
+
+impl Boundary {
+    pub(super) fn built(&self) -> Dielectric {
+        Dielectric {
+            eta: self.eta as f32,
+            alpha: self.roughness as f32,
+        }
+    }
+
+    fn refuse_roughness(&mut self, keys: &mut Keys<'_>) {
+        if keys.is_sound() && self.eta == 1.0 && self.roughness > 0.0 {
+            let problem = "a boundary with the same index on both sides cannot be rough".to_owned();
+            let help = "leave `roughness` out, or write another `eta`";
+            keys.refuse(&["roughness"], problem, help);
+        }
+    }
+}
