@@ -107,7 +107,7 @@ fn rectangle_and_triangle() -> [Patch; 2] {
 }
 
 #[test]
-fn points_of_a_patch_are_drawn_with_the_density_that_is_told_of_them() {
+fn points_of_a_patch_are_drawn_with_the_density_that_is_reported_for_them() {
     let normals = [Vec3::Z, Vec3::X, Vec3::new(0.6, -0.5, 0.2).normalize()];
     let level = sidak(0.01, 2 * RECEIVERS.len() * normals.len());
     for patch in rectangle_and_triangle() {

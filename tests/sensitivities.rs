@@ -153,7 +153,7 @@ fn light_of_d65_is_as_bright_and_as_white_by_a_camera_as_by_the_eye() {
 }
 
 #[test]
-fn a_picture_tells_which_observer_made_it() {
+fn a_picture_names_its_observer() {
     let told = |sensitivities: &str| {
         let (picture, observer) = seen(&room(sensitivities, "1"), Path::new("."));
         match picture.attribute("lamina:observer") {

@@ -65,7 +65,7 @@ fn parallel_rays_show_a_height_or_the_sensors_at_a_magnification() {
 }
 
 #[test]
-fn a_shape_without_an_opening_is_told() {
+fn a_shape_without_an_opening_is_reported() {
     let text = text_of("minimal.toml")
         .replace("vertical_fov_deg = 40", "vertical_fov_deg = 40\nblades = 5");
     let warnings = accept(&text, "camera.toml", &[]).warnings;

@@ -104,7 +104,7 @@ fn an_outline_may_be_drawn_or_traced_and_toothed() {
 }
 
 #[test]
-fn what_a_drawing_leaves_open_is_told() {
+fn what_a_drawing_leaves_open_is_reported() {
     let warnings = |id: &str| {
         let text = text_of("broken/outline_svg_parts.toml").replace("id = \"ring\"", id);
         let loaded = accept(&text, "drawn.toml", &[]);

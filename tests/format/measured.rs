@@ -33,7 +33,7 @@ fn points(spectrum: &Spectrum) -> &[(f64, f64)] {
 }
 
 #[test]
-fn both_faces_of_a_table_in_percent_and_micrometres_are_read_and_told() {
+fn both_faces_of_a_table_in_percent_and_micrometres_are_read_and_reported() {
     let (tissue, faces, said) = leaf("{ file = \"leaves.csv\", leaf = \"oak\" }");
     let LeafTissue::Measured {
         reflectance,

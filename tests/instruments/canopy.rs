@@ -132,7 +132,7 @@ fn a_gap_is_seen_as_often_as_leaves_at_random_leave_it() {
 
 #[test]
 #[ignore = "deep: 50,000 discs, 35 s of a processor"]
-fn what_stands_outside_the_box_is_not_in_it() {
+fn what_lies_outside_the_box_is_not_in_it() {
     // Discs over 4 by 4 m, and a box of a quarter of them: as many leave a gap, but for the
     // deviation of places, as above.
     let text = |within: &str| {

@@ -233,7 +233,7 @@ fn figures_of_media_have_the_same_bits_on_any_number_of_threads() {
 }
 
 #[test]
-fn layers_of_a_canopy_cannot_tell_what_a_medium_absorbs() {
+fn layers_of_a_canopy_do_not_resolve_what_a_medium_absorbs() {
     let anchor = Anchor {
         index: 1.0,
         albedo: 0.5,

@@ -241,7 +241,7 @@ fn deep(contents: &str, keys: &str) -> String {
 }
 
 #[test]
-fn depth_tells_all_that_a_layered_leaf_absorbs() {
+fn a_depth_profile_holds_all_that_a_layered_leaf_absorbs() {
     let text = deep(
         CONTENTS,
         "wavelengths_nm = [450, 680, 800]\nincidence_deg = [0, 60]\ndiffuse = true\n\

@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn a_golden_too_noisy_to_tell_one_percent_does_not_pass() {
+    fn a_golden_too_noisy_to_show_one_percent_does_not_pass() {
         let same = picture(&[("mean.0", 0.5)]);
         for (deviation, passes) in [(0.002, true), (0.2, false)] {
             let golden = picture(&[("mean.0", 0.5), ("deviation.0", deviation)]);

@@ -52,7 +52,7 @@ impl<'a> Block<'a> {
     }
 
     /// Notes that the block is of another kind than the preset's, of which nothing is taken then.
-    pub fn starts_anew(&mut self, preset: &str, kind: &str) {
+    pub fn starts_over(&mut self, preset: &str, kind: &str) {
         self.anew = Some(format!(
             "; the preset `{preset}` has the kind `{kind}` here, of which nothing is taken"
         ));

@@ -3,7 +3,7 @@
 //! - **In**: a [`Problem`]: [`Parameter`]s with their ranges, [`Observation`]s, a number of
 //!   simulations and a seed; and a function that carries out simulations.
 //! - **Out**: a [`Fit`]: a weighted sample of the posterior, what it says of each parameter
-//!   ([`Told`]), and how well it foretells what was measured ([`Prediction`]).
+//!   ([`ParameterEstimate`]), and how well it foretells what was measured ([`Prediction`]).
 //! - **Always true**: no value of the sample lies outside of its range; no number is NaN. The same
 //!   problem and the same simulations give the same bits on every machine; what is simulated
 //!   depends on nothing but the problem and earlier simulations.
@@ -48,7 +48,7 @@ mod tests;
 
 use thiserror::Error;
 
-pub use self::posterior::{Beyond, Correlation, Identified, Told};
+pub use self::posterior::{Beyond, Correlation, Identified, ParameterEstimate};
 pub use self::prediction::Prediction;
 pub use self::prior::{BadRange, Parameter};
 pub use self::problem::{BadProblem, FEWEST, Observation, Problem, Role};
@@ -114,7 +114,7 @@ pub enum FitError<E> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// What is known of each parameter, in the problem's order.
-    pub parameters: Vec<Told>,
+    pub parameters: Vec<ParameterEstimate>,
     /// Of each pair of parameters.
     pub correlations: Vec<Correlation>,
     /// The posterior: values of the parameters, and a weight; weights add up to 1.

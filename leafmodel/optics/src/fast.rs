@@ -308,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn the_greatest_error_over_the_range_is_told() {
+    fn the_greatest_error_over_the_range_is_reported() {
         let mut worst = [0.0_f64; 2];
         for step in 0..400 {
             let nm = 400.0 + 5.25 * f64::from(step);

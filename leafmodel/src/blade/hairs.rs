@@ -241,7 +241,7 @@ impl Rooted<'_> {
             .zip(weights)
             .map(|(&corner, weight)| self.blade.lamina[corner as usize] * weight)
             .sum();
-        if !self.stands_at(flat) {
+        if !self.grows_at(flat) {
             return None;
         }
         let out = mix(&self.blade.normals).normalize() * sign;
@@ -253,7 +253,7 @@ impl Rooted<'_> {
         })
     }
 
-    fn stands_at(&self, p: DVec2) -> bool {
+    fn grows_at(&self, p: DVec2) -> bool {
         let on_vein = || {
             let mut near = self.veins.near(p);
             near.any(|vein| vein.distance <= ON_VEIN * vein.radius)

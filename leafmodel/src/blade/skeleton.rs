@@ -264,7 +264,7 @@ mod tests {
     use crate::blade::tests::{ellipse, flat, herringbone};
 
     #[test]
-    fn points_stand_apart_and_clear_of_the_margin() {
+    fn points_lie_apart_and_clear_of_the_margin() {
         let outline = ellipse(20.0, 60.0, 90);
         let veins = herringbone(60.0, 9, 0.5);
         let size = SizeField::new(&flat(), &veins);

@@ -44,11 +44,11 @@ pub(super) fn read(edges: &str, nodes: Option<&str>, form: Form) -> Result<Draft
         fields.iter().position(|field| field.is_some_and(wanted))
     };
     let names = [0, 1].map(|end| column(&|field| field == EdgeField::End(end)));
-    let tells_places = (0..4).all(|i| {
+    let names_places = (0..4).all(|i| {
         column(&|field| matches!(field, EdgeField::EndCoordinate(end, axis, _) if (end, axis) == (i / 2, i % 2)))
             .is_some()
     });
-    if nodes.is_none() && !tells_places {
+    if nodes.is_none() && !names_places {
         return Err(table.refused(
             "a table of edges has the columns from_x_mm, from_y_mm, to_x_mm, to_y_mm, or a table of \
              nodes beside it (--nodes FILE.csv) and the columns from and to",

@@ -110,7 +110,7 @@ fn a_drawing_comes_back_with_lengths_and_widths_up_to_its_rounding() {
 }
 
 #[test]
-fn a_petiole_outside_the_margin_is_left_out_and_told() {
+fn a_petiole_outside_the_margin_is_left_out_and_reported() {
     let plan = species::find("birch").expect("a preset").plan();
     let lamina = plan.grow_lamina().expect("presets grow");
     let flat = crate::compound::FlatLeaf::with_petiole(&plan, &lamina).expect("a birch has one");
@@ -382,7 +382,7 @@ fn widths_of_strokes_have_units() {
 }
 
 #[test]
-fn edges_without_a_radius_among_others_are_told() {
+fn edges_without_a_radius_among_others_are_reported() {
     let text = "from,to,from_x_mm,from_y_mm,to_x_mm,to_y_mm,radius_mm\n\
                 a,b,0,0,0,5,0.1\nb,c,0,5,0,9,\nb,d,0,5,2,9,0.05\n";
     let read = imported(Format::Table, text);
@@ -398,7 +398,7 @@ fn edges_without_a_radius_among_others_are_told() {
 }
 
 #[test]
-fn a_root_that_is_told_goes_before_the_directions_of_a_file() {
+fn a_root_that_is_reported_goes_before_the_directions_of_a_file() {
     let text = "from_x_mm,from_y_mm,to_x_mm,to_y_mm,radius_um\n0,9,0,5,80\n0,5,0,0,80\n";
     let root_of = |root: Option<[f64; 2]>| {
         let draft = read(Format::Table, text, None).expect("well-formed");
@@ -416,7 +416,7 @@ fn a_root_that_is_told_goes_before_the_directions_of_a_file() {
 }
 
 #[test]
-fn each_fault_that_can_be_mended_is_told_with_its_place() {
+fn each_fault_that_can_be_mended_is_reported_with_its_place() {
     // A cross without a node, a twin node, an edge twice, one without length, a lone node, a part
     // of its own, and a node in the middle of an edge.
     let nodes = "id,x_mm,y_mm\n0,0,0\n1,0,4\n2,-1,2\n3,1,2\n4,0,4\n5,2,6\n6,9,9\n7,20,0\n8,20,1\n9,1,5\n10,5,5\n";

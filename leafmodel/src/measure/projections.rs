@@ -59,7 +59,7 @@ struct Peak {
     /// Its height.
     height: f64,
     /// How much it stands out.
-    stands_out: f64,
+    prominence: f64,
 }
 
 /// Counts lobes and teeth. `network` tells whether primaries spread, and where they end.
@@ -83,7 +83,7 @@ fn lobes(outline: &Outline, points: &[DVec2], primary_ends: &[DVec2]) -> usize {
     if primary_ends.len() > 2 {
         let radii: Vec<f64> = points.iter().map(|p| p.distance(outline.base())).collect();
         let mut tips = peaks(&radii);
-        tips.retain(|tip| tip.stands_out >= FED_LOBE * tip.height);
+        tips.retain(|tip| tip.prominence >= FED_LOBE * tip.height);
         let nearest = |end: &DVec2| {
             let squared = |tip: &&Peak| points[tip.at].distance_squared(*end);
             let tip = tips.iter().min_by(|a, b| squared(a).total_cmp(&squared(b)));
@@ -95,7 +95,7 @@ fn lobes(outline: &Outline, points: &[DVec2], primary_ends: &[DVec2]) -> usize {
         return fed.len().max(1);
     }
     let heights: Vec<f64> = points.iter().map(|p| across(outline, *p).abs()).collect();
-    let is_lobe = |peak: &&Peak| peak.stands_out >= LOBE * peak.height;
+    let is_lobe = |peak: &&Peak| peak.prominence >= LOBE * peak.height;
     let lateral = peaks(&heights).iter().filter(is_lobe).count();
     // An unlobed leaf has two: where it is widest on either side.
     if lateral > 2 { lateral + 1 } else { 1 }
@@ -124,11 +124,11 @@ fn teeth(outline: &Outline, points: &[DVec2]) -> [usize; 2] {
         let is_end = ends
             .iter()
             .any(|end| points[peak.at].distance(*end) < END * length);
-        peak.stands_out > UNEVEN * length && !is_end
+        peak.prominence > UNEVEN * length && !is_end
     });
-    let mut risen: Vec<f64> = found.iter().map(|peak| peak.stands_out).collect();
+    let mut risen: Vec<f64> = found.iter().map(|peak| peak.prominence).collect();
     let typical = quantile(&mut risen, 0.9).unwrap_or(0.0);
-    found.retain(|peak| peak.stands_out >= TOOTH * typical);
+    found.retain(|peak| peak.prominence >= TOOTH * typical);
     let right = |peak: &&Peak| across(outline, points[peak.at]) > 0.0;
     let right = found.iter().filter(right).count();
     [right, found.len() - right]
@@ -166,11 +166,11 @@ fn peaks(heights: &[f64]) -> Vec<Peak> {
             let is_first = heights[a] > heights[b] || (heights[a] == heights[b] && a < b);
             let (high, low) = if is_first { (a, b) } else { (b, a) };
             if low != i {
-                let stands_out = heights[low] - heights[i];
+                let prominence = heights[low] - heights[i];
                 found.push(Peak {
                     at: low,
                     height: heights[low],
-                    stands_out,
+                    prominence,
                 });
             }
             islands.attach(low as u32, high as u32);
@@ -180,10 +180,10 @@ fn peaks(heights: &[f64]) -> Vec<Peak> {
         found.push(Peak {
             at: highest,
             height: heights[highest],
-            stands_out: heights[highest] - heights[lowest],
+            prominence: heights[highest] - heights[lowest],
         });
     }
-    found.retain(|peak| peak.stands_out > 0.0);
+    found.retain(|peak| peak.prominence > 0.0);
     found.sort_by_key(|peak| peak.at);
     found
 }

@@ -67,7 +67,7 @@ fn check(plan: &LeafPlan, keys: &Keys<'_>) {
         .map(|senescence| &senescence.contents);
     let mut parts = std::iter::once(lamina).chain(dead);
     if parts.any(Contents::mixes_betalains_and_anthocyanins) {
-        // Told where those contents are.
+        // Reported where those contents are.
         return;
     }
     if let Some([anthocyanins, betalains]) = plan.anthocyanins_beside_betalains() {

@@ -350,7 +350,7 @@ mod tests {
     }
 
     #[test]
-    fn slips_are_told_with_what_was_meant() {
+    fn slips_are_reported_with_what_was_meant() {
         assert_eq!(
             refusal("seed"),
             "--set seed has no `=`: write --set key=value"

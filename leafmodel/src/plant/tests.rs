@@ -227,7 +227,7 @@ fn neighbours_differ_also_on_both_sides_of_a_branch() {
 }
 
 #[test]
-fn an_axis_that_bends_too_sharply_is_told() {
+fn an_axis_that_bends_too_sharply_is_reported() {
     let mut plan = shoot(Phyllotaxis::SPIRAL);
     plan.axis.length_mm = 1.0;
     plan.axis.nodes = 1;

@@ -263,10 +263,10 @@ impl Side {
             });
             let place = self.at(share);
             let tip = tip_at(share).or_else(|| end_tip(place));
-            let stands_before = heights[0] >= heights[1];
-            margin.push((place + outward * heights[0], tip.filter(|_| stands_before)));
+            let is_first = heights[0] >= heights[1];
+            margin.push((place + outward * heights[0], tip.filter(|_| is_first)));
             if heights[1] != heights[0] {
-                margin.push((place + outward * heights[1], tip.filter(|_| !stands_before)));
+                margin.push((place + outward * heights[1], tip.filter(|_| !is_first)));
             }
         }
         margin

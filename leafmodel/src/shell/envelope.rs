@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_positive_definite_is_told() {
+    fn what_is_not_positive_definite_is_reported() {
         let mut matrix = Envelope::new(vec![0, 0]);
         for (row, column, value) in [(0, 0, 1.0), (1, 0, 2.0), (1, 1, 1.0)] {
             matrix.add(row, column, value);

@@ -354,7 +354,7 @@ fn a_body_so_slender_that_its_cells_are_searched_for_minutes_is_refused_before()
 }
 
 #[test]
-fn how_high_a_turned_body_stands_changes_nothing_but_that() {
+fn how_high_a_turned_body_lies_changes_nothing_but_that() {
     let area = |profile: &[[f64; 2]], up: f64| {
         let points = profile.iter().map(|&[x, y]| DVec2::new(x, y + up));
         let profile_mm = points.collect();

@@ -79,7 +79,7 @@ pub(super) fn lines(
     for chain in &mut chains {
         chain.points = smooth(&chain.points);
     }
-    tell_thin(&chains, &radii, settings, findings);
+    report_thin_veins(&chains, &radii, settings, findings);
     let segment_px = match settings.segment_mm {
         Some(segment_mm) => segment_mm / settings.mm_per_pixel,
         None => (2.0 * median_by_length(&chains, &radii)).max(SHORTEST_PIECE),
@@ -143,7 +143,7 @@ fn median_by_length(chains: &[super::graph::Chain], radii: &[Vec<f64>]) -> f64 {
 }
 
 /// Tells how much of the veins is narrower than two pixels.
-fn tell_thin(
+fn report_thin_veins(
     chains: &[super::graph::Chain],
     radii: &[Vec<f64>],
     settings: &Settings,

@@ -154,7 +154,7 @@ fn a_drawing_of_a_small_leaf_gives_its_measures() {
 
 #[test]
 #[ignore = "deep: 200 megapixels"]
-fn drawings_of_five_presets_at_2_um_a_pixel_give_their_measures() {
+fn drawings_of_five_presets_at_2_um_per_pixel_give_their_measures() {
     for (name, length_mm) in [
         ("poplar", 14.0),
         ("brochidodromous", 14.0),

@@ -79,7 +79,7 @@ impl Zone for Bipolar {
         found
     }
 
-    fn find_anew(&mut self, source: DVec2, surroundings: &Surroundings) {
+    fn refind(&mut self, source: DVec2, surroundings: &Surroundings) {
         *self = Self::about(source, self.axis);
         self.search(surroundings.tree);
     }

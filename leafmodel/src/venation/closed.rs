@@ -37,8 +37,8 @@ impl<Z: Zone> Influence for Anastomosis<Z> {
         }
     }
 
-    fn place_anew(&mut self, place: DVec2, surroundings: &Surroundings) {
-        self.zone.find_anew(place, surroundings);
+    fn relocate(&mut self, place: DVec2, surroundings: &Surroundings) {
+        self.zone.refind(place, surroundings);
     }
 
     fn notice(&mut self, fresh: &FreshNodes, surroundings: &Surroundings) {

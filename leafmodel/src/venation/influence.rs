@@ -43,7 +43,7 @@ pub(crate) trait Influence: Send + Sized {
 
     /// Called when the source and all nodes have moved: the driven nodes are determined anew for
     /// `place`; tags are kept.
-    fn place_anew(&mut self, place: DVec2, surroundings: &Surroundings);
+    fn relocate(&mut self, place: DVec2, surroundings: &Surroundings);
 
     /// Takes in the nodes added since the last call.
     fn notice(&mut self, fresh: &FreshNodes, surroundings: &Surroundings);
@@ -72,7 +72,7 @@ pub(crate) trait Zone: Send + Sized {
     fn find(place: DVec2, id: u32, surroundings: &Surroundings) -> Self;
 
     /// The neighbours of the same source when it and all nodes have moved.
-    fn find_anew(&mut self, place: DVec2, surroundings: &Surroundings) {
+    fn refind(&mut self, place: DVec2, surroundings: &Surroundings) {
         // Zones without a memory do not depend on the number.
         *self = Self::find(place, 0, surroundings);
     }

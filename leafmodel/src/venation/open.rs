@@ -79,7 +79,7 @@ impl Influence for NearestNode {
         nearest
     }
 
-    fn place_anew(&mut self, place: DVec2, surroundings: &Surroundings) {
+    fn relocate(&mut self, place: DVec2, surroundings: &Surroundings) {
         *self = Self::new(place, self.id, surroundings);
     }
 

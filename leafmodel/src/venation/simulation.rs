@@ -220,7 +220,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         }
         let driven = self.gather_pulls();
         self.grow_veins(&driven, stage.unit);
-        let grown = self.tell_sources(&driven);
+        let grown = self.notify_sources(&driven);
         self.notice(stage.unit);
         self.judge_sources(stage.unit);
         self.step += 1;

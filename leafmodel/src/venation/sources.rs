@@ -183,7 +183,7 @@ impl<I: Influence> Sources<I> {
             let place = now_at(self.starts[slot]);
             self.places[slot] = place;
             moved(self.ids[slot], place);
-            known.influence.place_anew(place, surroundings);
+            known.influence.relocate(place, surroundings);
         }
     }
 

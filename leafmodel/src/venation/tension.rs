@@ -380,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_moved_anew_around_held_nodes_has_the_same_bits() {
+    fn what_is_moved_again_around_held_nodes_has_the_same_bits() {
         let wide = 60;
         let (positions, edges) = crooked(wide, 8);
         let mut moves = vec![true; positions.len()];

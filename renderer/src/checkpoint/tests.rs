@@ -151,7 +151,7 @@ fn a_render_that_is_interrupted_again_and_again_ends_with_the_same_sums() {
 }
 
 #[test]
-fn the_film_and_the_lights_are_told_as_they_were() {
+fn the_film_and_the_lights_are_reported_as_they_were() {
     let folder = folder();
     let stage = Stage::new(8, None);
     let file = folder.path().join("a.checkpoint");

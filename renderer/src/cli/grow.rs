@@ -194,7 +194,7 @@ fn carry_out(
         let films = Films::begun(arguments, outputs, count);
         ages::write(plan, grown.lamina(), outputs, written, films, stop)?;
     }
-    tell_veins(arguments, chosen, &grown, stop)?;
+    report_veins(arguments, chosen, &grown, stop)?;
     let seconds = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.stats {
         let report = json!({
@@ -223,7 +223,7 @@ fn carry_out(
 }
 
 /// Measures of the veins, and their description.
-fn tell_veins(
+fn report_veins(
     arguments: &GrowArguments,
     chosen: &Chosen,
     grown: &Grown,

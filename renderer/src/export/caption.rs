@@ -318,7 +318,7 @@ mod tests {
     }
 
     #[test]
-    fn a_strip_stands_still_and_a_narrow_drawing_is_set_in_the_middle() {
+    fn a_strip_is_still_and_a_narrow_drawing_is_set_in_the_middle() {
         let notes = |step: &str| {
             let swatches = (1..=7).map(|order| ([10, 20, 30], order.to_string()));
             [

@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_seen_dark_or_untold_is_refused_by_name() {
+    fn what_is_not_seen_dark_or_unreported_is_refused_by_name() {
         let (mut picture, mut colours) = picture();
         for object in ["unseen", "nobody"] {
             let error = colour_of(&picture, &colours, object).expect_err(object);

@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn other_channels_and_other_sizes_are_told() {
+    fn other_channels_and_other_sizes_are_reported() {
         let a = picture(&[("R", [0.0; 4]), ("Z", [0.0; 4])]);
         let mut b = picture(&[("R", [0.0; 4]), ("A", [0.0; 4])]);
         let comparison = compare(&a, &b);

@@ -80,7 +80,7 @@ pub(super) fn check_size(
     width: impl Into<u64>,
     height: impl Into<u64>,
     channels: u64,
-    bytes_a_pixel: u64,
+    bytes_per_pixel: u64,
     most: u64,
 ) -> Result<(), ImageError> {
     let (width, height) = (width.into(), height.into());
@@ -90,7 +90,7 @@ pub(super) fn check_size(
         )));
     }
     let pixels = width.saturating_mul(height);
-    if pixels > MOST_PIXELS || pixels.saturating_mul(bytes_a_pixel) > most {
+    if pixels > MOST_PIXELS || pixels.saturating_mul(bytes_per_pixel) > most {
         return Err(ImageError::TooLarge {
             width,
             height,

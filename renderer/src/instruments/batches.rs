@@ -433,7 +433,7 @@ mod tests {
     }
 
     #[test]
-    fn the_error_that_is_told_is_the_error_that_is_made() {
+    fn the_error_that_is_reported_is_the_error_that_is_made() {
         // Over many seeds the deviations in units of the told error have a variance of about 1; of
         // 31 degrees of freedom, it is 31 / 29.
         let truth = std::f64::consts::FRAC_PI_4;
@@ -487,7 +487,7 @@ mod tests {
     }
 
     #[test]
-    fn few_hits_are_not_told_as_certain() {
+    fn few_hits_are_not_reported_as_certain() {
         let target = 0.02;
         for seed in 0..4 {
             let mut budget = Budget {

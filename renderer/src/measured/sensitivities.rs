@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_told_at_its_place() {
+    fn what_is_wrong_is_reported_at_its_place() {
         for (text, place, said) in [
             ("400,0,1,1\n410,0,1\n", "410,0,1", "3 columns"),
             ("400,0,1,1\n400,0,1,1\n", "400", "behind 400"),

@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn units_are_told_by_most_of_the_values() {
+    fn most_of_the_values_determine_the_units() {
         assert!(are_micrometres([0.4, 2.5].into_iter()));
         assert!(!are_micrometres([0.4, 400.0].into_iter()));
         assert!(!are_micrometres(std::iter::empty()));

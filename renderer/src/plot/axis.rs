@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_have_their_places_and_those_beyond_stand_at_the_ends() {
+    fn numbers_have_their_places_and_those_beyond_lie_at_the_ends() {
         let axis = Axis::linear([1.0, 3.0], [10.0, 30.0]);
         assert_eq!(
             [0.0, 1.0, 2.0, 9.0].map(|v| axis.at(v)),

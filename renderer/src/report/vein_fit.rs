@@ -3,7 +3,7 @@
 mod picture;
 
 use leafmodel::inference::{
-    Correlation, Fit, Identified, Parameter, Prediction, Problem, Role, Told,
+    Correlation, Fit, Identified, Parameter, ParameterEstimate, Prediction, Problem, Role,
 };
 use serde_json::{Map, Value, json};
 
@@ -60,7 +60,7 @@ pub(crate) fn json(problem: &Problem, found: &Fit) -> Value {
     })
 }
 
-fn parameter(told: &Told) -> Value {
+fn parameter(told: &ParameterEstimate) -> Value {
     let [low, high] = told.parameter.range();
     let [half, most, nearly_all] = told.intervals;
     json!({
@@ -105,7 +105,11 @@ fn prediction(one: &Prediction) -> Value {
 
 /// What a person should take away.
 pub(crate) fn sentences(found: &Fit) -> Vec<String> {
-    let mut lines: Vec<String> = found.parameters.iter().map(Told::sentence).collect();
+    let mut lines: Vec<String> = found
+        .parameters
+        .iter()
+        .map(ParameterEstimate::sentence)
+        .collect();
     lines.extend(found.correlations.iter().filter_map(Correlation::sentence));
     if found.effective_size < FEW {
         lines.push(format!(

@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn veins_and_petioles_too_wide_for_the_leaf_are_told() {
+    fn veins_and_petioles_too_wide_for_the_leaf_are_reported() {
         let warnings = told(&styled(50.0, 1));
         assert_eq!(warnings.len(), 1);
         assert!(
@@ -155,14 +155,14 @@ mod tests {
     }
 
     #[test]
-    fn a_leaf_without_veins_is_told_what_its_own_kind_needs() {
+    fn a_leaf_without_veins_is_reported_what_its_own_kind_needs() {
         let warnings = told(&styled(0.3, 1_000_000));
         assert_eq!(warnings.len(), 1);
         assert!(warnings[0].contains("least_cells"), "{warnings:?}");
     }
 
     #[test]
-    fn primaries_cut_short_by_deep_bays_are_told() {
+    fn primaries_cut_short_by_deep_bays_are_reported() {
         let palmate = |name| LeafPlan {
             venation: ArcuatePlan {
                 palmate: Some(PalmateVeins {

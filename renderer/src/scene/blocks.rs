@@ -151,7 +151,7 @@ fn scene(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
     keys.required_block("film", about, &["rgb", "spectral"], |keys| {
         film::film(&mut scene.film, keys);
     });
-    fluorescence::tell_range(keys);
+    fluorescence::report_range(keys);
     let about = "How the picture to look at is made from the film.";
     keys.block("picture", about, |keys| scene.picture.declare(keys));
     let about = "Where the scene is seen from.";

@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn it_tells_what_changes_samples_and_nothing_else() {
+    fn it_changes_with_what_changes_samples_and_with_nothing_else() {
         let usual = of(SCENE, PLATE, &[]);
         let moved = [
             of(

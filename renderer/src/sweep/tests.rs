@@ -311,7 +311,7 @@ const SLIPS: &[(&str, &str, [&str; 3])] = &[
 ];
 
 #[test]
-fn what_is_wrong_is_told_once_with_its_place_and_what_is_allowed() {
+fn what_is_wrong_is_reported_once_with_its_place_and_what_is_allowed() {
     let head = "format = 1\nscene = \"scene.toml\"\n";
     for (text, rows, expected) in SLIPS {
         let report = of(&format!("{head}{text}"), rows).expect_err(text);
@@ -333,7 +333,7 @@ fn what_is_wrong_is_told_once_with_its_place_and_what_is_allowed() {
 }
 
 #[test]
-fn slips_in_words_are_told_with_their_places() {
+fn slips_in_words_are_reported_with_their_places() {
     for (word, expected) in [
         ("a", ["--over:1:1", "lacks its values"]),
         ("=1", ["--over:1:1", "lacks its key"]),
@@ -406,7 +406,7 @@ fn slips_in_words_are_told_with_their_places() {
 }
 
 #[test]
-fn errors_of_the_scene_are_told_where_the_sweep_causes_them() {
+fn errors_of_the_scene_are_reported_where_the_sweep_causes_them() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/flat-leaf/scene.toml");
     let words = [
         "film.spectral.spp=4,many",

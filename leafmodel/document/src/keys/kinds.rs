@@ -105,7 +105,7 @@ impl Keys<'_> {
                 if kept != Some(name) {
                     *value = (kind.new)();
                     if let Some((preset, current)) = base.filter(|(preset, _)| *preset != UNKNOWN) {
-                        inner.starts_anew(preset, current.name);
+                        inner.starts_over(preset, current.name);
                     }
                     below = below.filter(|base| **base == *UNKNOWN);
                 }

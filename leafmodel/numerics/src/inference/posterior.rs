@@ -29,7 +29,7 @@ pub enum Identified {
 
 /// What is known of a parameter.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Told {
+pub struct ParameterEstimate {
     /// The parameter.
     pub parameter: Parameter,
     /// Mean of the posterior.
@@ -58,7 +58,7 @@ pub enum Beyond {
     High,
 }
 
-impl Told {
+impl ParameterEstimate {
     /// Whether the measures tell it.
     pub fn identified(&self) -> Identified {
         if self.share_of_prior >= NOT_FROM {
@@ -118,7 +118,11 @@ impl Correlation {
 }
 
 /// What a sample of places with weights that add up to 1 says of each parameter.
-pub(super) fn told(problem: &Problem, sample: &[(Vec<f64>, f64)], expected: &[f64]) -> Vec<Told> {
+pub(super) fn told(
+    problem: &Problem,
+    sample: &[(Vec<f64>, f64)],
+    expected: &[f64],
+) -> Vec<ParameterEstimate> {
     let one = |(index, parameter): (usize, &Parameter)| {
         let mut places: Vec<(f64, f64)> = sample.iter().map(|(p, w)| (p[index], *w)).collect();
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -129,7 +133,7 @@ pub(super) fn told(problem: &Problem, sample: &[(Vec<f64>, f64)], expected: &[f6
         let (mean, variance) = mean_and_variance(values);
         let (_, spread) = mean_and_variance(places.iter().copied());
         let [low, high] = ends(LEVELS[2]).map(place);
-        Told {
+        ParameterEstimate {
             parameter: parameter.clone(),
             mean,
             median: value(0.5),

@@ -93,7 +93,7 @@ fn a_parameter_without_influence_keeps_its_prior() {
 }
 
 #[test]
-fn of_two_parameters_whose_product_matters_neither_is_told() {
+fn of_two_parameters_whose_product_matters_neither_is_reported() {
     let simulator = |v: &[f64], e: &[f64]| vec![v[0] * v[1] * libm::exp(0.05 * e[0])];
     let ranges = [("width", 0.1, 10.0), ("length", 0.1, 10.0)];
     let problem = problem(&ranges, &[1.0], 1500, 3);
@@ -250,7 +250,7 @@ fn a_fit_that_is_impossible_says_why() {
 }
 
 #[test]
-fn what_the_ranges_cannot_reach_is_told() {
+fn what_the_ranges_cannot_reach_is_reported() {
     let simulator = |v: &[f64], e: &[f64]| vec![v[0] + 0.05 * e[0]];
     let problem = problem(&[("a", 0.0, 1.0)], &[3.0], 500, 1);
     let found = fit(&problem, simulated(simulator)).expect("a fit");

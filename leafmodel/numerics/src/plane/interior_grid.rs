@@ -46,7 +46,7 @@ impl InteriorGrid {
         for (a, b) in polygon::sides(points) {
             grid.mark_edge((a - low) / cell, (b - low) / cell);
         }
-        grid.tell_sides(points, slabs);
+        grid.mark_sides(points, slabs);
         grid.count_steps();
         grid
     }
@@ -106,7 +106,7 @@ impl InteriorGrid {
 
     /// Decides which cells are inside. Neighbours in a row with no margin between them share the
     /// answer.
-    fn tell_sides(&mut self, points: &[DVec2], slabs: &Slabs) {
+    fn mark_sides(&mut self, points: &[DVec2], slabs: &Slabs) {
         for (row, cells) in self.steps.chunks_mut(self.columns).enumerate() {
             let mut before = MARGIN;
             for (column, steps) in cells.iter_mut().enumerate() {
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn cells_tell_nearly_all_of_a_disc() {
+    fn cells_classify_nearly_all_of_a_disc() {
         let points = star(&[5.0; 300], 1.0);
         let grid = InteriorGrid::new(&points, &Slabs::new(&points));
         let told = |radius: f64| {

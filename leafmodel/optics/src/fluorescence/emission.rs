@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn the_peaks_stand_as_two_to_one_where_they_were_published() {
+    fn the_peaks_have_a_ratio_of_two_to_one_where_they_were_published() {
         let ratio = emission_spectrum(685.0) / emission_spectrum(737.0);
         assert!((ratio - 2.0).abs() < 0.005, "{ratio}");
     }

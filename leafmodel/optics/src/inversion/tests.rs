@@ -133,7 +133,7 @@ fn contents_and_contrast_come_back_from_clean_spectra_of_both_faces() {
 }
 
 #[test]
-fn the_abaxial_face_and_light_that_passes_tell_the_contents_too() {
+fn the_abaxial_face_and_light_that_passes_determine_the_contents_too() {
     let case = &cases()[0];
     let found = case.found_by_faces(&case.abaxial(0.5), [false, true]);
     assert!(case.worst(&found).0 < 0.01);
@@ -421,7 +421,7 @@ fn what_is_fixed_stays_and_the_rest_is_found_around_it() {
 }
 
 #[test]
-fn water_is_not_told_by_visible_light() {
+fn visible_light_does_not_determine_water() {
     let case = &cases()[0];
     let visible = case.nm.iter().filter(|nm| **nm <= 700.0).count();
     let inversion = Inversion::new(
@@ -459,7 +459,7 @@ fn a_wavelength_outside_of_the_table_is_refused() {
 /// Contents that are found of leaves of another model, whose faces differ by their tissue and not
 /// by the rule: what the rule costs. The book has the figures.
 #[test]
-fn both_faces_of_a_leaf_of_layers_tell_its_pigments_and_contrast() {
+fn both_faces_of_a_leaf_of_layers_show_its_pigments_and_contrast() {
     let nm: Vec<f64> = (0..106).map(|i| 400.0 + 20.0 * f64::from(i)).collect();
     for (chlorophyll, least) in [(15.0, 0.1), (40.0, 0.1)] {
         let contents = Contents::prospect_d([1.6, chlorophyll, 8.0, 1.0, 0.05, 0.012, 0.006]);

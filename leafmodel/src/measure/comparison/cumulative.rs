@@ -246,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn one_of_twenty_pairs_of_equal_samples_is_told_apart() {
+    fn one_of_twenty_pairs_of_equal_samples_is_distinguished() {
         let told = (0..1000_u64)
             .filter(|&number| {
                 let sample = |purpose, count| {

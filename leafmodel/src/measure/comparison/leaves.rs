@@ -188,7 +188,8 @@ mod tests {
     }
 
     #[test]
-    fn leaves_of_one_kind_are_told_apart_as_often_as_promised_although_values_within_them_agree() {
+    fn leaves_of_one_kind_are_distinguished_as_often_as_promised_although_values_within_them_agree()
+    {
         // Ten leaves in two groups, each with a shift of its own as large as the spread within.
         let (mut leafwise, mut pooled) = (0, 0);
         for number in 0..400_u64 {

@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn p_has_a_floor_that_is_told() {
+    fn p_has_a_floor_that_is_reported() {
         assert_eq!(smallest_p(3, 3), 0.1);
         assert_eq!(smallest_p(1, 1), 1.0);
         let far = mann_whitney(&[1.0, 2.0, 3.0], &[4.0, 5.0, 6.0, 7.0]).expect("values");

@@ -170,7 +170,7 @@ fn the_two_faces_of_a_sheet_meet_at_its_margin_only() {
 }
 
 #[test]
-fn subdividing_keeps_the_surface_and_tells_where_the_parts_lie() {
+fn subdividing_keeps_the_surface_and_reports_where_the_parts_lie() {
     for surface in [
         sheet(2, 1),
         Surface::both_faces(&sheet(1, 1)).expect("good"),

@@ -247,7 +247,7 @@ fn uses_that_go_in_a_circle_or_draw_too_much_are_reported() {
 }
 
 #[test]
-fn the_scale_of_a_page_keeps_its_proportions_unless_told_otherwise() {
+fn the_scale_of_a_page_keeps_its_proportions_unless_asked_otherwise() {
     let scale = |attributes: &str| {
         let view = format!("viewBox=\"0 0 100 50\" {attributes}");
         with_root(&view, "", |drawing| {

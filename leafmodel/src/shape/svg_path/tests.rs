@@ -88,7 +88,7 @@ fn a_path_is_found_by_its_id_and_what_is_not_drawn_is_passed_over() {
 }
 
 #[test]
-fn what_a_drawing_lacks_is_told() {
+fn what_a_drawing_lacks_is_reported() {
     let read = |inside: &str, id| {
         let reading = SvgContour::read("leaf.svg", &svg(inside), id).expect("a kite");
         assert_eq!(reading.contour.points.len(), 4);

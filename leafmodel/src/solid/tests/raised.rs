@@ -24,7 +24,7 @@ fn warts() -> Raised {
 }
 
 #[test]
-fn tissue_stands_as_high_as_it_is_said_to_and_the_rest_stays() {
+fn tissue_rises_as_high_as_asked_and_the_rest_stays() {
     // Triangles cut the sphere; how deep, one shows on which no tissue is raised.
     let lies = |body: &Solid| {
         let within = body.positions.iter().map(|position| position.length());

@@ -184,7 +184,7 @@ fn thirteen_presets_have_another_colour_than_summers_green() {
 }
 
 #[test]
-fn a_course_leads_from_the_green_leaf_to_what_is_told_of_turned_tissue() {
+fn a_course_leads_from_the_green_leaf_to_what_is_reported_of_turned_tissue() {
     let mut count = 0;
     for leaf in all_coloured() {
         let Some(senescence) = leaf.plan().senescence else {

@@ -185,7 +185,7 @@ fn quaternaries_need_percurrent_tertiaries_with_room_between_them() {
 }
 
 #[test]
-fn more_pairs_than_the_young_leaf_has_room_for_are_told_with_how_many_fit() {
+fn more_pairs_than_the_young_leaf_has_room_for_are_reported_with_how_many_fit() {
     let said = said("magnolia", |plan, veins| {
         plan.growth = Growth::Isogonic {
             initial_length: 60.0,
@@ -201,7 +201,7 @@ fn more_pairs_than_the_young_leaf_has_room_for_are_told_with_how_many_fit() {
 }
 
 #[test]
-fn tertiaries_too_close_are_told_with_the_least_spacing() {
+fn tertiaries_too_close_are_reported_with_the_least_spacing() {
     let said = said("magnolia", |_, veins| veins.tertiaries.spacing = 0.005);
     assert_eq!(
         said,

@@ -117,7 +117,7 @@ impl<I: Influence> Simulation<'_, I> {
 
     /// Passes tags on to children and counts the steps in which no node of a source could grow;
     /// returns the number of children.
-    pub(super) fn tell_sources(&mut self, driven: &[u32]) -> usize {
+    pub(super) fn notify_sources(&mut self, driven: &[u32]) -> usize {
         let outcomes = &self.outcomes;
         let outcome_of = |node: u32| outcomes[node as usize];
         let is_blocked = |node: u32| outcome_of(node) == Outcome::Blocked;

@@ -149,7 +149,7 @@ fn nothing_asked_is_nothing_to_do() {
 }
 
 #[test]
-fn groups_of_leaves_are_told_apart() {
+fn groups_of_leaves_are_distinguished() {
     let line = "lamina compare-networks --group sun a.svg b.svg --out x.html --group shade c=1.svg";
     let arguments = parsed(line).expect("the line is right");
     let Some(Command::CompareNetworks(compare)) = arguments.command else {

@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_told_of_white_takes_the_place_of_the_scenes() {
+    fn what_is_reported_of_white_takes_the_place_of_the_scenes() {
         assert_eq!(overrides(&[]), [""; 0]);
         assert_eq!(overrides(&["--tone", "agx"]), ["picture.tone=agx"]);
         let white = overrides(&["--white-light", "lamp"]);

@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn measures_have_their_roles_and_what_is_missing_is_told() {
+    fn measures_have_their_roles_and_what_is_missing_is_reported() {
         let leaf = json!({
             "area_mm2": 900.0, "areoles_per_mm2": 0.5, "areole_area_cv": null,
             "spanning_tree_ratio": 0.7, "elliptic_fourier": [1, 2],

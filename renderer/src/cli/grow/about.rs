@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_tells_value_range_and_source_of_each_trait() {
+    fn a_table_lists_value_range_and_source_of_each_trait() {
         let text = table(traits("ginkgo"));
         let chlorophyll = text
             .lines()
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_leaf_in_colour_tells_of_its_green_before_what_differs() {
+    fn a_leaf_in_colour_reports_its_green_before_what_differs() {
         let rows: Vec<Row> = rows(traits("birch-autumn")).collect();
         let at = |name: &str| rows.iter().position(|row| row[0] == name);
         let (green, turned) = (at("chlorophyll"), at("turned: chlorophyll"));

@@ -169,7 +169,7 @@ radiance_w_m2_sr_nm = 0.1
     }
 
     #[test]
-    fn a_map_tells_units_place_and_program() {
+    fn a_map_names_units_place_and_program() {
         let plan = find("ginkgo-autumn").expect("a preset").plan();
         let outline = plan
             .outline

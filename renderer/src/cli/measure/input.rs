@@ -89,8 +89,8 @@ impl Input {
         let places = self.network.nodes().iter().map(|node| node.position);
         remarks.extend(trace::note_on_length(places, "--mm-per-unit"));
         let mut note = |text: &str| remarks.push(format!("note: {text}"));
-        let is_told = |fault: &Fault| fault.kind == FaultKind::NoRadius;
-        if !self.known.radii && !self.faults.iter().any(is_told) {
+        let is_reported = |fault: &Fault| fault.kind == FaultKind::NoRadius;
+        if !self.known.radii && !self.faults.iter().any(is_reported) {
             note(
                 "edges have no radius or width: measures of widths, and of vein orders that are \
                  not in the file, are missing",

@@ -224,7 +224,7 @@ fn matrices(xml: &str) -> BTreeMap<String, DMat4> {
 }
 
 #[test]
-fn what_stands_in_several_places_is_written_once_and_its_parts_lie_where_they_are_traced() {
+fn what_is_in_several_places_is_written_once_and_its_parts_lie_where_they_are_traced() {
     const LEAF: &str = r#"
 [leaves.trefoil]
 length_mm = 20

@@ -325,7 +325,7 @@ fn pictures_compressed_by_dwaa_and_dwab_are_read() {
 }
 
 #[test]
-fn a_compression_that_is_not_read_is_told_with_what_to_do() {
+fn a_compression_that_is_not_read_is_reported_with_what_to_do() {
     let mut bytes = include_bytes!("dwaa.exr").to_vec();
     let name = b"compression\0compression\0";
     let at = bytes.windows(name.len()).position(|window| window == name);

@@ -171,7 +171,7 @@ fn azimuths_count_where_light_comes_from_several_and_from_the_light_where_not() 
 }
 
 #[test]
-fn radians_and_micrometres_are_recognised_and_told() {
+fn radians_and_micrometres_are_recognised_and_reported() {
     let text = format!("{HEAD}0.5,0,1.0,3.14,0.55,0.1\n1.0,0,0.5,3.14,0.55,0.1\n");
     let table = read(&text, &Known::default()).expect("a good table");
     let notes: Vec<String> = table.notes.iter().map(ToString::to_string).collect();

@@ -20,7 +20,7 @@ fn parsed(text: &str, slack: Slack) -> Result<Spectra, String> {
 }
 
 #[test]
-fn columns_of_several_leaves_are_told_apart_by_their_names() {
+fn columns_of_several_leaves_are_distinguished_by_their_names() {
     let text = "# a comment\nwavelength_nm,birch_R,birch_T,leaf 3 reflectance\n\
         400,0.05,0.01,0.1\n410,0.06,0.02,0.2\n";
     let found = parsed(text, Slack::NOISE).expect("a good table");
@@ -115,7 +115,7 @@ fn one_value_that_is_wrong_does_not_make_a_table_percent() {
 }
 
 #[test]
-fn lines_of_several_leaves_are_told_apart_by_a_column() {
+fn lines_of_several_leaves_are_distinguished_by_a_column() {
     let text = "case;um;R;T;remark\na;0.4;5;1;x\na;0.41;6;2;x\nb;0.4;10;30;x\n";
     let found = parsed(text, Slack::NOISE).expect("a good table");
     assert_eq!(

@@ -189,7 +189,7 @@ fn one_leaf_is_tested_among_those_of_a_group_and_two_leaves_are_not() {
 }
 
 #[test]
-fn leaves_that_are_the_same_are_told() {
+fn leaves_that_are_the_same_are_reported() {
     let of = |group, number, value: f64| leaf(group, number, &[("areole_count", Some(value))], &[]);
     let leaves = [of(0, 1, 3.0), of(0, 2, 4.0), of(1, 3, 3.0)];
     assert_eq!(same(&leaves), [[0, 2]]);

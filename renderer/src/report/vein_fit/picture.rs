@@ -1,6 +1,6 @@
 //! A drawing of the posterior: for each parameter a histogram over its prior.
 
-use leafmodel::inference::{Fit, Problem, Told};
+use leafmodel::inference::{Fit, ParameterEstimate, Problem};
 
 use crate::plot::{Anchor, Axis, Canvas};
 
@@ -27,7 +27,7 @@ pub(crate) fn marginals(problem: &Problem, found: &Fit) -> String {
 }
 
 /// The prior's range, in which it is uniform, over these pixels.
-fn axis(told: &Told, width: f64) -> Axis {
+fn axis(told: &ParameterEstimate, width: f64) -> Axis {
     let (range, pixels) = (told.parameter.range(), [0.0, width]);
     if told.parameter.is_logarithmic() {
         Axis::logarithmic(range, pixels)
@@ -48,7 +48,7 @@ fn heights(problem: &Problem, found: &Fit, index: usize) -> [f64; BINS] {
     heights
 }
 
-fn panel(canvas: &mut Canvas, told: &Told, heights: &[f64; BINS]) {
+fn panel(canvas: &mut Canvas, told: &ParameterEstimate, heights: &[f64; BINS]) {
     let [width, height] = PANEL;
     let highest = heights.iter().copied().fold(1.0, f64::max);
     let scale = height / highest;

@@ -6,7 +6,7 @@ use leafmodel::optics::fluorescence::EXCITED_NM;
 
 /// From here on spectra must cover the wavelengths that excite too, if a leaf of the scene
 /// fluoresces: light of these becomes light that the film sees.
-pub(super) fn tell_range(keys: &Keys<'_>) {
+pub(super) fn report_range(keys: &Keys<'_>) {
     let Some(root) = keys.reader() else {
         return;
     };

@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn units_are_guessed_where_that_is_asked_for_and_told() {
+    fn units_are_guessed_where_that_is_asked_for_and_reported() {
         let text = b"0.4,5\n0.5,10\n0.8,50\n";
         let (rows, codes, said) = read(text, true);
         assert_eq!(rows, Some(vec![(400.0, 0.05), (500.0, 0.1), (800.0, 0.5)]));

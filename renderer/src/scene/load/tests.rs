@@ -154,7 +154,7 @@ fn a_mesh_is_written_as_the_file_that_it_comes_from() {
 }
 
 #[test]
-fn faces_that_a_mesh_of_a_body_loses_are_told() {
+fn faces_that_a_mesh_of_a_body_loses_are_reported() {
     let sphere = SolidShape::Ellipsoid {
         semi_axes_mm: DVec3::splat(10.0),
     };

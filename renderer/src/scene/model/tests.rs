@@ -183,7 +183,7 @@ fn near(found: Vec3, expected: Vec3) {
 }
 
 #[test]
-fn a_square_that_stands_in_the_file_stands_in_the_scene() {
+fn a_square_that_is_in_the_file_is_in_the_scene() {
     for bytes in [square().glb(), square().text()] {
         let model = opened(&bytes).expect("a good model");
         assert_eq!(model.mesh.triangles(), [[0, 1, 2], [0, 2, 3]]);
@@ -348,7 +348,7 @@ fn pictures_may_be_files_beside_and_names_may_be_written_in_percent() {
 }
 
 #[test]
-fn what_is_left_out_is_told_by_name() {
+fn what_is_left_out_is_reported_by_name() {
     let mut made = square();
     made.json["animations"] = json!([{ "channels": [], "samplers": [] }]);
     made.json["materials"] = json!([{

@@ -78,7 +78,7 @@ fn a_scene_has_the_same_meshes_and_maps_with_and_without_a_cache() {
 }
 
 #[test]
-fn a_damaged_file_is_told_of_and_replaced_whole() {
+fn a_damaged_file_is_reported_and_replaced_whole() {
     let folder = tempfile::tempdir().expect("a folder");
     let cache = PlantCache::open(folder.path()).expect("it can be used");
     let plan = &plans()[0];

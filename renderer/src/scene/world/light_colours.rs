@@ -35,12 +35,12 @@ pub(super) fn light_colours(
         let colour = recorded_colour(wavelengths, spectrum);
         colours.push(LightColour::new(name.to_owned(), colour));
     };
-    let mut rigs_told = BTreeSet::new();
+    let mut reported_rigs = BTreeSet::new();
     for named in &scene.lights {
         let (own, others) = rest.split_at(named.value.parts());
         rest = others;
         let rig = of_part(&named.name);
-        if rig.is_some_and(|rig| !rigs_told.insert(rig)) {
+        if rig.is_some_and(|rig| !reported_rigs.insert(rig)) {
             continue;
         }
         let name = rig.unwrap_or(&named.name);

@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn maps_that_hold_what_no_plant_does_are_told_by_name() {
+    fn maps_that_hold_what_no_plant_does_are_reported_by_name() {
         let (both, red, yellow) = (leaf(2.0, 0.5), leaf(2.0, 0.0), leaf(0.0, 0.5));
         let notes = on_maps([("beet", &both), ("maple", &red), ("cactus", &yellow)]);
         assert_eq!(notes.len(), 1, "{notes:?}");

@@ -38,7 +38,7 @@ solid = "second"
 "#;
 
 #[test]
-fn of_several_bodies_that_cannot_be_grown_the_first_of_the_scene_is_told() {
+fn of_several_bodies_that_cannot_be_grown_the_first_of_the_scene_is_reported() {
     let loaded = parse(SCENE, "scene.toml", Path::new("."), &[]);
     let mut scene = loaded
         .unwrap_or_else(|errors| panic!("{errors}"))
@@ -94,7 +94,7 @@ radiance_w_m2_sr_nm = 1
 "#;
 
 #[test]
-fn instances_stand_where_their_object_and_their_row_say() {
+fn instances_lie_where_their_object_and_their_row_say() {
     let folder = tempfile::tempdir().expect("a folder");
     let rows = "x_m y_m z_m rotate_z_deg scale shape\n0.5 0 0 90 3 ball\n0 0 0 0 1 floor\n\
                 0 0.5 0 0 1 ball\n";

@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_too_bright_is_not_told() {
+    fn what_is_too_bright_is_not_reported() {
         for luminance in [300.0, 1e9, -1e30] {
             let sum = i64::from(BATCH) * fixed(luminance);
             assert_eq!(square_of(sum), None, "{luminance}");

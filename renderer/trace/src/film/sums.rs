@@ -127,7 +127,7 @@ impl Film {
                 channels,
             });
         }
-        let bytes = pixels.saturating_mul(Self::bytes_a_pixel(channels, sums) as u64);
+        let bytes = pixels.saturating_mul(Self::bytes_per_pixel(channels, sums) as u64);
         if pixels > MOST_PIXELS || bytes > MOST_BYTES {
             return Err(FilmError::TooLarge {
                 width,
@@ -141,7 +141,7 @@ impl Film {
 
     /// Memory of a pixel, bytes; each block needs 68 more, and for each open batch eight per pixel for
     /// luminance and for each channel.
-    pub fn bytes_a_pixel(channels: usize, sums: &[Sum]) -> usize {
+    pub fn bytes_per_pixel(channels: usize, sums: &[Sum]) -> usize {
         let features: usize = sums.iter().map(|sum| sum.bytes()).sum();
         channels * size_of::<Moments>()
             + series_of(channels) * size_of::<Squares>()

@@ -77,7 +77,7 @@ fn a_pixel_takes_its_channels_an_error_a_count_and_its_sums() {
         .iter()
         .map(|halves| size_of_val(&halves.sums[..]));
     let bytes = 3 * 32 + (1 + 3) * 7 + 3 * 3 + 4 + 3 * 8 + 7 * 4;
-    assert_eq!(Film::bytes_a_pixel(3, &SUMS), bytes);
+    assert_eq!(Film::bytes_per_pixel(3, &SUMS), bytes);
     assert_eq!(
         size_of_val(&film.moments[..])
             + size_of_val(&film.squares[..])

@@ -310,8 +310,8 @@ impl Layout {
     }
 
     /// Memory of a pixel, bytes.
-    pub fn bytes_a_pixel(self) -> usize {
-        Film::bytes_a_pixel(self.beauty, &self.sums())
+    pub fn bytes_per_pixel(self) -> usize {
+        Film::bytes_per_pixel(self.beauty, &self.sums())
     }
 
     /// Number of a layer's first feature; `None` if it has no features or the film has no such

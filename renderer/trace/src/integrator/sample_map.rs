@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_of_samples_is_told_by_its_place() {
+    fn what_is_no_number_of_samples_is_reported_by_its_place() {
         let (width, values) = values();
         for wrong in [-1.0, f32::NAN, f32::INFINITY, 1_048_577.0] {
             let mut values = values.clone();

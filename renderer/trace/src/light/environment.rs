@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drawn_direction_has_the_density_and_radiance_that_are_told_of_it() {
+    fn a_drawn_direction_has_the_density_and_radiance_that_are_reported_for_it() {
         let light = sky();
         let mut across_a_border = 0;
         for i in 0..2000 {

@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_stands_upright_on_the_square() {
+    fn a_picture_is_upright_on_the_square() {
         let red_over_blue = Texels::new(vec![[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], 1);
         let pattern = Pattern::new(1.0, Some(Colours::Picture(red_over_blue)));
         assert_eq!(pattern.at(Vec2::new(0.3, 0.9)), [1.0, 0.0, 0.0]);

@@ -62,7 +62,7 @@ impl Palette {
     pub fn lanes<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> PileLanes<N> {
         let table = self.tabulated.as_ref();
         let Some(row) = table.and_then(|table| table.row(wavelengths)) else {
-            return self.lanes_anew(wavelengths);
+            return self.fresh_lanes(wavelengths);
         };
         PileLanes {
             constants: row.map(|lanes| lanes.0),
@@ -71,7 +71,7 @@ impl Palette {
 
     #[cold]
     #[inline(never)]
-    fn lanes_anew<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> PileLanes<N> {
+    fn fresh_lanes<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> PileLanes<N> {
         PileLanes::new(&wavelengths.nm.map(|nm| self.coefficients(f64::from(nm))))
     }
 

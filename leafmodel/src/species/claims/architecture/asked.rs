@@ -115,7 +115,7 @@ fn loops_outside_arches_are_found() {
 }
 
 #[test]
-fn decurrent_secondaries_are_told_from_excurrent_ones() {
+fn decurrent_secondaries_are_distinguished_from_excurrent_ones() {
     for attachment in [Attachment::Excurrent, Attachment::Decurrent] {
         for name in ["magnolia", "willow", "croton"] {
             let (asked, found) = small(name, |asked| {
@@ -139,7 +139,7 @@ fn decurrent_secondaries_are_told_from_excurrent_ones() {
 }
 
 #[test]
-fn chevrons_are_told_from_other_percurrent_tertiaries() {
+fn chevrons_are_distinguished_from_other_percurrent_tertiaries() {
     for course in [
         TertiaryCourse::OppositePercurrent,
         TertiaryCourse::AlternatePercurrent,

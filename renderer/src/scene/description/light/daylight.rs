@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn noon_is_named_only_where_the_sun_stands_high_enough_then() {
+    fn noon_is_named_only_where_the_sun_is_high_enough_then() {
         let svalbard = [78.2_f64, 15.6].map(f64::to_radians);
         let help = |time| {
             let moment = moment_of(time).expect("it is a time");
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn a_time_that_is_none_is_told_apart() {
+    fn a_time_that_is_none_is_distinguished() {
         for (text, part) in [
             ("2026-02-29T12:00:00Z", "is no date and time"),
             ("noon", "is no date and time"),

@@ -68,7 +68,7 @@ fn things_lie_on_the_floor_and_on_those_before_them() {
 }
 
 #[test]
-fn what_is_strewn_lies_the_same_wherever_the_camera_stands() {
+fn what_is_strewn_lies_the_same_wherever_the_camera_is() {
     let near = strewn(&[]).expect("there is room");
     let far = ["camera.perspective.position_m=[1000,-1,1]".to_owned()];
     let far = strewn(&far).expect("there is room");
@@ -81,7 +81,7 @@ fn what_is_strewn_lies_the_same_wherever_the_camera_stands() {
 }
 
 #[test]
-fn a_floor_that_is_full_is_told() {
+fn a_floor_that_is_full_is_reported() {
     let crowd = ["objects.crumbs.scatter.least_distance_mm=100".to_owned()];
     let error = strewn(&crowd).expect_err("there is no room");
     assert!(
@@ -91,7 +91,7 @@ fn a_floor_that_is_full_is_told() {
 }
 
 #[test]
-fn a_heap_is_told_and_a_litter_is_not() {
+fn a_heap_is_reported_and_a_litter_is_not() {
     let notes = strewn(&[]).expect("there is room").notes;
     // The camera looks elsewhere.
     let mut of_objects = notes.iter().filter(|note| !note.starts_with("camera: "));
@@ -118,7 +118,7 @@ fn a_heap_is_told_and_a_litter_is_not() {
 }
 
 #[test]
-fn what_is_too_fine_to_strew_on_is_told_before_anything_falls() {
+fn what_is_too_fine_to_strew_on_is_reported_before_anything_falls() {
     // A lump has hundreds of triangles; more than a hundred thousand do not come to rest.
     let fine = [
         "objects.crumbs.scatter.count=100000".to_owned(),

@@ -80,14 +80,14 @@ pub(super) fn choose(
     }
     let mesh_of = |placement: &Placement| &meshes[placement.instance.mesh as usize];
     let triangles = |placement: &Placement| mesh_of(placement).triangles().len();
-    let stands_once = |placement: &Placement| uses[placement.instance.mesh as usize] == 1;
+    let is_placed_once = |placement: &Placement| uses[placement.instance.mesh as usize] == 1;
     let repeated = placements
         .iter()
-        .filter(|placement| !stands_once(placement));
+        .filter(|placement| !is_placed_once(placement));
     let all_fit = repeated.map(triangles).sum::<usize>() <= most_repeated;
     let mut candidates: Vec<(u32, Bounds)> = (0..)
         .zip(placements)
-        .filter(|(_, placement)| all_fit || stands_once(placement))
+        .filter(|(_, placement)| all_fit || is_placed_once(placement))
         .map(|(number, placement)| (number, rough_bounds(mesh_of(placement), placement)))
         .filter(|(_, bounds)| bounds.min.is_finite() && bounds.max.is_finite())
         .collect();

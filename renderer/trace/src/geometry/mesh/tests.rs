@@ -129,7 +129,7 @@ fn a_corner_at_the_end_of_the_world_is_refused() {
 }
 
 #[test]
-fn a_small_mesh_far_from_its_origin_is_told_that_it_has_lost_its_detail() {
+fn a_small_mesh_far_from_its_origin_is_reported_that_it_has_lost_its_detail() {
     let far = |x: f32, y: f32| Vec3::new(1e7 + x, y, 0.0);
     let error = refused(
         vec![far(0.0, 0.0), far(0.3, 0.0), far(0.0, 0.3)],

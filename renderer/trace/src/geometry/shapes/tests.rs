@@ -132,7 +132,7 @@ fn wall() -> Masonry {
 }
 
 #[test]
-fn bricks_stand_before_their_mortar_and_within_the_wall() {
+fn bricks_lie_before_their_mortar_and_within_the_wall() {
     let bricks = wall().mesh().expect("a good wall");
     let mortar = Masonry {
         part: MasonryPart::Mortar,

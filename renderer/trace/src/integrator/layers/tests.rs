@@ -88,7 +88,7 @@ fn a_pixel_of_colour_takes_at_most_192_bytes() {
     let [(_, colour), _] = layouts();
     // The number of samples, the list of open batches, and where halves are.
     let of_its_block = 68.0 / 64.0;
-    assert!(colour.bytes_a_pixel() as f64 + of_its_block <= 192.0);
+    assert!(colour.bytes_per_pixel() as f64 + of_its_block <= 192.0);
 }
 
 const GUIDE: &str = include_str!("../../../fixtures/guide.md");
@@ -189,7 +189,7 @@ fn the_book_lists_every_layer() {
     let [(_, colour), _] = layouts();
     let bytes = format!(
         "That makes {} bytes per pixel for colour.",
-        colour.bytes_a_pixel()
+        colour.bytes_per_pixel()
     );
     assert!(PATHS.contains(&bytes), "{bytes}");
 }

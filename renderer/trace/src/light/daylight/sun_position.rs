@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_sun_stands_where_the_nrel_algorithm_has_it() {
+    fn the_sun_is_where_the_nrel_algorithm_has_it() {
         let table = include_str!("../../../fixtures/sun_position_reference.csv");
         let mut places = 0;
         for line in table

@@ -150,7 +150,7 @@ fn even_directions_find_the_same_sky_as_its_samples_and_its_density_integrates_t
 }
 
 #[test]
-fn a_direction_to_the_sun_or_sky_has_the_density_and_radiance_that_are_told_of_it() {
+fn a_direction_to_the_sun_or_sky_has_the_density_and_radiance_that_are_reported_for_it() {
     let day = day(30.0, 3.0, 0.3);
     let (sun, sky) = day.lights();
     let wavelengths = Wavelengths::new(NM);

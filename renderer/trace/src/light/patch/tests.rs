@@ -96,7 +96,7 @@ proptest! {
     }
 
     #[test]
-    fn a_drawn_point_lies_on_the_patch_in_the_told_direction_with_the_told_density(
+    fn a_drawn_point_lies_on_the_patch_in_the_reported_direction_with_the_reported_density(
         place in prop::array::uniform3(-4.0_f32..4.0), size in -3.0_f32..1.0,
         u in prop::array::uniform2(0.0_f32..1.0), triangle in prop::bool::ANY
     ) {

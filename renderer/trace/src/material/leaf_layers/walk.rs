@@ -145,7 +145,7 @@ impl<'a, const N: usize> Walk<'a, N> {
             likelihood: Likelihood::new(chance.number()),
             events,
         };
-        walk.stand_at(face);
+        walk.move_to_face(face);
         if let Held::Uniform(contents) = held {
             let texel = contents.to_texel();
             walk.uniform = Some(std::array::from_fn(|layer| walk.absorption(layer, &texel)));
@@ -153,7 +153,7 @@ impl<'a, const N: usize> Walk<'a, N> {
         walk
     }
 
-    fn stand_at(&mut self, face: usize) {
+    fn move_to_face(&mut self, face: usize) {
         self.layer = face * (LAYERS - 1);
         self.depth = face as f32 * self.layers.thickness_m[self.layer];
     }

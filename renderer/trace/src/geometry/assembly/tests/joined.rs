@@ -77,7 +77,7 @@ fn joined_meshes_are_found_as_every_triangle_is() {
 
 /// What stands far from all else, as a lamp in the sky does, is traced by a tree of its own.
 #[test]
-fn what_stands_apart_is_not_joined() {
+fn what_lies_apart_is_not_joined() {
     let lamp = blade(3, 2, 1e3, 1e3, Vec3::new(0.0, 0.0, 7e5));
     let leaves = (0..3).map(|seed| soup(seed, 30, 1.0, Vec3::ZERO));
     let meshes: Vec<_> = leaves.chain([lamp]).collect();

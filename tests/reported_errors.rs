@@ -168,7 +168,7 @@ fn the_variance_of_a_band_is_at_most_twice_that_over_seeds() {
 }
 
 #[test]
-fn the_told_error_of_luminance_is_that_over_seeds() {
+fn the_reported_error_of_luminance_is_that_over_seeds() {
     let of_colour = |camera: &str, integrator: &str, blocks: &str| {
         let text = scene(camera, integrator, blocks);
         let bands = "[film.spectral]\nsize = [16, 16]\nspp = 64\nbands_nm = [550, 800]\nband_width_nm = 0\n";
