@@ -109,13 +109,15 @@ proptest! {
         prop_assume!(plan.compound.as_ref().is_none_or(|form| form.arrange(&plan).is_ok()));
         let folder = tempfile::tempdir().expect("a folder");
         std::fs::write(folder.path().join("leaf.svg"), SVG).expect("the folder was just made");
-        let text = to_toml(&plan);
-        let leaves = match parse(&text, "beech", folder.path(), &[]) {
-            Ok(leaves) => leaves,
-            Err(errors) => return Err(TestCaseError::fail(format!("{errors}\n{text}"))),
-        };
-        prop_assert_eq!(&leaves[0].value, &plan, "{}", text);
-        prop_assert_eq!(to_toml(&leaves[0].value), text);
+        for extent in [Extent::Changed, Extent::All] {
+            let text = leaf_to_toml("beech", &plan, extent);
+            let leaves = match parse(&text, "beech", folder.path(), &[]) {
+                Ok(leaves) => leaves,
+                Err(errors) => return Err(TestCaseError::fail(format!("{errors}\n{text}"))),
+            };
+            prop_assert_eq!(&leaves[0].value, &plan, "{}", text);
+            prop_assert_eq!(leaf_to_toml("beech", &leaves[0].value, extent), text);
+        }
     }
 }
 

@@ -123,7 +123,8 @@ impl ChlorophyllMix {
 
     /// Whether the keys of bands in solution belong here; where the block has errors, nobody knows.
     fn are_in_solution(&self, keys: &Keys<'_>) -> bool {
-        self.bands == ChlorophyllBands::Solution || !keys.is_sound()
+        let is_unknown = keys.is_description() || keys.reader().is_some() && !keys.is_sound();
+        self.bands == ChlorophyllBands::Solution || is_unknown
     }
 
     /// Specific absorption, cm² µg⁻¹, from PROSPECT's own column by wavelength.
