@@ -10,6 +10,7 @@ pub struct Buckets<T = u32> {
 
 impl<T: Copy> Buckets<T> {
     /// Sorts pairs of a bucket, below `count`, and a member of it.
+    #[inline]
     pub fn new(count: usize, pairs: impl Iterator<Item = (usize, T)> + Clone) -> Self {
         let mut starts = vec![0_u32; count + 1];
         let mut any = None;
@@ -31,26 +32,31 @@ impl<T: Copy> Buckets<T> {
     }
 
     /// Number of buckets.
+    #[inline]
     pub fn count(&self) -> usize {
         self.starts.len() - 1
     }
 
     /// The members of a bucket.
+    #[inline]
     pub fn list(&self, bucket: usize) -> &[T] {
         self.lists_of(bucket, bucket)
     }
 
     /// The members of a bucket and of all up to another.
+    #[inline]
     pub fn lists_of(&self, first: usize, last: usize) -> &[T] {
         &self.members[self.starts[first] as usize..self.starts[last + 1] as usize]
     }
 
     /// The members of each bucket in turn.
+    #[inline]
     pub fn lists(&self) -> impl Iterator<Item = &[T]> {
         (0..self.count()).map(|bucket| self.list(bucket))
     }
 
     /// Buckets of what `of` makes of each bucket's number and each of its members.
+    #[inline]
     pub fn map<U>(&self, mut of: impl FnMut(usize, T) -> U) -> Buckets<U> {
         let mut members = Vec::with_capacity(self.members.len());
         for (bucket, list) in self.lists().enumerate() {
@@ -61,11 +67,13 @@ impl<T: Copy> Buckets<T> {
     }
 
     /// All members, bucket by bucket.
+    #[inline]
     pub fn into_members(self) -> Vec<T> {
         self.members
     }
 
     /// Sorts the members within each bucket.
+    #[inline]
     pub fn sort_each(&mut self, mut sort: impl FnMut(&mut [T])) {
         for pair in self.starts.windows(2) {
             sort(&mut self.members[pair[0] as usize..pair[1] as usize]);
@@ -86,6 +94,7 @@ impl<T> Default for Buckets<T> {
 impl Buckets {
     /// The numbers of the edges, or faces, at each of `count` nodes, ascending; `edges` gives the nodes of
     /// each.
+    #[inline]
     pub fn around<const N: usize>(
         count: usize,
         edges: impl Iterator<Item = [u32; N]> + Clone,

@@ -2,6 +2,7 @@
 
 /// Halves the interval from `low` to `high` so many times; `is_low` holds at `low`, not at `high`, and
 /// of each new end.
+#[inline]
 pub fn bisect(
     mut low: f64,
     mut high: f64,
@@ -20,6 +21,7 @@ pub fn bisect(
 }
 
 /// 0 below 0, 1 above 1, `3x² − 2x³` between.
+#[inline]
 pub fn smooth_step(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
@@ -27,6 +29,7 @@ pub fn smooth_step(x: f64) -> f64 {
 
 /// Weights of the value before, at and behind the nearest of even places, for a smooth curve through
 /// the middles between them; `t` is the way from that place, −½ to ½.
+#[inline]
 pub fn spline_weights(t: f64) -> [f64; 3] {
     [
         0.5 * (0.5 - t) * (0.5 - t),
@@ -36,6 +39,7 @@ pub fn spline_weights(t: f64) -> [f64; 3] {
 }
 
 /// The number at a share of the way from one to another.
+#[inline]
 pub fn between(from: f64, to: f64, share: f64) -> f64 {
     from + (to - from) * share
 }
@@ -45,11 +49,13 @@ pub struct Sets(Vec<u32>);
 
 impl Sets {
     /// Each number is a set of its own.
+    #[inline]
     pub fn new(count: usize) -> Self {
         Self((0..count as u32).collect())
     }
 
     /// The number that represents the set of another.
+    #[inline]
     pub fn leader(&mut self, mut of: u32) -> u32 {
         while self.0[of as usize] != of {
             self.0[of as usize] = self.0[self.0[of as usize] as usize];
@@ -60,6 +66,7 @@ impl Sets {
 
     /// Joins two sets; returns the leader that remains, the smaller one, and the one that does not,
     /// or `None` if they were the same set.
+    #[inline]
     pub fn join(&mut self, a: u32, b: u32) -> Option<(u32, u32)> {
         let (a, b) = (self.leader(a), self.leader(b));
         let (stays, goes) = (a.min(b), a.max(b));
@@ -68,6 +75,7 @@ impl Sets {
     }
 
     /// Puts the set of the leader `under` below the leader `above`.
+    #[inline]
     pub fn attach(&mut self, under: u32, above: u32) {
         self.0[under as usize] = above;
     }

@@ -116,6 +116,7 @@ pub enum Use {
 }
 
 /// 64 random bits for one use, number `counter` of its kind.
+#[inline]
 pub fn bits(seed: u64, purpose: Use, counter: u64) -> u64 {
     bits_of(seed, purpose as u64, counter)
 }
@@ -124,6 +125,7 @@ pub fn bits(seed: u64, purpose: Use, counter: u64) -> u64 {
 ///
 /// Two rounds of the output function of `SplitMix64` (\[steele2014\]), the second keyed by the
 /// first. The counter's increment is that of the generator.
+#[inline]
 pub fn bits_of(seed: u64, purpose: u64, counter: u64) -> u64 {
     let key = scramble(seed ^ purpose.wrapping_mul(0xd1b5_4a32_d192_ed03));
     scramble(key.wrapping_add(counter.wrapping_mul(INCREMENT)))
@@ -131,32 +133,38 @@ pub fn bits_of(seed: u64, purpose: u64, counter: u64) -> u64 {
 
 /// The state of a hash after one number more: one round of `SplitMix64`, cheap enough for the corners
 /// of a lattice.
+#[inline]
 pub fn hashed(state: u64, number: u64) -> u64 {
     scramble((state ^ number).wrapping_add(INCREMENT))
 }
 
 /// A number in [0, 1) from random bits, a multiple of 2⁻⁵³.
+#[inline]
 pub fn share(bits: u64) -> f64 {
     (bits >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 /// A whole number below `count` from random bits.
+#[inline]
 pub fn below(bits: u64, count: usize) -> usize {
     ((u128::from(bits) * count as u128) >> 64) as usize
 }
 
 /// A uniform random number in [0, 1), a multiple of 2⁻⁵³.
+#[inline]
 pub fn uniform(seed: u64, purpose: Use, counter: u64) -> f64 {
     share(bits(seed, purpose, counter))
 }
 
 /// A random number of mean 0 and standard deviation 1, within ±√3: uniform.
+#[inline]
 pub fn even(seed: u64, purpose: Use, counter: u64) -> f64 {
     3.0_f64.sqrt() * (2.0 * uniform(seed, purpose, counter) - 1.0)
 }
 
 /// A random number of mean 0 and standard deviation 1, within ±√12: nearly normal, the sum of four
 /// uniform ones.
+#[inline]
 pub fn bell(seed: u64, purpose: Use, counter: u64) -> f64 {
     let sum: f64 = (0..4)
         .map(|i| uniform(seed, purpose, 4 * counter + i))
@@ -165,6 +173,7 @@ pub fn bell(seed: u64, purpose: Use, counter: u64) -> f64 {
 }
 
 /// A standard normal number from two uniform ones in [0, 1) (Box and Muller 1958).
+#[inline]
 pub fn normal([radius, angle]: [f64; 2]) -> f64 {
     // 1 − u lies in (0, 1].
     (-2.0 * libm::log(1.0 - radius)).sqrt() * libm::cos(TAU * angle)

@@ -3,6 +3,7 @@
 use glam::{DMat3, DQuat, DVec3};
 
 /// The right-handed rotation about a unit vector, by an angle in radians.
+#[inline]
 pub fn about(axis: DVec3, angle: f64) -> DMat3 {
     let (sin, cos) = (libm::sin(0.5 * angle), libm::cos(0.5 * angle));
     DMat3::from_quat(DQuat::from_xyzw(

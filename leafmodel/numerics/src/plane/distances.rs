@@ -67,6 +67,7 @@ impl Node {
 
 impl Distances {
     /// Builds the tree.
+    #[inline]
     pub fn new(mut segments: Vec<[DVec2; 2]>) -> Self {
         let mut nodes = Vec::with_capacity(segments.len());
         if !segments.is_empty() {
@@ -76,11 +77,13 @@ impl Distances {
     }
 
     /// Distances to the sides of a closed polygon.
+    #[inline]
     pub fn around(corners: &[DVec2]) -> Self {
         Self::new(polygon::sides(corners).map(<[DVec2; 2]>::from).collect())
     }
 
     /// Distance of a point (mm) to the nearest segment; infinite if there are none.
+    #[inline]
     pub fn at(&self, p: DVec2) -> f64 {
         self.search(p, f64::INFINITY, &mut 0)
     }
@@ -88,6 +91,7 @@ impl Distances {
     /// As [`Distances::at`], with the same bits, for the points `place([column, row])` of a grid of
     /// `[width, height]`, row by row, on all threads; infinite where a row's flags, `asked(row)`,
     /// do not ask for it. Much faster, since points that lie together share their search.
+    #[inline]
     pub fn of_grid<'f>(
         &self,
         [width, height]: [usize; 2],

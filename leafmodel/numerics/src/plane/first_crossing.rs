@@ -7,6 +7,7 @@ use super::{Slabs, turn};
 /// Two edges of the closed polygon that cross, or touch elsewhere than at the corner that
 /// neighbours share. `None` for a simple polygon. Only edges in a common slab whose x-ranges
 /// overlap are compared: `O(n √n)` for a comb, about `n log n` for ordinary margins.
+#[inline]
 pub fn first_crossing(points: &[DVec2], slabs: &Slabs) -> Option<(usize, usize)> {
     let n = points.len();
     let ends = |i: usize| (points[i], points[(i + 1) % n]);

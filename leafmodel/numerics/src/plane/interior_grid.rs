@@ -32,6 +32,7 @@ pub struct InteriorGrid {
 
 impl InteriorGrid {
     /// The cells of a simple polygon; `slabs` indexes its edges.
+    #[inline]
     pub fn new(points: &[DVec2], slabs: &Slabs) -> Self {
         let (low, high) = bounds(points.iter().copied());
         let cell = (high - low).max_element() / CELLS;
@@ -52,6 +53,7 @@ impl InteriorGrid {
     }
 
     /// Whether `p` is inside; `None` if its cell lies on the margin.
+    #[inline]
     pub fn contains(&self, p: DVec2) -> Option<bool> {
         match self.steps_at(p) {
             MARGIN => None,
@@ -61,6 +63,7 @@ impl InteriorGrid {
     }
 
     /// Whether the cells prove that the segment from `a` to `b` stays clear of the margin.
+    #[inline]
     pub fn is_clear(&self, a: DVec2, b: DVec2) -> bool {
         let steps = self.steps_at(a);
         // Between a cell and one `steps` away lie `steps − 1` whole cells.

@@ -17,6 +17,7 @@ pub struct Lattice {
 
 impl Lattice {
     /// As many cells with this side as a rectangle of this size needs.
+    #[inline]
     pub fn new(low: DVec2, size: DVec2, cell: f64) -> Self {
         Self {
             low,
@@ -27,28 +28,33 @@ impl Lattice {
     }
 
     /// Number of cells.
+    #[inline]
     pub fn cells(&self) -> usize {
         self.columns * self.rows
     }
 
     /// Number of the cell in which a point lies; for points outside the rectangle, of the nearest
     /// cell.
+    #[inline]
     pub fn cell(&self, p: DVec2) -> usize {
         self.row(p.y) * self.columns + self.column(p.x)
     }
 
     // Casts from float to int saturate, so points below the rectangle fall into its first row.
     /// The column of a place, the nearest one if it lies outside.
+    #[inline]
     pub fn column(&self, x: f64) -> usize {
         (((x - self.low.x) / self.cell) as usize).min(self.columns - 1)
     }
 
     /// The row of a place, the nearest one if it lies outside.
+    #[inline]
     pub fn row(&self, y: f64) -> usize {
         (((y - self.low.y) / self.cell) as usize).min(self.rows - 1)
     }
 
     /// As [`Lattice::cell`]; `None` for points outside the cells.
+    #[inline]
     pub fn cell_with(&self, p: DVec2) -> Option<usize> {
         let place = (p - self.low) / self.cell;
         let is_inside = place.cmpge(DVec2::ZERO).all()
@@ -58,12 +64,14 @@ impl Lattice {
     }
 
     /// The middle of a cell.
+    #[inline]
     pub fn middle(&self, cell: usize) -> DVec2 {
         let (column, row) = (cell % self.columns, cell / self.columns);
         self.low + (DVec2::new(column as f64, row as f64) + 0.5) * self.cell
     }
 
     /// Numbers of the cells into which a rectangle reaches, ascending.
+    #[inline]
     pub fn cells_between(
         &self,
         low: DVec2,

@@ -5,12 +5,14 @@ use glam::DVec2;
 use super::{segment, turn};
 
 /// The sides of a closed polygon, from each corner to the next.
+#[inline]
 pub fn sides(corners: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> + Clone + '_ {
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).map(|(a, b)| (*a, *b))
 }
 
 /// Area, positive when the corners run counter-clockwise (shoelace formula about the first).
+#[inline]
 pub fn signed_area(corners: &[DVec2]) -> f64 {
     let doubled: f64 = corners
         .windows(2)
@@ -20,11 +22,13 @@ pub fn signed_area(corners: &[DVec2]) -> f64 {
 }
 
 /// Length around.
+#[inline]
 pub fn perimeter(corners: &[DVec2]) -> f64 {
     sides(corners).map(|(a, b)| a.distance(b)).sum()
 }
 
 /// Whether `p` lies inside, by the even–odd rule along the ray towards +x.
+#[inline]
 pub fn contains(corners: &[DVec2], p: DVec2) -> bool {
     sides(corners).filter(|&side| is_right_of(side, p)).count() % 2 == 1
 }
@@ -35,6 +39,7 @@ pub(super) fn is_right_of((a, b): (DVec2, DVec2), p: DVec2) -> bool {
 }
 
 /// Whether the segment from `from` to `to` crosses a side, both in their interiors.
+#[inline]
 pub fn is_crossed_by(corners: &[DVec2], from: DVec2, to: DVec2) -> bool {
     sides(corners).any(|(a, b)| segment::cross(a, b, from, to))
 }
@@ -50,6 +55,7 @@ pub struct Place {
 }
 
 /// The place on a polygon that is nearest to `p`; the first of several.
+#[inline]
 pub fn nearest(corners: &[DVec2], p: DVec2) -> Place {
     let mut best = Place {
         edge: 0,
@@ -67,6 +73,7 @@ pub fn nearest(corners: &[DVec2], p: DVec2) -> Place {
 }
 
 /// The smallest convex polygon around points, counter-clockwise (monotone chains).
+#[inline]
 pub fn hull(points: &[DVec2]) -> Vec<DVec2> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));

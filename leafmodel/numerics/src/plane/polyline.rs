@@ -21,11 +21,13 @@ impl Point for DVec3 {
 }
 
 /// Length of a line.
+#[inline]
 pub fn length<P: Point>(points: &[P]) -> f64 {
     points.windows(2).map(|pair| pair[0].away(pair[1])).sum()
 }
 
 /// Length of a line up to each of its points.
+#[inline]
 pub fn lengths<P: Point>(points: &[P]) -> Vec<f64> {
     let mut sum = 0.0;
     let pieces = points.windows(2).map(|pair| {
@@ -36,6 +38,7 @@ pub fn lengths<P: Point>(points: &[P]) -> Vec<f64> {
 }
 
 /// The number of the point that is nearest to `p`, the first of several; 0 without points.
+#[inline]
 pub fn nearest(points: &[DVec2], p: DVec2) -> usize {
     let squared = |i: &usize| (points[*i] - p).length_squared();
     let numbers = 0..points.len();
@@ -45,6 +48,7 @@ pub fn nearest(points: &[DVec2], p: DVec2) -> usize {
 
 /// The piece of a line that holds the place `at` of its lengths, by the number of the point where it
 /// ends, and where on it as a share. A piece without length has share 0.
+#[inline]
 pub fn piece(lengths: &[f64], at: f64) -> (usize, f64) {
     let end = lengths.partition_point(|&length| length <= at);
     let end = end.clamp(1, lengths.len() - 1);

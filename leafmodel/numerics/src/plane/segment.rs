@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::turn;
 
 /// How far from `a` to `b` the point nearest to `p` lies, 0 to 1.
+#[inline]
 pub fn share(a: DVec2, b: DVec2, p: DVec2) -> f64 {
     let way = b - a;
     let squared = way.length_squared();
@@ -16,16 +17,19 @@ pub fn share(a: DVec2, b: DVec2, p: DVec2) -> f64 {
 }
 
 /// The point nearest to `p` on the segment from `a` to `b`.
+#[inline]
 pub fn nearest(a: DVec2, b: DVec2, p: DVec2) -> DVec2 {
     a + (b - a) * share(a, b, p)
 }
 
 /// Squared distance from `p` to the segment from `a` to `b`.
+#[inline]
 pub fn distance_squared(a: DVec2, b: DVec2, p: DVec2) -> f64 {
     nearest(a, b, p).distance_squared(p)
 }
 
 /// Distance from `p` to the segment from `a` to `b`.
+#[inline]
 pub fn distance(a: DVec2, b: DVec2, p: DVec2) -> f64 {
     distance_squared(a, b, p).sqrt()
 }
@@ -41,6 +45,7 @@ pub struct Line {
 
 impl Line {
     /// The segment between two points.
+    #[inline]
     pub fn new([from, to]: [DVec2; 2]) -> Self {
         let along = to - from;
         Self {
@@ -51,6 +56,7 @@ impl Line {
     }
 
     /// Squared distance of a point.
+    #[inline]
     pub fn distance_squared(&self, p: DVec2) -> f64 {
         let offset = p - self.from;
         let share = if self.length_squared > 0.0 {
@@ -62,6 +68,7 @@ impl Line {
     }
 
     /// Distance of a point.
+    #[inline]
     pub fn distance(&self, p: DVec2) -> f64 {
         self.distance_squared(p).sqrt()
     }
@@ -69,6 +76,7 @@ impl Line {
 
 /// Where the segments a–b and c–d cross in their interiors, as a share of each; `None` if they do
 /// not.
+#[inline]
 pub fn crossing(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<(f64, f64)> {
     let opposite = |p: f64, q: f64| (p > 0.0 && q < 0.0) || (p < 0.0 && q > 0.0);
     let (abc, abd) = (turn(a, b, c), turn(a, b, d));
@@ -80,12 +88,14 @@ pub fn crossing(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<(f64, f64)> {
 }
 
 /// Whether the segments a–b and c–d cross in their interiors.
+#[inline]
 pub fn cross(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     crossing(a, b, c, d).is_some()
 }
 
 /// Where the line from `start` along `way` meets that through `a` and `b`: as a multiple of `way`, and
 /// as a share of the way from `a` to `b`. Not finite for parallel lines.
+#[inline]
 pub fn meeting(start: DVec2, way: DVec2, a: DVec2, b: DVec2) -> (f64, f64) {
     let side = b - a;
     let across = way.perp_dot(side);

@@ -19,6 +19,7 @@ pub struct Slabs {
 
 impl Slabs {
     /// Sorts the edges of `points` (edge `i` from point `i` to the next) into slabs.
+    #[inline]
     pub fn new(points: &[DVec2]) -> Self {
         let n = points.len();
         let (low, high) = points
@@ -46,11 +47,13 @@ impl Slabs {
     }
 
     /// Number of slabs, ≥ 1.
+    #[inline]
     pub fn count(&self) -> usize {
         self.edges.count()
     }
 
     /// The edges that reach into a slab, ascending.
+    #[inline]
     pub fn edges(&self, slab: usize) -> &[u32] {
         self.edges.list(slab)
     }
@@ -64,12 +67,14 @@ impl Slabs {
     }
 
     /// Even–odd rule along the ray from `p` towards +x.
+    #[inline]
     pub fn contains(&self, points: &[DVec2], p: DVec2) -> bool {
         let sides = self.edges(self.at(p.y)).iter().map(|&i| ends(points, i));
         sides.filter(|&side| polygon::is_right_of(side, p)).count() % 2 == 1
     }
 
     /// Whether the segment from `a` to `b` crosses an edge, both in their interiors.
+    #[inline]
     pub fn is_crossed_by(&self, points: &[DVec2], a: DVec2, b: DVec2) -> bool {
         let (one, other) = (self.at(a.y), self.at(b.y));
         self.edges
@@ -82,6 +87,7 @@ impl Slabs {
     }
 
     /// Squared distance from `p` to the nearest edge.
+    #[inline]
     pub fn distance_squared(&self, points: &[DVec2], p: DVec2) -> f64 {
         let home = self.at(p.y);
         let mut best = f64::INFINITY;
