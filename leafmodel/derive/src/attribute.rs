@@ -156,7 +156,7 @@ fn key(attribute: &Attribute) -> Result<Key> {
     Ok(key)
 }
 
-/// The single word of which an expression consists.
+/// The word, if an expression is a single one.
 fn word(expr: &Expr) -> Option<String> {
     let Expr::Path(path) = expr else {
         return None;

@@ -450,7 +450,7 @@ impl Kind for FilePath {
     }
 }
 
-/// The file behind such a path, of which the path as written is not kept.
+/// The file behind such a path; the path as written is not kept.
 #[derive(Clone, Copy, Debug)]
 pub struct FileOnly(pub FilePath);
 

@@ -201,7 +201,7 @@ fn told(
     let squares: f64 = sample.iter().map(|(_, weight)| weight * weight).sum();
     let counts = population.counts();
     Fit {
-        parameters: posterior::told(problem, &sample, &located.expected),
+        parameters: posterior::estimates(problem, &sample, &located.expected),
         correlations: posterior::correlations(problem, &sample),
         effective_size: 1.0 / squares,
         tolerance: located.tolerance,

@@ -89,7 +89,7 @@ pub struct HairPlan {
 }
 
 impl HairPlan {
-    /// Hairs of which nothing is said: there are none.
+    /// The default: no hairs.
     pub(crate) fn usual(name: &str) -> Self {
         // The wall of a dry hair, which is filled with air: white.
         let dry = Contents::NOTHING.with(&[(Constituent::Structure, 1.5)]);

@@ -244,7 +244,7 @@ fn picture(picture: &mut Arc<Picture<1>>, keys: &mut Keys<'_>) {
     *picture = Arc::new(Picture::of_raster(file, channel, decoded));
 }
 
-/// How to mend pictures of layers.
+/// What to change in pictures of layers.
 pub(super) const MEND_PICTURE: &str =
     "see docs/src/format/leaf.md for what pictures of layers hold";
 

@@ -118,7 +118,7 @@ impl Correlation {
 }
 
 /// What a sample of places with weights that add up to 1 says of each parameter.
-pub(super) fn told(
+pub(super) fn estimates(
     problem: &Problem,
     sample: &[(Vec<f64>, f64)],
     expected: &[f64],
