@@ -13,14 +13,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DMat4, DVec3};
 
-use crate::export::element::{Document, Element, Layout};
+use crate::plugin::element::{Document, Element, Layout};
+use crate::plugin::spectra::Spectra;
+use crate::plugin::{UNITS_PER_METRE, matrix};
 use crate::scene::description::{Description, Object, ObjectShape};
 use crate::scene::plants::Piece;
 use crate::scene::world::World;
 
-use super::plugin::matrix;
-use super::spectra::Spectra;
-use super::units::{UNITS_PER_METRE, material_id};
+use super::bsdf::material_id;
 use super::{emitter, media};
 
 /// A mesh of the world, or its mirror image in x.
@@ -79,9 +79,7 @@ pub(super) fn write(
     for (number, light) in scene.lights.iter().enumerate() {
         if let Some(area) = light.value.area() {
             let emission = emitter::emission(scene, world, number);
-            let pattern = &area.pattern;
-            let pattern = (!pattern.is_even()).then_some((&*light.name, pattern, emission));
-            shining.insert(area.object, (&area.radiance, pattern));
+            shining.insert(area.object, (area, &*light.name, emission));
         }
     }
     let mut counts: BTreeMap<Kind, usize> = BTreeMap::new();
@@ -94,13 +92,13 @@ pub(super) fn write(
     }
     let mut groups = BTreeSet::new();
     for (number, object) in scene.objects.iter().enumerate() {
-        let radiance = shining.get(&number);
+        let light = shining.get(&number);
         for (place, kind, to_world) in places(&object.value, world.strewn.get(&number)) {
             let mut id = format!("object-{}", object.name);
             if object.value.instances.is_some() || object.value.is_spread() {
                 id += &format!(".{}", place + 1);
             }
-            if radiance.is_none() && counts[&kind] > 1 {
+            if light.is_none() && counts[&kind] > 1 {
                 if groups.insert(kind) {
                     document.add(&writer.group(kind));
                 }
@@ -108,7 +106,7 @@ pub(super) fn write(
                 continue;
             }
             let emitter =
-                radiance.map(|(radiance, pattern)| emitter::area(radiance, *pattern, 1.0, spectra));
+                light.map(|(area, name, emission)| area.emitter(name, *emission, spectra));
             for (part, piece) in world.pieces.of(kind.0).iter().enumerate() {
                 let id = match part {
                     0 => id.clone(),

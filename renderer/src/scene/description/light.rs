@@ -27,6 +27,8 @@ use self::overcast::Overcast;
 use self::spot::Spotlight;
 use crate::light;
 use crate::light::daylight::Daylight;
+use crate::plugin::emitter::Emitter;
+use crate::plugin::spectra::Spectra;
 use crate::scene::assets::{self, AssetError, RgbPicture};
 use crate::spectrum::written::Spectrum;
 
@@ -122,6 +124,18 @@ impl Light {
                 return Ok(vec![light::Light::Sun(sun), light::Light::Sky(sky)]);
             }
         }])
+    }
+
+    /// What Mitsuba gets of it.
+    pub(crate) fn emitter(&self, spectra: &mut Spectra) -> Emitter<'_> {
+        match self {
+            Self::Distant(light) => light.emitter(spectra),
+            Self::Constant(light) => Emitter::Around(Some(&light.radiance)),
+            Self::Environment(_) | Self::Overcast(_) => Emitter::Around(None),
+            Self::Area(_) => Emitter::OnShape,
+            Self::Spot(light) => Emitter::Placed(light.emitter(spectra)),
+            Self::Daylight(day) => daylight::sun(day, spectra),
+        }
     }
 
     /// Its spectrum, relative: of daylight, of sun and sky on a level plane.

@@ -26,6 +26,8 @@ use crate::material::colour_map::{ColourMap, ColourTexture};
 use crate::material::model::Finish;
 use crate::material::palette::Palettes;
 use crate::material::solid::ReflectanceTables;
+use crate::plugin::element::Element;
+use crate::plugin::surface::Surface;
 use crate::scene::assets::{self, AssetError};
 use crate::spectrum::Curve;
 use crate::spectrum::written::Spectrum;
@@ -91,6 +93,27 @@ impl Material {
             Self::Leaf(of) => material::Material::Leaf(Box::new(of.built(sources)?)),
             Self::Solid(of) => material::Material::Solid(Box::new(of.built(sources)?)),
         })
+    }
+
+    /// Mitsuba's plugin for it.
+    pub(crate) fn plugin(&self, surface: &mut Surface<'_>) -> Element {
+        match self {
+            Self::Diffuse(of) => of.plugin(surface),
+            Self::Dielectric(of) => of.plugin(surface.id),
+            Self::Plastic(of) => of.plugin(surface),
+            Self::Model(_) => GltfSurface::plugin(surface),
+            Self::Leaf(of) => of.plugin(surface),
+            Self::Solid(of) => of.optics.plugin(of.held.extrapolates(), surface),
+        }
+    }
+
+    /// Whether that is a plugin of Mitsuba's own, and scatters.
+    pub(crate) fn is_stock(&self) -> bool {
+        match self {
+            Self::Diffuse(_) => true,
+            Self::Dielectric(of) => of.eta != 1.0,
+            Self::Plastic(_) | Self::Model(_) | Self::Leaf(_) | Self::Solid(_) => false,
+        }
     }
 
     /// The word for its kind.

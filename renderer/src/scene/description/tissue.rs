@@ -11,6 +11,9 @@ use leafmodel::optics::Contents;
 use leafmodel::optics::solid::{ETA, SCATTERING_PER_MM, Solid as Tissue};
 use leafmodel::plan_file::require_prospect;
 
+use crate::plugin::element::Element;
+use crate::plugin::spectra::Spectra;
+use crate::plugin::surface::{FACES, Surface};
 use crate::scene::blocks::spectrum::SpectrumOf;
 use crate::spectrum::written::Spectrum;
 
@@ -105,6 +108,25 @@ impl LeafFaces {
             impossible(keys, problem, "leave `fluorescence` out, or `optics`");
         }
     }
+
+    /// Adds them to Mitsuba's plugin of a leaf.
+    pub(crate) fn written(&self, bsdf: Element, spectra: &mut Spectra) -> Element {
+        let coats = FACES.into_iter().zip(&self.coats);
+        let bsdf = coats.fold(bsdf, |bsdf, (face, coat)| {
+            bsdf.float(&format!("{face}_eta"), coat.eta)
+                .float(&format!("{face}_alpha_across"), coat.alpha_across)
+                .float(&format!("{face}_alpha_along"), coat.alpha_along)
+        });
+        let known = [
+            ("abaxial_ratio", &self.abaxial_ratio),
+            ("abaxial_reflectance", &self.abaxial_reflectance),
+        ];
+        let known = known.into_iter();
+        let known = known.filter_map(|(name, spectrum)| Some((name, spectrum.as_ref()?)));
+        known.fold(bsdf, |bsdf, (name, spectrum)| {
+            bsdf.holding(spectra.element(name, spectrum, 1.0))
+        })
+    }
 }
 
 /// Reports what a leaf of layers cannot be.
@@ -181,6 +203,20 @@ impl Declared for SolidOptics {
             keys.key("alpha", &mut coat.alpha_across, limits, "GGX roughness.");
             coat.alpha_along = coat.alpha_across;
         });
+    }
+}
+
+impl SolidOptics {
+    /// Mitsuba's plugin for solid tissue, grown or of a material.
+    pub(crate) fn plugin(&self, extrapolate: bool, surface: &Surface<'_>) -> Element {
+        // In `reference/`.
+        surface
+            .plugin("lamina_solid", extrapolate)
+            .float("depth_mm", self.tissue.depth_mm)
+            .float("scattering_per_mm", self.tissue.scattering_per_mm)
+            .float("eta", self.tissue.eta)
+            .float("coat_eta", self.coat.eta)
+            .float("coat_alpha", self.coat.alpha_across)
     }
 }
 

@@ -9,6 +9,8 @@ use super::Sources;
 use super::measured::Measured;
 use crate::material;
 use crate::material::leaf::LeafMaterial;
+use crate::plugin::element::Element;
+use crate::plugin::surface::Surface;
 use crate::scene::assets::AssetError;
 use crate::scene::description::tissue::{
     Fluorescence, Held, LeafFaces, LeafOptics, extrapolate, impossible,
@@ -145,5 +147,19 @@ impl PlainLeaf {
         };
         let palette = sources.palettes.of(&self.pigments);
         Ok(tissue::leaf(made, palette, &self.faces, self.fluorescence))
+    }
+
+    pub(super) fn plugin(&self, surface: &mut Surface<'_>) -> Element {
+        let bsdf = match &self.tissue {
+            LeafTissue::Held(held) => surface.leaf(held.extrapolates()),
+            LeafTissue::Measured {
+                reflectance,
+                transmittance,
+            } => surface
+                .leaf(false)
+                .holding(surface.spectra.element("reflectance", reflectance, 1.0))
+                .holding(surface.spectra.element("transmittance", transmittance, 1.0)),
+        };
+        self.faces.written(bsdf, surface.spectra)
     }
 }

@@ -6,6 +6,8 @@ use leafmodel::document::keys::Keys;
 use super::Sources;
 use crate::bsdf::coat::Coat;
 use crate::material::plastic::PlasticMaterial;
+use crate::plugin::element::Element;
+use crate::plugin::surface::Surface;
 use crate::scene::assets::AssetError;
 use crate::scene::description::reflectance::Reflectance;
 
@@ -29,6 +31,15 @@ impl Plastic {
         let coat = Coat::new(self.eta as f32, alpha, alpha);
         let reflectance = sources.reflectance(&self.reflectance)?;
         Ok(PlasticMaterial::new(reflectance, coat))
+    }
+
+    pub(super) fn plugin(&self, surface: &mut Surface<'_>) -> Element {
+        // In `reference/`.
+        Element::plugin("bsdf", "lamina_plastic")
+            .called(surface.id)
+            .float("eta", self.eta)
+            .float("alpha", self.roughness)
+            .holding(self.reflectance.parameter(surface))
     }
 }
 

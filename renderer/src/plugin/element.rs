@@ -13,7 +13,7 @@ const INDENT: usize = 2;
 
 /// An element with its attributes and children.
 #[derive(Clone, Debug)]
-pub(super) struct Element {
+pub(crate) struct Element {
     name: &'static str,
     attributes: Vec<(&'static str, String)>,
     children: Vec<Element>,
@@ -22,7 +22,7 @@ pub(super) struct Element {
 
 /// The layout of an element's children, which matters to human readers only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Layout {
+pub(crate) enum Layout {
     /// On separate lines, indented.
     Indented,
     /// On separate lines, with the indentation of the element itself.
@@ -33,7 +33,7 @@ pub(super) enum Layout {
 
 impl Element {
     /// An element without attributes and children.
-    pub(super) fn new(name: &'static str) -> Self {
+    pub(crate) fn new(name: &'static str) -> Self {
         Self {
             name,
             attributes: Vec::new(),
@@ -44,25 +44,25 @@ impl Element {
 
     /// Appends an attribute. A number is written with as many digits as are needed to read it back
     /// exactly.
-    pub(super) fn with(mut self, name: &'static str, value: impl Display) -> Self {
+    pub(crate) fn with(mut self, name: &'static str, value: impl Display) -> Self {
         self.attributes.push((name, value.to_string()));
         self
     }
 
     /// Appends a child.
-    pub(super) fn holding(mut self, child: Self) -> Self {
+    pub(crate) fn holding(mut self, child: Self) -> Self {
         self.children.push(child);
         self
     }
 
     /// Appends children.
-    pub(super) fn holding_all(mut self, children: impl IntoIterator<Item = Self>) -> Self {
+    pub(crate) fn holding_all(mut self, children: impl IntoIterator<Item = Self>) -> Self {
         self.children.extend(children);
         self
     }
 
     /// Sets the layout of its children.
-    pub(super) fn laid_out(self, layout: Layout) -> Self {
+    pub(crate) fn laid_out(self, layout: Layout) -> Self {
         Self { layout, ..self }
     }
 
@@ -116,7 +116,7 @@ impl Display for Element {
 /// A root element whose children are converted to text one by one, so that a scene of many
 /// instances is in memory only once.
 #[derive(Debug)]
-pub(super) struct Document {
+pub(crate) struct Document {
     root: &'static str,
     text: String,
 }
@@ -124,7 +124,7 @@ pub(super) struct Document {
 impl Document {
     /// A document with this root and its children so far; children have the indentation of the
     /// root.
-    pub(super) fn new(root: &Element) -> Self {
+    pub(crate) fn new(root: &Element) -> Self {
         let mut text = String::new();
         root.write_start(&mut text);
         text.push_str(">\n");
@@ -139,12 +139,12 @@ impl Document {
     }
 
     /// Adds a child of the root.
-    pub(super) fn add(&mut self, child: &Element) {
+    pub(crate) fn add(&mut self, child: &Element) {
         let _ = writeln!(self.text, "{child}");
     }
 
     /// The whole text.
-    pub(super) fn finish(mut self) -> String {
+    pub(crate) fn finish(mut self) -> String {
         let _ = writeln!(self.text, "</{}>", self.root);
         self.text
     }

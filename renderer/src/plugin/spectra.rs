@@ -1,33 +1,26 @@
-//! Spectra and bands in Mitsuba's form.
+//! Spectra in Mitsuba's form.
 
-use crate::export::element::Element;
-use crate::scene::description::{Band, Spectrum};
+use crate::plugin::element::Element;
+use crate::spectrum::written::Spectrum;
 use crate::spectrum::{cie, planck};
 
 /// Range over which all spectra are written, nm; it contains every wavelength of a film. Mitsuba's
 /// spectra are zero outside their points, whereas ours keep their end values.
-pub(super) const RANGE_NM: [f64; 2] = [300.0, 2600.0];
+pub(crate) const RANGE_NM: [f64; 2] = [300.0, 2600.0];
 
 /// Greatest number of points of a spectrum that is written inline; longer ones get a separate file.
 const MOST_INLINE: usize = 16;
 
-/// Number of intervals of a band's response.
-const RESPONSE_INTERVALS: usize = 64;
-
-/// Width, nm, of the box that represents a single wavelength: Mitsuba's wavelengths are `f32`, with
-/// steps of up to 2.4e-4 nm.
-const SINGLE_WAVELENGTH_NM: f64 = 0.5;
-
 /// Writes spectra, and collects those that go into files.
 #[derive(Debug, Default)]
-pub(super) struct Spectra {
+pub(crate) struct Spectra {
     /// Names in the folder `spectra`, and texts.
-    pub(super) files: Vec<(String, String)>,
+    pub(crate) files: Vec<(String, String)>,
 }
 
 impl Spectra {
     /// The parameter `<spectrum name=…>` of a spectrum times a factor.
-    pub(super) fn element(&mut self, name: &str, spectrum: &Spectrum, factor: f64) -> Element {
+    pub(crate) fn element(&mut self, name: &str, spectrum: &Spectrum, factor: f64) -> Element {
         let element = Element::new("spectrum").with("name", name);
         let points = points(spectrum, factor);
         // Mitsuba refuses tables that are zero everywhere.
@@ -88,26 +81,6 @@ fn points(spectrum: &Spectrum, factor: f64) -> Vec<(f64, f64)> {
     points
 }
 
-/// A band of a `specfilm`, whose channel is the integral of radiance times this response: a box of
-/// area 1, so that the channel is the band's mean radiance.
-///
-/// The film draws wavelengths from the sum of all responses, resampled at the finest spacing of any
-/// of them. With only two points, a narrow band could fall between the points of that resampling.
-pub(super) fn response(number: usize, band: &Band) -> Element {
-    let width = if band.width_nm > 0.0 {
-        band.width_nm
-    } else {
-        SINGLE_WAVELENGTH_NM
-    };
-    let (low, high) = (band.center_nm - 0.5 * width, band.center_nm + 0.5 * width);
-    let values = vec![(1.0 / width).to_string(); RESPONSE_INTERVALS + 1].join(", ");
-    Element::plugin("spectrum", "regular")
-        .with("name", format!("band_{number:02}"))
-        .float("wavelength_min", low)
-        .float("wavelength_max", high)
-        .string("values", values)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -150,21 +123,5 @@ mod tests {
         let black = spectra.element("reflectance", &Spectrum::Constant(0.0), 1.0);
         let expected = "<spectrum name=\"reflectance\" value=\"0\"/>";
         assert_eq!(black.to_string(), expected);
-    }
-
-    #[test]
-    fn a_response_has_area_one() {
-        let text = response(
-            3,
-            &Band {
-                center_nm: 550.0,
-                width_nm: 10.0,
-            },
-        )
-        .to_string();
-        assert!(text.contains("name=\"band_03\""));
-        assert!(text.contains("\"wavelength_min\" value=\"545\""));
-        assert!(text.contains("\"wavelength_max\" value=\"555\""));
-        assert_eq!(text.matches("0.1").count(), RESPONSE_INTERVALS + 1);
     }
 }

@@ -3,13 +3,13 @@
 //! The pictures are written as linear colours, row by row from the top, and the three spectra of
 //! which a colour is the sum beside them, so that both programs have the same reflectances.
 
-use crate::export::element::Element;
 use crate::image::{Layer, Picture};
 use crate::material::Material;
 use crate::material::colour_map::{ColourMap, Wrap};
+use crate::plugin::element::Element;
 
 /// Path, within the export, of the spectra of red, green and blue.
-pub(super) const BASIS: &str = "spectra/rgb_basis.csv";
+pub(crate) const BASIS: &str = "spectra/rgb_basis.csv";
 
 /// Path, within the export, of a picture of a material.
 fn file(id: &str, slot: usize) -> String {
@@ -21,7 +21,7 @@ fn file(id: &str, slot: usize) -> String {
 /// # Panics
 ///
 /// If there is no map: a material with a picture has one.
-pub(super) fn texture(id: &str, name: &'static str, map: Option<&ColourMap>) -> Element {
+pub(crate) fn texture(id: &str, name: &'static str, map: Option<&ColourMap>) -> Element {
     let map = map.expect("what is built of a picture has a map");
     let [u, v] = map.repeats().to_array().map(f64::from);
     let texture = Element::plugin("texture", "lamina_colours")
@@ -45,7 +45,7 @@ pub(super) fn texture(id: &str, name: &'static str, map: Option<&ColourMap>) -> 
 }
 
 /// The maps of colours, and of numbers stored as such, that a material has, each with its id.
-pub(super) fn maps(id: &str, material: &Material) -> Vec<(String, ColourMap)> {
+pub(crate) fn maps(id: &str, material: &Material) -> Vec<(String, ColourMap)> {
     let colours = material.colour_map().cloned();
     let colours = colours.map(|map| (id.to_owned(), map));
     let further = if let Material::Model(model) = material {
@@ -58,7 +58,7 @@ pub(super) fn maps(id: &str, material: &Material) -> Vec<(String, ColourMap)> {
 }
 
 /// The pictures of a map, each with its path within the export.
-pub(super) fn pictures(id: &str, map: &ColourMap) -> Vec<(String, Picture)> {
+pub(crate) fn pictures(id: &str, map: &ColourMap) -> Vec<(String, Picture)> {
     let slots = map.slots().iter().enumerate();
     let pictures = slots.filter_map(|(number, slot)| {
         let texture = slot.texture.as_ref()?;
