@@ -7,14 +7,12 @@
 //!   and in range, indices are valid, files lie in the scene's folder.
 
 mod camera;
-pub(in crate::scene) mod film;
 mod fluorescence;
 mod instances;
 mod leaf;
 mod object;
 mod placement;
 mod references;
-mod sensitivities;
 mod solid;
 pub(in crate::scene) mod spectrum;
 pub(in crate::scene) mod table_file;
@@ -24,7 +22,6 @@ use std::rc::Rc;
 
 use leafmodel::document::context::Context;
 use leafmodel::document::declared::Declared;
-use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, NamedList};
 use leafmodel::document::names::{Named, require_title};
 use leafmodel::document::reader::Block;
@@ -35,7 +32,9 @@ use leafmodel::document::tree::Table;
 use leafmodel::document::value_kind::{Flag, Text};
 use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 
+pub(crate) use self::references::Purpose;
 use super::authored::{Authored, Light};
+use super::description::film::film;
 use super::description::{Leaf, Material, Medium, Picture};
 
 /// All keys at the top of a scene file.
@@ -57,15 +56,6 @@ const SECTIONS: [&str; 16] = [
     "lights",
     "objects",
 ];
-
-/// What a scene is read for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Purpose {
-    /// A picture: spectra must cover the wavelengths of the film.
-    Picture,
-    /// Its instruments: spectra of surfaces must cover their wavelengths. Lights do nothing.
-    Instruments,
-}
 
 /// Reads a whole file. Errors are left in the context; if there is none, the scene is returned.
 pub(crate) fn read(
@@ -149,7 +139,7 @@ fn scene(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
     // The film comes first, since it sets the wavelengths that spectra must cover.
     let about = "What is recorded, and how well.";
     keys.required_block("film", about, &["rgb", "spectral"], |keys| {
-        film::film(&mut scene.film, keys);
+        film(&mut scene.film, keys);
     });
     fluorescence::report_range(keys);
     let about = "How the picture to look at is made from the film.";
@@ -268,9 +258,4 @@ fn section<T>(
     keys.named(name, blocks, &list, about, |block, keys| {
         declare(&mut block.value, keys);
     });
-}
-
-/// Reports an error at a key of the present block, or at the block if the key is missing.
-fn report(keys: &Keys<'_>, key: &str, error: DocumentError) {
-    keys.report(&[key], error);
 }

@@ -5,6 +5,7 @@
 //! same input. `scene::expand` makes it of what the file says.
 
 mod camera;
+pub mod film;
 pub(in crate::scene) mod instrument;
 pub mod layer;
 pub mod light;
@@ -19,15 +20,14 @@ pub mod tissue;
 use std::sync::Arc;
 
 use leafmodel::blade::stalk::StalkMesh;
-use leafmodel::document::declared::Declared;
 pub use leafmodel::document::names::Named;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::solid::SolidPlan;
 
-use crate::film::MOST_SAMPLES;
 use crate::scene::model::Wanted;
 
 pub use self::camera::{Camera, FocusObject};
+pub use self::film::Film;
 pub use self::instrument::{
     Amount, Canopy, DepthProfile, Detector, Estimator, ExcitationLight, FluorescenceReading, Gonio,
     Incidence, Incident, Index, Instrument, InstrumentKind, Response, Sample, Spot, SpotMiddle,
@@ -104,34 +104,6 @@ impl Description {
             emission,
         })
     }
-}
-
-/// What is recorded, and how well.
-#[derive(Clone, Debug, Declared)]
-pub struct Film {
-    /// Pixels across.
-    #[key(with = Self::declare_size)]
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Samples a pixel; with `noise` the most.
-    #[key("spp", required, 1..=MOST_SAMPLES.into())]
-    pub spp: u32,
-    /// Relative error at which a part of the picture has enough samples; `None` if all parts get
-    /// the same number.
-    #[key(with = Self::declare_noise)]
-    pub noise: Option<f64>,
-    /// Seed of every random number; same file, same seed, same bytes.
-    #[key("seed")]
-    pub seed: u64,
-    /// Radius of the Gaussian reconstruction filter; 0 is a box of one pixel, which keeps pixels
-    /// independent of each other.
-    ///
-    /// In pixels.
-    #[key("filter_radius_px", 0.0..=8.0)]
-    pub filter_radius: f64,
-    /// Colour or bands.
-    pub kind: FilmKind,
 }
 
 /// What a scene's triangles are made from.

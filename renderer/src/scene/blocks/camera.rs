@@ -8,7 +8,6 @@ use leafmodel::document::limits::Limits;
 use leafmodel::document::names::NameIn;
 use leafmodel::document::value_kind::{Degrees, DegreesList, Kind, Number, Vector};
 
-use super::report;
 use crate::camera::thin_lens::{ANGLES_DEG, Field, Focus, Iris, Lens, LensError, Opening};
 use crate::camera::view::{Near, Projection, View};
 pub(super) use crate::geometry::instance::COORDINATES_M;
@@ -282,7 +281,7 @@ fn check_view(camera: &View, keys: &Keys<'_>) -> bool {
             problem: "the camera looks at the point where it stands",
             help: "move `position_m` or `look_at_m`",
         };
-        report(keys, "look_at_m", error);
+        keys.report(&["look_at_m"], error);
         return false;
     }
     let across = view.normalize().cross(camera.up.normalize_or_zero());
@@ -291,7 +290,7 @@ fn check_view(camera: &View, keys: &Keys<'_>) -> bool {
             problem: "the camera's `up` is zero or points along its view",
             help: "choose another direction, for example `up = [0, 1, 0]`",
         };
-        report(keys, "up", error);
+        keys.report(&["up"], error);
         return false;
     }
     true

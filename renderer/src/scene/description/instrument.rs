@@ -135,7 +135,10 @@ impl Instrument {
     }
 
     fn declare_kind(&mut self, keys: &mut Keys<'_>) {
-        wavelengths::wavelengths(self, keys);
+        wavelengths::declare(&mut self.wavelengths_nm, keys, |keys| {
+            bands::declare(&mut self.bands, &mut self.indices, keys);
+            !self.bands.is_empty()
+        });
         match &mut self.kind {
             InstrumentKind::Sphere(sample) => {
                 sample.declare(keys);

@@ -13,7 +13,8 @@ use leafmodel::optics::Contents;
 use leafmodel::plant::{Crumb, Foot, Organ, Plant as Grown, PlantError, Wall};
 
 use super::individuals::{age, ageless, individuals, scattered_ranks, users};
-use super::{Fault, Planted, add, walls};
+use super::planted::{Fault, Planted, add};
+use super::walls;
 use crate::geometry::shapes::Lump;
 use crate::scene::authored::Plant;
 use crate::scene::description::material::solid::PlainSolid;

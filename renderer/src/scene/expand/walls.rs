@@ -3,7 +3,7 @@
 use glam::{DMat4, DVec3};
 use leafmodel::plant::Wall;
 
-use super::Planted;
+use super::planted::Planted;
 use crate::scene::authored::Plant;
 use crate::scene::description::{Description, ObjectShape};
 use crate::scene::model::Wanted;

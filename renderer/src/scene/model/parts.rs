@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::Vec2;
 use gltf_json::Root;
 
-use super::ModelError;
+use super::error::ModelError;
 use super::pictures::Pictures;
 use super::surfaces::Patch;
 use super::textures::{Of, Texture, texture};

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 use leafmodel::optics::fluorescence::EXCITED_NM;
 use rayon::prelude::*;
 
-use super::WorldError;
+use super::error::WorldError;
 use crate::film::MOST_RADIANCE;
 use crate::image::display::recorded_colour;
 use crate::image::light_colour::LightColour;

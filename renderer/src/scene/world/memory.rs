@@ -1,6 +1,6 @@
 //! Memory that a world takes while it is built, as far as it can be said before.
 
-use super::WorldError;
+use super::error::WorldError;
 use crate::geometry::TriangleMesh;
 use crate::geometry::scatter::Most;
 

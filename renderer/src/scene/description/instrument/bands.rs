@@ -4,8 +4,7 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::{ListOf, MapOf, Numbers, Word};
 
-use super::Instrument;
-use crate::scene::blocks::film::WAVELENGTHS_NM;
+use crate::scene::description::film::WAVELENGTHS_NM;
 
 /// A sensor whose bands are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,7 +154,7 @@ impl Response {
 }
 
 /// `sensor`, `bands_nm`, `band_shape` and `indices`.
-pub(super) fn bands(instrument: &mut Instrument, keys: &mut Keys<'_>) {
+pub(super) fn declare(bands: &mut Vec<Response>, indices: &mut Vec<Index>, keys: &mut Keys<'_>) {
     let mut sensor = None;
     let about = "A sensor for whose bands figures are told: even responses of the published \
         centres and widths.";
@@ -182,11 +181,11 @@ pub(super) fn bands(instrument: &mut Instrument, keys: &mut Keys<'_>) {
         return;
     }
     let known = sensor.iter().flat_map(|sensor: &Sensor| sensor.bands);
-    instrument.bands = known
+    *bands = known
         .map(|&(name, centre, fwhm)| Response::of_shape(name, centre, fwhm, Shape::Box))
         .collect();
     for (name, [centre, fwhm]) in &own {
-        if instrument.bands.iter().any(|band| band.name == *name) {
+        if bands.iter().any(|band| band.name == *name) {
             let problem = format!("the sensor has a band `{name}`");
             keys.refuse(&["bands_nm"], problem, "give the band another name");
         }
@@ -200,11 +199,11 @@ pub(super) fn bands(instrument: &mut Instrument, keys: &mut Keys<'_>) {
             let help = "write its middle and its width in nm, such as `red = [665, 30]`";
             keys.refuse(&["bands_nm"], problem, help);
         }
-        instrument.bands.push(band);
+        bands.push(band);
     }
-    instrument.indices = asked
+    *indices = asked
         .into_iter()
-        .filter_map(|asked| index(asked, sensor, &mut instrument.bands, keys))
+        .filter_map(|asked| index(asked, sensor, bands, keys))
         .collect();
 }
 

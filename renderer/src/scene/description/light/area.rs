@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use glam::{Affine3A, Vec2};
+use glam::Vec2;
 use leafmodel::document::coverage::require_coverage;
 use leafmodel::document::declared::{Declared, Defaults};
 use leafmodel::document::keys::Keys;
 use leafmodel::document::names::NameIn;
 
-use super::{LightError, PICTURE, Surroundings, read_picture};
+use super::surroundings::{LightError, PICTURE, Surroundings, read_picture};
 use crate::geometry::TriangleMesh;
 use crate::light::area::AreaLight;
 use crate::light::pattern::{Colours, Pattern};
@@ -91,15 +91,6 @@ fn check_pattern(pattern: &mut AreaPattern, keys: &mut Keys<'_>) {
         let at = block.node(key).map_or(&block.at, |node| &node.at);
         require_coverage(block.cx, at, "a picture's colour", rgb::RANGE_NM);
     }
-}
-
-/// The surface of an object that shines.
-pub(in crate::scene) struct Surface<'w> {
-    pub(in crate::scene) mesh: &'w TriangleMesh,
-    /// Its place around the origin of rays.
-    pub(in crate::scene) to_world: Affine3A,
-    /// What the materials of its model emit.
-    pub(in crate::scene) emission: Option<&'w ColourMap>,
 }
 
 impl Area {

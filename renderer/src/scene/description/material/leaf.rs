@@ -5,8 +5,8 @@ use leafmodel::document::keys::Keys;
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plan_file::{self, require_prospect};
 
-use super::Sources;
 use super::measured::Measured;
+use super::sources::Sources;
 use crate::material;
 use crate::material::leaf::LeafMaterial;
 use crate::plugin::element::Element;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use leafmodel::document::declared::{Declared, Defaults};
 use leafmodel::document::keys::Keys;
 
-use super::Sources;
+use super::sources::Sources;
 use crate::material::Material;
 use crate::material::model::ModelMaterial;
 use crate::plugin::colours;

@@ -3,7 +3,7 @@
 use leafmodel::document::declared::{Declared, Defaults};
 use leafmodel::document::keys::Keys;
 
-use super::Sources;
+use super::sources::Sources;
 use crate::bsdf::coat::Coat;
 use crate::material::plastic::PlasticMaterial;
 use crate::plugin::element::Element;

@@ -5,7 +5,7 @@ use leafmodel::document::keys::Keys;
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::solid::held_contents;
 
-use super::Sources;
+use super::sources::Sources;
 use crate::material::solid::SolidMaterial;
 use crate::scene::assets::AssetError;
 use crate::scene::description::tissue::{Held, SolidOptics};

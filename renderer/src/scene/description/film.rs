@@ -1,5 +1,7 @@
 //! `[film.rgb]` and `[film.spectral]`.
 
+mod sensitivities;
+
 use leafmodel::document::context::Context;
 use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
@@ -11,16 +13,45 @@ use leafmodel::document::tree::{Node, Value};
 use leafmodel::document::value_kind::{Kind, Number};
 use leafmodel::document::values::{integers_at, list, number, numbers_at};
 
-use super::sensitivities::{LEAST_SHARE, Sensitivities};
-use crate::scene::description::{Band, Film, FilmKind};
+use self::sensitivities::{LEAST_SHARE, Sensitivities};
+use crate::film::MOST_SAMPLES;
 use crate::spectrum::cie;
 use crate::spectrum::observer::Observer;
+use crate::spectrum::recorded::{Band, FilmKind};
 
 /// Range of wavelengths of the renderer, nm.
 pub(in crate::scene) const WAVELENGTHS_NM: Limits = Limits::closed(360.0, 2500.0);
 /// Most pixels along one side; both sides at most give 2^28 pixels.
 const MOST_PIXELS: u64 = 16384;
 const MOST_BANDS: usize = 32;
+
+/// What is recorded, and how well.
+#[derive(Clone, Debug, Declared)]
+pub struct Film {
+    /// Pixels across.
+    #[key(with = Self::declare_size)]
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Samples a pixel; with `noise` the most.
+    #[key("spp", required, 1..=MOST_SAMPLES.into())]
+    pub spp: u32,
+    /// Relative error at which a part of the picture has enough samples; `None` if all parts get
+    /// the same number.
+    #[key(with = Self::declare_noise)]
+    pub noise: Option<f64>,
+    /// Seed of every random number; same file, same seed, same bytes.
+    #[key("seed")]
+    pub seed: u64,
+    /// Radius of the Gaussian reconstruction filter; 0 is a box of one pixel, which keeps pixels
+    /// independent of each other.
+    ///
+    /// In pixels.
+    #[key("filter_radius_px", 0.0..=8.0)]
+    pub filter_radius: f64,
+    /// Colour or bands.
+    pub kind: FilmKind,
+}
 
 const KINDS: [Variant<Film>; 2] = [
     Variant {
@@ -89,16 +120,14 @@ impl Film {
             },
         }
     }
-}
 
-impl Film {
-    pub(in crate::scene) fn declare_size(&mut self, keys: &mut Keys<'_>) {
+    fn declare_size(&mut self, keys: &mut Keys<'_>) {
         let mut size = [self.width, self.height];
         keys.required("size", &mut size, Pixels, "Pixels across and down.");
         [self.width, self.height] = size;
     }
 
-    pub(in crate::scene) fn declare_noise(&mut self, keys: &mut Keys<'_>) {
+    fn declare_noise(&mut self, keys: &mut Keys<'_>) {
         let mut noise = self.noise.unwrap_or(0.0);
         let limits = Number(Limits::closed(0.0, 1.0));
         let about = "Relative error at which a part of the picture has enough samples: 0.01 is one \
@@ -109,7 +138,7 @@ impl Film {
 }
 
 /// The keys of `[film]`.
-pub(super) fn film(film: &mut Film, keys: &mut Keys<'_>) {
+pub(in crate::scene) fn film(film: &mut Film, keys: &mut Keys<'_>) {
     keys.kind(film, &KINDS);
 }
 

@@ -13,8 +13,8 @@ use leafmodel::document::tree::{Node, Table, Value};
 use leafmodel::document::value_kind::{FilePath, Kind, NamedFile};
 use leafmodel::document::values::{listed, wrong_type};
 
-use super::table_file::TableFile;
 use crate::measured::sensitivities;
+use crate::scene::blocks::table_file::TableFile;
 use crate::spectrum::observer::{CHANNELS, Camera, NotACamera, Observer};
 
 /// Least share of a channel's response that a film should record.
