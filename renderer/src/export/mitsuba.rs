@@ -32,7 +32,7 @@ use crate::plugin::spectra::Spectra;
 use crate::plugin::surface::{absorption_file, relief_file};
 use crate::plugin::{self, colours};
 use crate::scene::assets::{self, AssetError};
-use crate::scene::description::{Band, Description, FilmKind};
+use crate::scene::description::Description;
 use crate::scene::world::World;
 use crate::spectrum::rgb;
 
@@ -326,19 +326,8 @@ fn relief_picture(relief: &Relief) -> Picture {
     Picture::new([width as u32, height as u32], layers)
 }
 
-/// The bands of the film; a colour film is exported as one band over its range.
-fn bands(scene: &Description) -> Vec<Band> {
-    match &scene.film.kind {
-        FilmKind::Spectral { bands } => bands.clone(),
-        FilmKind::Rgb { range_nm, .. } => vec![Band {
-            center_nm: 0.5 * (range_nm[0] + range_nm[1]),
-            width_nm: range_nm[1] - range_nm[0],
-        }],
-    }
-}
-
 fn summary(scene: &Description) -> serde_json::Value {
-    let bands: Vec<_> = bands(scene)
+    let bands: Vec<_> = sensor::bands(scene)
         .iter()
         .map(|band| json!({ "center_nm": band.center_nm, "width_nm": band.width_nm }))
         .collect();

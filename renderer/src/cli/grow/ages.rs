@@ -11,7 +11,7 @@ use leafmodel::leaf::{Lamina, LeafError, LeafPlan};
 use super::drawings::has_caption;
 use super::films::Films;
 use super::maps;
-use super::outputs::{Outputs, numbered};
+use super::outputs::{Outputs, finish, numbered};
 use crate::cli::arguments::CaptionedKinds;
 use crate::cli::signals;
 use crate::cli::terminal::Failure;
@@ -126,7 +126,7 @@ pub(super) fn write(
             let pngs = outputs.staged.iter().filter(|(_, kind)| !kind.is_film());
             for (path, _) in pngs {
                 let png = drawn(false).png().map_err(Failure::bad)?;
-                super::finish(&numbered(path, number + 1), &png, stop)?;
+                finish(&numbered(path, number + 1), &png, stop)?;
             }
             films.push(&[drawn(true)])?;
         }

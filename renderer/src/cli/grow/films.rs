@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use tempfile::NamedTempFile;
 
-use super::outputs::{Kind, Outputs};
+use super::outputs::{Kind, Outputs, finish};
 use crate::cli::arguments::GrowArguments;
 use crate::cli::progress::Steps;
 use crate::cli::signals;
@@ -130,7 +130,7 @@ impl Films {
                 Writer::Own(film) => film.finish().map_err(Failure::bad)?,
                 Writer::Other(encoding) => encoding.finish(self.timing, stop)?,
             };
-            super::finish(&film.path, &bytes, stop)?;
+            finish(&film.path, &bytes, stop)?;
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use crate::camera::thin_lens::ThinLens;
 use crate::camera::view::{Projection, View};
 use crate::plugin::element::Element;
 use crate::plugin::{UNITS_PER_METRE, look_at};
-use crate::scene::description::{Band, Description};
+use crate::scene::description::{Band, Description, FilmKind};
 
 /// Number of intervals of a band's response.
 const RESPONSE_INTERVALS: usize = 64;
@@ -28,6 +28,17 @@ pub(super) fn foreign_key(view: &View) -> Option<&'static str> {
     ];
     let mut foreign = keys.into_iter().filter(|(_, is_set)| *is_set);
     foreign.next().filter(|_| *radius > 0.0).map(|(key, _)| key)
+}
+
+/// The bands of the film; a colour film is exported as one band over its range.
+pub(super) fn bands(scene: &Description) -> Vec<Band> {
+    match &scene.film.kind {
+        FilmKind::Spectral { bands } => bands.clone(),
+        FilmKind::Rgb { range_nm, .. } => vec![Band {
+            center_nm: 0.5 * (range_nm[0] + range_nm[1]),
+            width_nm: range_nm[1] - range_nm[0],
+        }],
+    }
 }
 
 /// The sensor of a scene with its view.
@@ -61,7 +72,7 @@ pub(super) fn sensor(scene: &Description, view: &View) -> Element {
         }
     };
     let sampler = Element::plugin("sampler", "independent");
-    let bands = super::bands(scene);
+    let bands = bands(scene);
     let bands = bands.iter().enumerate();
     let film = Element::plugin("film", "specfilm")
         .integer("width", scene.film.width)

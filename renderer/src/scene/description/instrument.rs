@@ -24,10 +24,6 @@ pub use self::incidence::Incidence;
 pub use self::incident::{Amount, Incident};
 pub use self::sample::{Gonio, Sample, Spot, SpotMiddle};
 
-/// What `constituents` of an instrument means.
-const BY_CONSTITUENT: &str = "Whether absorption is told by constituents of tissue: pigments, water \
-    and dry matter.";
-
 /// An instrument with the wavelengths at which it measures.
 #[derive(Clone, Debug)]
 pub struct Instrument {
@@ -146,7 +142,7 @@ impl Instrument {
                     "constituents",
                     &mut sample.constituents,
                     Flag,
-                    BY_CONSTITUENT,
+                    canopy::BY_CONSTITUENT,
                 );
             }
             InstrumentKind::Canopy(canopy) => canopy.declare(keys),

@@ -1,6 +1,5 @@
 //! The columns of a table of instances, and the place that a row's numbers give.
 
-
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
 use super::table::{RowError, Table};
