@@ -6,7 +6,6 @@
 //! - **Always true**: a scene is returned only if there is no error; its numbers are finite
 //!   and in range, indices are valid, files lie in the scene's folder.
 
-mod camera;
 mod fluorescence;
 mod instances;
 mod leaf;
@@ -35,7 +34,7 @@ use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 pub(crate) use self::references::Purpose;
 use super::authored::{Authored, Light};
 use super::description::film::film;
-use super::description::{Leaf, Material, Medium, Picture};
+use super::description::{Camera, Leaf, Material, Medium, Picture};
 
 /// All keys at the top of a scene file.
 const SECTIONS: [&str; 16] = [
@@ -145,8 +144,8 @@ fn scene(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
     let about = "How the picture to look at is made from the film.";
     keys.block("picture", about, |keys| scene.picture.declare(keys));
     let about = "Where the scene is seen from.";
-    keys.required_block("camera", about, &camera::NAMES, |keys| {
-        camera::camera(&mut scene.camera, keys);
+    keys.required_block("camera", about, &Camera::kinds(), |keys| {
+        scene.camera.declare(keys);
     });
     let about = "How light is followed.";
     keys.block("integrator", about, |keys| scene.integrator.declare(keys));

@@ -8,10 +8,10 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::value_kind::{Number, Numbers, Vector};
 use leafmodel::document::values::{listed, wrong_length};
 
-use super::camera::COORDINATES_M;
 use super::instances::instances;
 use super::placement::{ANGLES_DEG, SCALES, turn};
 use super::volume::volume;
+use crate::geometry::instance::COORDINATES_M;
 use crate::geometry::scatter::Rest;
 use crate::scene::authored::Object;
 use crate::scene::description::name_list::NamesIn;

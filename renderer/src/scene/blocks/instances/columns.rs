@@ -3,7 +3,7 @@
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
 use super::table::{RowError, Table};
-use crate::scene::blocks::camera::COORDINATES_M;
+use crate::geometry::instance::COORDINATES_M;
 use crate::scene::blocks::placement::{ANGLES_DEG, SCALES, turn};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::{ENOUGH, QUOTED};
