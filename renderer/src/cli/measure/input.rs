@@ -12,6 +12,7 @@ use crate::cli::arguments::{MeasureArguments, ReadingArguments, TableArguments};
 use crate::cli::terminal::Failure;
 use crate::cli::texts::text_of;
 use crate::cli::trace;
+use crate::report::tracing::note_on_length;
 
 /// Endings of pictures, which are no networks; the first [`READ`] of them can be traced.
 const PICTURES: [&str; 8] = ["png", "tif", "tiff", "jpg", "jpeg", "bmp", "webp", "exr"];
@@ -87,7 +88,7 @@ impl Input {
         };
         let mut remarks: Vec<String> = self.faults.iter().map(told).collect();
         let places = self.network.nodes().iter().map(|node| node.position);
-        remarks.extend(trace::note_on_length(places, "--mm-per-unit"));
+        remarks.extend(note_on_length(places, "--mm-per-unit"));
         let mut note = |text: &str| remarks.push(format!("note: {text}"));
         let is_reported = |fault: &Fault| fault.kind == FaultKind::NoRadius;
         if !self.known.radii && !self.faults.iter().any(is_reported) {
