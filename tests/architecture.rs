@@ -271,13 +271,12 @@ fn leaves_are_grown_behind_one_seam() {
         "solid",
         "tracing",
     ];
-    const SEAM: [&str; 19] = [
+    const SEAM: [&str; 18] = [
         "scene/plants",
         "scene/expand/boughs",
         "scene/expand/individuals",
         "scene/plant_cache",
         "scene/description",
-        "scene/blocks/leaf",
         "cli/grow",
         "cli/measure",
         "cli/compare_networks",

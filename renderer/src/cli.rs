@@ -64,7 +64,6 @@ mod fit;
 mod fit_veins;
 mod grow;
 mod instruments;
-mod licenses;
 mod measure;
 mod merge;
 mod needs;
@@ -77,7 +76,6 @@ mod render;
 mod schema;
 mod shell;
 mod signals;
-mod stats;
 mod sweep;
 mod terminal;
 mod texts;
@@ -151,7 +149,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str)
         }
         Command::Man(man) => shell::man(man),
         Command::Licenses => {
-            licenses::run();
+            shell::licenses();
             Ok(())
         }
     })

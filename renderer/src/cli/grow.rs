@@ -33,11 +33,12 @@ use self::grown::Grown;
 use self::outputs::{Kind, Outputs, finish};
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::GrowArguments;
+use crate::cli::needs;
 use crate::cli::needs::on_threads;
+use crate::cli::places::write_json;
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
 use crate::cli::terminal::{Failure, say};
-use crate::cli::{needs, stats};
 use crate::export::blade::{self, Parts};
 
 pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
@@ -206,7 +207,7 @@ fn carry_out(
             "loops": all_veins.loops(),
             "triangles": grown.triangles(),
         });
-        stats::write(path, &report)?;
+        write_json(path, &report)?;
     }
     let triangles = grown
         .triangles()

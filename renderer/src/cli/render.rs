@@ -21,6 +21,7 @@ use crate::cli::arguments::{RenderArguments, SceneArguments};
 use crate::cli::building::{Building, load_scene};
 use crate::cli::needs::{self, on_threads};
 use crate::cli::picture_files;
+use crate::cli::places::write_json;
 use crate::cli::progress::Reporter;
 use crate::cli::signals::Signals;
 use crate::cli::terminal::{Failure, note, say};
@@ -186,7 +187,7 @@ impl Command<'_> {
         });
         written.map_err(|error| self.failed(&error, keeping, &begun, is_interrupted))?;
         if let Some(path) = &self.arguments.stats {
-            crate::cli::stats::write(path, &stats)?;
+            write_json(path, &stats)?;
         }
         if is_interrupted {
             kept.map_err(|error| Failure::system(format_args!("no checkpoint: {error}")))?;

@@ -8,11 +8,11 @@ use leafmodel::measure::measure;
 use leafmodel::tracing::{Blade, FindingKind, Ink, Raster, Settings, Threshold, Traced, trace};
 
 use crate::cli::arguments::{ThresholdKind, TraceArguments};
+use crate::cli::needs;
 use crate::cli::needs::on_threads;
-use crate::cli::places::{check_outputs, write_and_say};
+use crate::cli::places::{check_outputs, write_and_say, write_json};
 use crate::cli::progress::Patience;
 use crate::cli::terminal::{Failure, say};
-use crate::cli::{needs, stats};
 use crate::export::overlay::draw_over;
 use crate::export::veins::VeinFormat;
 use crate::image::scan;
@@ -95,13 +95,13 @@ fn carry_out(
         write_and_say(path, drawing.map_err(Failure::bad)?)?;
     }
     if let Some(path) = &arguments.findings {
-        stats::write(path, &json(&traced))?;
+        write_json(path, &json(&traced))?;
         say(path.display());
     }
     if let Some(path) = &arguments.measure {
         let exponent = arguments.murray_exponent;
         let measures = measure(&traced.outline, &traced.network, exponent);
-        stats::write(path, &measures.json())?;
+        write_json(path, &measures.json())?;
         say(path.display());
         eprint!("{}", measures.table());
     }

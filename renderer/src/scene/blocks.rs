@@ -8,11 +8,9 @@
 
 mod fluorescence;
 mod instances;
-mod leaf;
 mod object;
 mod placement;
 mod references;
-mod solid;
 pub(in crate::scene) mod spectrum;
 pub(in crate::scene) mod table_file;
 mod volume;

@@ -6,6 +6,7 @@
 
 mod camera;
 pub mod film;
+mod grown;
 pub(in crate::scene) mod instrument;
 pub mod layer;
 pub mod light;
@@ -21,13 +22,12 @@ use std::sync::Arc;
 
 use leafmodel::blade::stalk::StalkMesh;
 pub use leafmodel::document::names::Named;
-use leafmodel::leaf::LeafPlan;
-use leafmodel::solid::SolidPlan;
 
 use crate::scene::model::Wanted;
 
 pub use self::camera::{Camera, FocusObject};
 pub use self::film::Film;
+pub use self::grown::{Leaf, Solid};
 pub use self::instrument::{
     Amount, Canopy, DepthProfile, Detector, Estimator, ExcitationLight, FluorescenceReading, Gonio,
     Incidence, Incident, Index, Instrument, InstrumentKind, Response, Sample, Spot, SpotMiddle,
@@ -113,30 +113,4 @@ pub enum Shape {
     Mesh(Mesh),
     /// The axes of a plant, or other bodies of it, mm.
     Body(Arc<StalkMesh>),
-}
-
-/// A grown leaf: mesh, content maps and coats.
-#[derive(Clone, Debug)]
-pub struct Leaf {
-    /// The plan from which it is grown.
-    pub plan: LeafPlan,
-    /// The properties of its faces.
-    pub faces: LeafFaces,
-    /// How its chlorophyll fluoresces; `None` if it does not.
-    pub fluorescence: Option<Fluorescence>,
-    /// Factor on the distance over which light that the blade lets through spreads sideways, ≥ 0.
-    pub light_spread: f64,
-    /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
-    pub extrapolate: bool,
-}
-
-/// A grown body of solid tissue: mesh and map of contents.
-#[derive(Clone, Debug, Default)]
-pub struct Solid {
-    /// The plan from which it is grown.
-    pub plan: SolidPlan,
-    /// The optics of the tissue.
-    pub optics: SolidOptics,
-    /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
-    pub extrapolate: bool,
 }

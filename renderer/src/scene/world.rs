@@ -5,9 +5,7 @@ mod error;
 mod light_colours;
 mod lights;
 mod materials;
-mod memory;
 pub(crate) mod meshes;
-mod middle;
 pub(crate) mod needs;
 mod notes;
 mod placing;
@@ -178,7 +176,7 @@ impl World {
         }
         let mut view = scene
             .camera
-            .view_on(|object| middle::of_object(object, &meshes, &instances, &objects))
+            .view_on(|object| seen::middle_of(object, &meshes, &instances, &objects))
             .map_err(WorldError::Focus)?;
         let seen = (&meshes[..], &instances[..], &objects);
         let origin = look(scene, &mut view, seen, options, &mut notes);

@@ -11,10 +11,10 @@ use self::pass::PassOfPaths;
 use crate::film::{Film, FilmError, LEAST_LUMINANCE, MOST_RADIANCE};
 use crate::integrator::effort::Effort;
 use crate::integrator::features;
-pub use crate::integrator::job::Job;
 use crate::integrator::layers::Layout;
 use crate::integrator::noise::{self, NoiseWatch};
 use crate::integrator::sample_map::SampleMap;
+pub use crate::integrator::settings::Job;
 use crate::integrator::trial;
 use crate::world::World;
 

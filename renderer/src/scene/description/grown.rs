@@ -1,4 +1,4 @@
-//! `[leaves.NAME]`: a grown leaf.
+//! `[leaves.NAME]` and `[solids.NAME]`: what is grown.
 
 use leafmodel::blade::surface::SurfacePlan;
 use leafmodel::document::declared::Declared;
@@ -7,10 +7,38 @@ use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::Number;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::plan_file::{self, require_prospect};
+use leafmodel::solid::SolidPlan;
 use leafmodel::species::{self, Preset};
 
-use crate::scene::description::tissue::{ALPHA, extrapolate, impossible};
-use crate::scene::description::{Fluorescence, Leaf, LeafFaces, LeafOptics};
+use super::tissue::{
+    ALPHA, Fluorescence, LeafFaces, LeafOptics, SolidOptics, extrapolate, impossible,
+};
+
+/// A grown leaf: mesh, content maps and coats.
+#[derive(Clone, Debug)]
+pub struct Leaf {
+    /// The plan from which it is grown.
+    pub plan: LeafPlan,
+    /// The properties of its faces.
+    pub faces: LeafFaces,
+    /// How its chlorophyll fluoresces; `None` if it does not.
+    pub fluorescence: Option<Fluorescence>,
+    /// Factor on the distance over which light that the blade lets through spreads sideways, ≥ 0.
+    pub light_spread: f64,
+    /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
+    pub extrapolate: bool,
+}
+
+/// A grown body of solid tissue: mesh and map of contents.
+#[derive(Clone, Debug, Default)]
+pub struct Solid {
+    /// The plan from which it is grown.
+    pub plan: SolidPlan,
+    /// The optics of the tissue.
+    pub optics: SolidOptics,
+    /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
+    pub extrapolate: bool,
+}
 
 impl Default for Leaf {
     fn default() -> Self {
@@ -80,5 +108,22 @@ impl Declared for Leaf {
             "Factor on the distance over which light that the blade lets through spreads sideways; \
              with 1 that follows from thickness, scattering and absorption, with 0 veins stay sharp.",
         );
+    }
+}
+
+impl Declared for Solid {
+    fn declare(&mut self, keys: &mut Keys<'_>) {
+        require_prospect(keys);
+        self.extrapolate = extrapolate(keys);
+        self.optics.declare(keys);
+        self.plan.declare(keys);
+    }
+}
+
+impl Solid {
+    /// As a block `[solids.NAME]` of a file, which has what differs from the defaults.
+    pub(in crate::scene) fn to_toml(&self, name: &str) -> String {
+        let (mut own, mut usual) = (self.clone(), Self::default());
+        plan_file::solid_to_toml(name, &mut own, &mut usual, Self::declare)
     }
 }
