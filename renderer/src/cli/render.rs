@@ -37,7 +37,7 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
     let signals = Signals::listen()?;
     let loaded = load_scene(&sized(arguments))?;
     let files = Files::of(arguments, &loaded, &signals)?;
-    let command = Command {
+    let command = RenderCommand {
         arguments,
         line,
         files: &files,
@@ -48,7 +48,7 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
 }
 
 /// What a render was asked for.
-struct Command<'a> {
+struct RenderCommand<'a> {
     arguments: &'a RenderArguments,
     /// The command line.
     line: &'a [OsString],
@@ -66,7 +66,7 @@ struct Traced<'a> {
     times: Times,
 }
 
-impl Command<'_> {
+impl RenderCommand<'_> {
     fn carry_out(&self, loaded: Loaded) -> Result<(), Failure> {
         let (arguments, files, signals) = (self.arguments, self.files, self.signals);
         // As many leaves grow at a time as there are threads.

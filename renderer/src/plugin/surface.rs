@@ -15,7 +15,7 @@ const RELIEF: &str = "lamina_relief";
 pub(crate) const FACES: [&str; 2] = ["adaxial", "abaxial"];
 
 /// A material of the world, of which Mitsuba's plugin is made.
-pub(crate) struct Surface<'w> {
+pub(crate) struct Exported<'w> {
     /// Its name in the export.
     pub(crate) id: &'w str,
     /// The tracer's material.
@@ -24,7 +24,7 @@ pub(crate) struct Surface<'w> {
     pub(crate) spectra: &'w mut Spectra,
 }
 
-impl Surface<'_> {
+impl Exported<'_> {
     /// A plugin of the material's name, with the contents of its tissue, if it is tissue: uniform contents,
     /// the file of a map, or measured spectra. `extrapolate` says whether PROSPECT's table is continued.
     pub(crate) fn plugin(&self, kind: &str, extrapolate: bool) -> Element {

@@ -27,13 +27,13 @@ pub(super) struct Simulations<'p> {
     /// Of the fit, so that the table of another one is not taken for its own.
     identity: String,
     problem: &'p Problem,
-    known: Mutex<Known>,
+    known: Mutex<KnownSimulations>,
     /// Of lines about the progress, and of writings of the table.
     clock: Clock,
 }
 
 #[derive(Debug)]
-struct Known {
+struct KnownSimulations {
     grown: Grown,
     /// How many were there when the fit began.
     before: usize,
@@ -55,7 +55,7 @@ impl<'p> Simulations<'p> {
             path: path.to_owned(),
             identity,
             problem,
-            known: Mutex::new(Known { grown, before }),
+            known: Mutex::new(KnownSimulations { grown, before }),
             clock: Clock::new(),
         })
     }
@@ -107,7 +107,7 @@ impl<'p> Simulations<'p> {
         );
     }
 
-    fn known(&self) -> MutexGuard<'_, Known> {
+    fn known(&self) -> MutexGuard<'_, KnownSimulations> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

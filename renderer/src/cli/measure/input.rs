@@ -31,14 +31,14 @@ pub(in crate::cli) struct Input {
 }
 
 /// How a file becomes a network.
-enum Kind {
+enum InputKind {
     /// It holds one.
     Network(Format),
     /// It shows one.
     Picture,
 }
 
-impl Kind {
+impl InputKind {
     fn of(path: &Path) -> Result<Self, Failure> {
         let ending = path
             .extension()
@@ -65,9 +65,9 @@ impl Kind {
 impl Input {
     /// Reads a network, or traces a picture; with `strict`, fails if anything is wrong with it.
     pub(in crate::cli) fn read(path: &Path, arguments: &ReadingArguments) -> Result<Self, Failure> {
-        match Kind::of(path)? {
-            Kind::Network(format) => Self::of_network(path, arguments, format),
-            Kind::Picture => Self::of_picture(path, arguments),
+        match InputKind::of(path)? {
+            InputKind::Network(format) => Self::of_network(path, arguments, format),
+            InputKind::Picture => Self::of_picture(path, arguments),
         }
     }
 
@@ -241,10 +241,10 @@ fn wanted(arguments: &ReadingArguments) -> Wanted {
 /// The margin in a file of its own.
 fn margin(path: &Path, arguments: &ReadingArguments) -> Result<Outline, Failure> {
     let shown = path.display();
-    let format = match Kind::of(path)? {
-        Kind::Network(format @ (Format::Svg | Format::Json)) => format,
-        Kind::Network(Format::GraphMl | Format::Table | Format::Gml | Format::Neighbours)
-        | Kind::Picture => {
+    let format = match InputKind::of(path)? {
+        InputKind::Network(format @ (Format::Svg | Format::Json)) => format,
+        InputKind::Network(Format::GraphMl | Format::Table | Format::Gml | Format::Neighbours)
+        | InputKind::Picture => {
             bail!("{shown}: a margin is read from svg, json or geojson");
         }
     };

@@ -2,7 +2,7 @@
 
 use crate::plugin::element::Element;
 use crate::plugin::spectra::Spectra;
-use crate::plugin::surface::Surface;
+use crate::plugin::surface::Exported;
 use crate::scene::description::{Description, LeafOptics, Material};
 use crate::scene::world::{MaterialOwner, World};
 
@@ -48,7 +48,7 @@ pub(super) fn bsdf(
     material: usize,
     spectra: &mut Spectra,
 ) -> Element {
-    let mut surface = Surface {
+    let mut surface = Exported {
         id: &material_id(scene, world, material),
         material: &world.materials[material],
         spectra,

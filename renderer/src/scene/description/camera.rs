@@ -35,7 +35,7 @@ impl Default for Camera {
     fn default() -> Self {
         let lens = Lens::pinhole(1.0).focused(Focus::Distance(1.0));
         let lens = lens.expect("an angle can be focused at any distance");
-        let direction = Direction::default();
+        let direction = Aim::default();
         Self {
             view: direction.seen_from(DVec3::NEG_Y, Projection::Perspective(lens)),
             focus_object: None,
@@ -45,16 +45,16 @@ impl Default for Camera {
 
 impl Declared for Camera {
     fn declare(&mut self, keys: &mut Keys<'_>) {
-        let mut written = Written::Perspective(Perspective::default());
+        let mut written = WrittenCamera::Perspective(Perspective::default());
         written.declare(keys);
         *self = match written {
-            Written::Perspective(of) => of.camera,
-            Written::Orthographic(of) => of.camera,
+            WrittenCamera::Perspective(of) => of.camera,
+            WrittenCamera::Orthographic(of) => of.camera,
         };
     }
 
     fn kinds() -> Vec<&'static str> {
-        Written::kinds()
+        WrittenCamera::kinds()
     }
 }
 
@@ -86,7 +86,7 @@ const SENSOR_HEIGHT_MM: f64 = 24.0;
 
 /// A camera as a file has it.
 #[derive(Clone, Debug, Declared)]
-enum Written {
+enum WrittenCamera {
     /// A thin lens.
     Perspective(Perspective),
     /// Parallel rays: what is farther away looks no smaller.
@@ -95,7 +95,7 @@ enum Written {
 
 /// Where a camera looks.
 #[derive(Clone, Copy, Debug, Declared, Defaults)]
-struct Direction {
+struct Aim {
     /// Point that comes to the middle of the picture; not where the camera stands.
     #[key("look_at_m", required, within(COORDINATES_M))]
     look_at: DVec3,
@@ -112,7 +112,7 @@ struct Orthographic {
     #[key("position_m", required, within(COORDINATES_M), default = DVec3::NEG_Y)]
     position: DVec3,
     #[key(flat)]
-    direction: Direction,
+    direction: Aim,
     /// Height of what the picture shows, m.
     #[key(with = Self::declare_height, default = 1.0)]
     height: f64,
@@ -128,7 +128,7 @@ struct Perspective {
     #[key("position_m", required, within(COORDINATES_M), default = DVec3::NEG_Y)]
     position: DVec3,
     #[key(flat)]
-    direction: Direction,
+    direction: Aim,
     #[key(with = Self::declare_field, default = Field::Angle(1.0))]
     field: Field,
     /// Height of the recorded frame; 24 is that of small-format film.
@@ -158,7 +158,7 @@ enum Sharp {
     Object(usize),
 }
 
-impl Direction {
+impl Aim {
     fn seen_from(self, position: DVec3, projection: Projection) -> View {
         View {
             position,

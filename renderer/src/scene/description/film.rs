@@ -123,7 +123,7 @@ impl Film {
 
     fn declare_size(&mut self, keys: &mut Keys<'_>) {
         let mut size = [self.width, self.height];
-        keys.required("size", &mut size, Pixels, "Pixels across and down.");
+        keys.required("size", &mut size, PixelSize, "Pixels across and down.");
         [self.width, self.height] = size;
     }
 
@@ -183,9 +183,9 @@ fn warn_of_unseen(range_nm: [f64; 2], observer: &Observer, keys: &Keys<'_>) {
 
 /// Pixels across and down.
 #[derive(Clone, Copy, Debug)]
-struct Pixels;
+struct PixelSize;
 
-impl Kind for Pixels {
+impl Kind for PixelSize {
     type Of = [u32; 2];
 
     fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<[u32; 2]> {

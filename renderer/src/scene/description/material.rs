@@ -24,7 +24,7 @@ use super::reflectance::Reflectance;
 use super::tissue::Held;
 use crate::material;
 use crate::plugin::element::Element;
-use crate::plugin::surface::Surface;
+use crate::plugin::surface::Exported;
 use crate::scene::assets::AssetError;
 use crate::spectrum::written::Spectrum;
 
@@ -76,7 +76,7 @@ impl Material {
     }
 
     /// Mitsuba's plugin for it.
-    pub(crate) fn plugin(&self, surface: &mut Surface<'_>) -> Element {
+    pub(crate) fn plugin(&self, surface: &mut Exported<'_>) -> Element {
         match self {
             Self::Diffuse(of) => of.plugin(surface),
             Self::Dielectric(of) => of.plugin(surface.id),

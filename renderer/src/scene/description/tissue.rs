@@ -13,7 +13,7 @@ use leafmodel::plan_file::require_prospect;
 
 use crate::plugin::element::Element;
 use crate::plugin::spectra::Spectra;
-use crate::plugin::surface::{FACES, Surface};
+use crate::plugin::surface::{Exported, FACES};
 use crate::scene::blocks::spectrum::SpectrumOf;
 use crate::spectrum::written::Spectrum;
 
@@ -208,7 +208,7 @@ impl Declared for SolidOptics {
 
 impl SolidOptics {
     /// Mitsuba's plugin for solid tissue, grown or of a material.
-    pub(crate) fn plugin(&self, extrapolate: bool, surface: &Surface<'_>) -> Element {
+    pub(crate) fn plugin(&self, extrapolate: bool, surface: &Exported<'_>) -> Element {
         // In `reference/`.
         surface
             .plugin("lamina_solid", extrapolate)

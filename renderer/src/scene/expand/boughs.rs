@@ -46,7 +46,7 @@ const CLAY: &str = "brick-light-red";
 const CRUMB_SHAPES: u32 = 5;
 
 /// A plant's parts with the scene's numbers, and their places in the plant's frame, m.
-struct Parts {
+struct BoughParts {
     shapes: Vec<ObjectShape>,
     places: Vec<(u32, DAffine3)>,
 }
@@ -54,7 +54,7 @@ struct Parts {
 /// Grows the plants of all objects, and gives these their shapes and places.
 pub(super) fn place(scene: &mut Description, planted: &Planted) -> Result<(), Fault> {
     // What climbs on an object has a shape of its own in each place.
-    let mut known: BTreeMap<(usize, Option<usize>), Parts> = BTreeMap::new();
+    let mut known: BTreeMap<(usize, Option<usize>), BoughParts> = BTreeMap::new();
     for (number, plant) in planted.of_object.iter().enumerate() {
         let Some(plant) = *plant else {
             continue;
@@ -137,7 +137,7 @@ fn parts(
     planted: &Planted,
     (name, plant): (&str, &Plant),
     wall: Option<&Wall>,
-) -> Result<(Parts, Option<[usize; 2]>), PlantError> {
+) -> Result<(BoughParts, Option<[usize; 2]>), PlantError> {
     let mut kinds = plant.leaves.clone();
     if plant.plan.flower.is_some() {
         kinds.extend(plant.perianth.iter().flatten());
@@ -164,7 +164,7 @@ fn parts(
     let extrapolate = kinds
         .iter()
         .any(|&leaf| scene.leaves[leaf].value.extrapolate);
-    let mut parts = Parts {
+    let mut parts = BoughParts {
         shapes: Vec::new(),
         places: Vec::new(),
     };
@@ -187,7 +187,7 @@ fn parts(
 /// Adds axes and organs of a plant, with their materials; the material of its soil.
 fn add_organs(
     scene: &mut Description,
-    parts: &mut Parts,
+    parts: &mut BoughParts,
     (name, plant, extrapolate): (&str, &Plant, bool),
     grown: &mut Grown,
 ) -> Option<usize> {
@@ -233,7 +233,7 @@ fn add_organs(
 /// Adds crumbs of soil, which has this material.
 fn add_crumbs(
     scene: &mut Description,
-    parts: &mut Parts,
+    parts: &mut BoughParts,
     (name, material): (&str, usize),
     crumbs: &[Crumb],
 ) {
@@ -266,7 +266,7 @@ fn add_crumbs(
 /// Adds the leaves of a plant, each individual once; the first `borne` kinds are no sepals or petals.
 fn add_leaves(
     (scene, planted): (&mut Description, &Planted),
-    parts: &mut Parts,
+    parts: &mut BoughParts,
     name: &str,
     (kinds, borne, individuals): (&[usize], usize, &[Vec<Leaf>]),
     grown: &Grown,
@@ -313,7 +313,7 @@ fn material_of(
 /// Adds a body of the plant in its own frame.
 fn add_body(
     scene: &mut Description,
-    parts: &mut Parts,
+    parts: &mut BoughParts,
     name: String,
     body: StalkMesh,
     material: usize,

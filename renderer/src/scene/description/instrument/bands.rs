@@ -61,12 +61,15 @@ const SENSORS: [(&str, Sensor); 2] = [
 
 /// The form of a band's response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Shape {
+enum ResponseShape {
     Box,
     Gaussian,
 }
 
-const SHAPES: [(&str, Shape); 2] = [("box", Shape::Box), ("gaussian", Shape::Gaussian)];
+const SHAPES: [(&str, ResponseShape); 2] = [
+    ("box", ResponseShape::Box),
+    ("gaussian", ResponseShape::Gaussian),
+];
 
 /// Indices that can be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,14 +116,14 @@ impl Response {
     ///
     /// In a box they are Gauss' of an even response, exact for polynomials of degree 15. In a bell
     /// curve they are a standard deviation apart, and the sum is the integral to about 1e-4.
-    fn of_shape(name: &str, centre_nm: f64, fwhm_nm: f64, shape: Shape) -> Self {
+    fn of_shape(name: &str, centre_nm: f64, fwhm_nm: f64, shape: ResponseShape) -> Self {
         let offsets: Vec<(f64, f64)> = match shape {
-            Shape::Box => GAUSS
+            ResponseShape::Box => GAUSS
                 .iter()
                 .flat_map(|&(x, weight)| [(-x, weight), (x, weight)])
                 .map(|(x, weight)| (0.5 * fwhm_nm * x, 0.5 * weight))
                 .collect(),
-            Shape::Gaussian => {
+            ResponseShape::Gaussian => {
                 let sigma = fwhm_nm / (8.0 * std::f64::consts::LN_2).sqrt();
                 let nodes = (0..8).map(|i| f64::from(i) - 3.5);
                 let bell = nodes.map(|x| (sigma * x, libm::exp(-0.5 * x * x)));
@@ -164,7 +167,7 @@ pub(super) fn declare(bands: &mut Vec<Response>, indices: &mut Vec<Index>, keys:
         `{ red = [665, 30] }`.";
     let kind = MapOf(Numbers::<2>(Limits::above(0.0, 2500.0)));
     keys.key("bands_nm", &mut own, kind, about);
-    let mut shape = Shape::Box;
+    let mut shape = ResponseShape::Box;
     let about = "Response of the bands in `bands_nm`: even over the width, or a bell curve.";
     keys.key("band_shape", &mut shape, Word(&SHAPES), about);
     let mut asked = Vec::new();
@@ -182,7 +185,7 @@ pub(super) fn declare(bands: &mut Vec<Response>, indices: &mut Vec<Index>, keys:
     }
     let known = sensor.iter().flat_map(|sensor: &Sensor| sensor.bands);
     *bands = known
-        .map(|&(name, centre, fwhm)| Response::of_shape(name, centre, fwhm, Shape::Box))
+        .map(|&(name, centre, fwhm)| Response::of_shape(name, centre, fwhm, ResponseShape::Box))
         .collect();
     for (name, [centre, fwhm]) in &own {
         if bands.iter().any(|band| band.name == *name) {
@@ -258,8 +261,8 @@ mod tests {
                 .sum::<f64>()
         };
         // The variance of an even response, and of a bell curve that is cut at 4 deviations.
-        assert!((of_square(Shape::Box) - 1600.0 / 12.0).abs() < 1e-9);
+        assert!((of_square(ResponseShape::Box) - 1600.0 / 12.0).abs() < 1e-9);
         let variance = 1600.0 / (8.0 * std::f64::consts::LN_2);
-        assert!((of_square(Shape::Gaussian) / variance - 1.0).abs() < 5e-3);
+        assert!((of_square(ResponseShape::Gaussian) / variance - 1.0).abs() < 5e-3);
     }
 }

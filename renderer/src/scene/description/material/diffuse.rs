@@ -4,7 +4,7 @@ use leafmodel::document::declared::Declared;
 use leafmodel::document::keys::Keys;
 
 use crate::plugin::element::{Element, Layout};
-use crate::plugin::surface::Surface;
+use crate::plugin::surface::Exported;
 use crate::scene::description::reflectance::Reflectance;
 
 /// Lambertian.
@@ -16,7 +16,7 @@ pub struct Diffuse {
 }
 
 impl Diffuse {
-    pub(super) fn plugin(&self, surface: &mut Surface<'_>) -> Element {
+    pub(super) fn plugin(&self, surface: &mut Exported<'_>) -> Element {
         let one_side = Element::plugin("bsdf", "diffuse");
         Element::plugin("bsdf", "twosided")
             .called(surface.id)

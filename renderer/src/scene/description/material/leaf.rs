@@ -10,7 +10,7 @@ use super::sources::Sources;
 use crate::material;
 use crate::material::leaf::LeafMaterial;
 use crate::plugin::element::Element;
-use crate::plugin::surface::Surface;
+use crate::plugin::surface::Exported;
 use crate::scene::assets::AssetError;
 use crate::scene::description::tissue::{
     Fluorescence, Held, LeafFaces, LeafOptics, extrapolate, impossible,
@@ -149,7 +149,7 @@ impl PlainLeaf {
         Ok(tissue::leaf(made, palette, &self.faces, self.fluorescence))
     }
 
-    pub(super) fn plugin(&self, surface: &mut Surface<'_>) -> Element {
+    pub(super) fn plugin(&self, surface: &mut Exported<'_>) -> Element {
         let bsdf = match &self.tissue {
             LeafTissue::Held(held) => surface.leaf(held.extrapolates()),
             LeafTissue::Measured {

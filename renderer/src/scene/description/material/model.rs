@@ -10,7 +10,7 @@ use crate::material::Material;
 use crate::material::model::ModelMaterial;
 use crate::plugin::colours;
 use crate::plugin::element::Element;
-use crate::plugin::surface::Surface;
+use crate::plugin::surface::Exported;
 use crate::scene::description::reflectance::{MODEL, require_colours};
 
 /// All that a mesh from a glTF file says of its surface.
@@ -32,7 +32,7 @@ impl GltfSurface {
         ModelMaterial::new(colours.clone(), Arc::clone(finishes))
     }
 
-    pub(super) fn plugin(surface: &Surface<'_>) -> Element {
+    pub(super) fn plugin(surface: &Exported<'_>) -> Element {
         let Material::Model(model) = surface.material else {
             unreachable!("it was built of one")
         };

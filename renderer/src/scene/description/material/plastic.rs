@@ -7,7 +7,7 @@ use super::sources::Sources;
 use crate::bsdf::coat::Coat;
 use crate::material::plastic::PlasticMaterial;
 use crate::plugin::element::Element;
-use crate::plugin::surface::Surface;
+use crate::plugin::surface::Exported;
 use crate::scene::assets::AssetError;
 use crate::scene::description::reflectance::Reflectance;
 
@@ -33,7 +33,7 @@ impl Plastic {
         Ok(PlasticMaterial::new(reflectance, coat))
     }
 
-    pub(super) fn plugin(&self, surface: &mut Surface<'_>) -> Element {
+    pub(super) fn plugin(&self, surface: &mut Exported<'_>) -> Element {
         // In `reference/`.
         Element::plugin("bsdf", "lamina_plastic")
             .called(surface.id)
