@@ -79,7 +79,6 @@ mod signals;
 mod sweep;
 mod terminal;
 mod texts;
-mod tonemap;
 mod trace;
 
 use std::ffi::OsString;
@@ -127,7 +126,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str)
         Command::Render(render) => render::run(render, &line),
         Command::Merge(merge) => merge::run(merge),
         Command::Check(scene) => check::run(scene),
-        Command::Tonemap(tonemap) => tonemap::run(tonemap),
+        Command::Tonemap(tonemap) => pictures::tonemap(tonemap),
         Command::Optics(optics) => optics::run(optics),
         Command::Fit(fit) => fit::run(fit),
         Command::CheckBsdf(table) => check_bsdf::run(table),

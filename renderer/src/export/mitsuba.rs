@@ -25,6 +25,7 @@ use serde_json::json;
 use thiserror::Error;
 
 use crate::image::{ImageError, Layer, Picture, openexr};
+use crate::material::colour_map::ColourMap;
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::relief::Relief;
 use crate::plugin::emitter::Emitter;
@@ -244,16 +245,19 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         fs::create_dir(&path).map_err(|source| ExportError::Write { path, source })?;
     }
     let show = |name: &str, picture: &Picture| openexr::write(picture, &folder.join(name));
+    let show_colours = |id: &str, map: &ColourMap| -> Result<(), ExportError> {
+        for (name, picture) in colours::pictures(id, map) {
+            show(&name, &picture)?;
+        }
+        save(colours::BASIS, rgb::basis_text().as_bytes())
+    };
     for (number, material) in world.materials.iter().enumerate() {
         let id = bsdf::material_id(scene, world, number);
         if let Some(map) = material.contents_map() {
             show(&format!("maps/{id}.exr"), &map_picture(map))?;
         }
         for (id, map) in colours::maps(&id, material) {
-            for (name, picture) in colours::pictures(&id, &map) {
-                show(&name, &picture)?;
-            }
-            save(colours::BASIS, rgb::basis_text().as_bytes())?;
+            show_colours(&id, &map)?;
         }
         if let Some(relief) = material.relief() {
             show(&relief_file(&id), &relief_picture(relief))?;
@@ -268,10 +272,7 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
     for (number, light) in scene.lights.iter().enumerate() {
         if let Some(map) = emitter::emission(scene, world, number) {
             let id = plugin::light_id(&light.name);
-            for (name, picture) in colours::pictures(&id, map) {
-                show(&name, &picture)?;
-            }
-            save(colours::BASIS, rgb::basis_text().as_bytes())?;
+            show_colours(&id, map)?;
         }
         if light.value.area().is_some()
             && let Some((file, layer)) = light.value.picture()

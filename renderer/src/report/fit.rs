@@ -1,6 +1,5 @@
 //! Contents that were found from spectra: CSV, JSON, a drawing, and words.
 
-mod fitted;
 mod plot;
 
 use std::fmt;
@@ -10,8 +9,8 @@ use leafmodel::optics::faces::CONTRASTS;
 use leafmodel::optics::inversion::{Determined, Found, INTERVAL, Inversion};
 use serde_json::{Map, Value as Json, json};
 
-pub(crate) use self::fitted::{Fitted, shown};
 pub(crate) use self::plot::svg;
+pub(crate) use self::plot::{Fitted, shown};
 use super::table::{Table, aligned, cell};
 use crate::checkpoint::PROGRAM;
 

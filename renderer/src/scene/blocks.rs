@@ -30,9 +30,9 @@ use leafmodel::document::value_kind::{Flag, Text};
 use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 
 pub(crate) use self::references::Purpose;
-use super::authored::{Authored, Light};
+use super::authored::Authored;
 use super::description::film::film;
-use super::description::{Camera, Leaf, Material, Medium, Picture};
+use super::description::{Camera, Leaf, Picture};
 
 /// All keys at the top of a scene file.
 const SECTIONS: [&str; 16] = [
@@ -147,12 +147,8 @@ fn scene(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
     });
     let about = "How light is followed.";
     keys.block("integrator", about, |keys| scene.integrator.declare(keys));
-    named(
-        keys,
-        "instruments",
-        &mut scene.instruments,
-        "Instruments, which `lamina instruments` reads out.",
-    );
+    let about = "Instruments, which `lamina instruments` reads out.";
+    named(keys, "instruments", &mut scene.instruments, about);
     if purpose == Purpose::Instruments {
         set_range(scene, keys);
     }
@@ -177,53 +173,23 @@ fn set_range(scene: &Authored, keys: &Keys<'_>) {
 
 /// The named blocks.
 fn sections(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
-    let about = "What fills bodies.";
-    section(
-        keys,
-        "media",
-        &mut scene.media,
-        &Medium::default,
-        about,
-        Medium::declare,
-    );
+    named(keys, "media", &mut scene.media, "What fills bodies.");
     let about = "What surfaces are made of.";
-    section(
-        keys,
-        "materials",
-        &mut scene.materials,
-        &Material::default,
-        about,
-        Material::declare,
-    );
+    named(keys, "materials", &mut scene.materials, about);
     named(keys, "meshes", &mut scene.meshes, "Shapes as triangles.");
     named(keys, "leaves", &mut scene.leaves, "Leaves that are grown.");
     named(keys, "solids", &mut scene.solids, "Bodies of solid tissue.");
-    named(
-        keys,
-        "plants",
-        &mut scene.plants,
-        "Boughs and shoots that bear leaves.",
-    );
+    let about = "Boughs and shoots that bear leaves.";
+    named(keys, "plants", &mut scene.plants, about);
     if purpose == Purpose::Instruments
         && let Some(root) = keys.reader()
     {
         root.cx.range_nm.set(None);
     }
     let about = "Lights; there is one at least.";
-    section(
-        keys,
-        "lights",
-        &mut scene.lights,
-        &Light::default,
-        about,
-        Light::declare,
-    );
-    named(
-        keys,
-        "objects",
-        &mut scene.objects,
-        "What stands in the scene; there is one at least.",
-    );
+    named(keys, "lights", &mut scene.lights, about);
+    let about = "What stands in the scene; there is one at least.";
+    named(keys, "objects", &mut scene.objects, about);
 }
 
 /// A section of blocks with names.
@@ -233,26 +199,15 @@ fn named<T: Declared + Default>(
     blocks: &mut Vec<Named<T>>,
     about: &'static str,
 ) {
-    section(keys, name, blocks, &T::default, about, T::declare);
-}
-
-fn section<T>(
-    keys: &mut Keys<'_>,
-    name: &'static str,
-    blocks: &mut Vec<Named<T>>,
-    new: &dyn Fn() -> T,
-    about: &'static str,
-    declare: impl Fn(&mut T, &mut Keys<'_>),
-) {
     let list = NamedList {
         required: false,
         new: &|name: &str| Named {
             name: name.to_owned(),
-            value: new(),
+            value: T::default(),
         },
         name_of: |block: &Named<T>| &block.name,
     };
     keys.named(name, blocks, &list, about, |block, keys| {
-        declare(&mut block.value, keys);
+        block.value.declare(keys);
     });
 }
