@@ -269,8 +269,8 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         let spectra = surroundings::spectra(&table);
         save(&surroundings::spectra_file(light), spectra.as_bytes())?;
     }
-    for (number, light) in scene.lights.iter().enumerate() {
-        if let Some(map) = emitter::emission(scene, world, number) {
+    for (light, built) in scene.with_built(&world.lights) {
+        if let Some(map) = emitter::emission(built) {
             let id = plugin::light_id(&light.name);
             show_colours(&id, map)?;
         }

@@ -9,8 +9,7 @@ use leafmodel::optics::faces::CONTRASTS;
 use leafmodel::optics::inversion::{Determined, Found, INTERVAL, Inversion};
 use serde_json::{Map, Value as Json, json};
 
-pub(crate) use self::plot::svg;
-pub(crate) use self::plot::{Fitted, shown};
+pub(crate) use self::plot::{Fitted, shown, svg};
 use super::table::{Table, aligned, cell};
 use crate::checkpoint::PROGRAM;
 

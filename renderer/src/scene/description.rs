@@ -23,6 +23,7 @@ use std::sync::Arc;
 use leafmodel::blade::stalk::StalkMesh;
 pub use leafmodel::document::names::Named;
 
+use crate::light::Light as BuiltLight;
 use crate::scene::model::Wanted;
 
 pub use self::camera::{Camera, FocusObject};
@@ -85,24 +86,33 @@ pub struct Description {
 }
 
 impl Description {
+    /// Each light with those of the tracer that were built of it, given all of these.
+    pub(crate) fn with_built<'a>(
+        &'a self,
+        built: &'a [BuiltLight],
+    ) -> impl Iterator<Item = (&'a Named<Light>, &'a [BuiltLight])> {
+        let mut rest = built;
+        self.lights.iter().map(move |named| {
+            let (own, others) = rest.split_at(named.value.parts());
+            rest = others;
+            (named, own)
+        })
+    }
+
     /// What is used of the mesh with this number besides its triangles.
     pub fn wanted_of(&self, mesh: usize) -> Wanted {
         let materials = self.materials.iter().map(|named| &named.value);
-        let of_it = materials.filter(|material| material.colours_of() == Some(mesh));
+        let mut of_it = materials.filter(|material| material.colours_of() == Some(mesh));
         let emission = self
             .lights
             .iter()
             .filter_map(|light| light.value.emitting_object())
             .any(|object| self.objects[object].value.first_mesh() == Some(mesh));
-        let nothing = Wanted {
+        Wanted {
+            colours: of_it.clone().next().is_some(),
+            finishes: of_it.any(|material| matches!(material, Material::Model(_))),
             emission,
-            ..Wanted::default()
-        };
-        of_it.fold(nothing, |wanted, material| Wanted {
-            colours: true,
-            finishes: wanted.finishes || matches!(material, Material::Model(_)),
-            emission,
-        })
+        }
     }
 }
 

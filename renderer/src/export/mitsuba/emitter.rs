@@ -8,7 +8,7 @@ use crate::plugin::element::{Element, Layout};
 use crate::plugin::emitter::Emitter;
 use crate::plugin::spectra::Spectra;
 use crate::plugin::{UNITS_PER_METRE, look_at};
-use crate::scene::description::{Description, Light};
+use crate::scene::description::Light;
 use crate::scene::world::World;
 
 /// Distance of suns in scene radii. Over the scene irradiance deviates from that at the centre by
@@ -29,15 +29,9 @@ pub(super) fn emitter(light: &Light, world: &World, spectra: &mut Spectra) -> Op
     }
 }
 
-/// What the materials of a model emit that is the light with this number, if it is one.
-pub(super) fn emission<'w>(
-    scene: &Description,
-    world: &'w World,
-    number: usize,
-) -> Option<&'w ColourMap> {
-    let before = scene.lights[..number].iter();
-    let first: usize = before.map(|light| light.value.parts()).sum();
-    if let Some(light::Light::Area(area)) = world.lights.get(first) {
+/// What the materials of a model emit that is the light of which these were built, if it is one.
+pub(super) fn emission(built: &[light::Light]) -> Option<&ColourMap> {
+    if let [light::Light::Area(area)] = built {
         area.emission()
     } else {
         None

@@ -76,9 +76,9 @@ pub(super) fn write(
         meshes: BTreeSet::new(),
     };
     let mut shining = BTreeMap::new();
-    for (number, light) in scene.lights.iter().enumerate() {
+    for (light, built) in scene.with_built(&world.lights) {
         if let Some(area) = light.value.area() {
-            let emission = emitter::emission(scene, world, number);
+            let emission = emitter::emission(built);
             shining.insert(area.object, (area, &*light.name, emission));
         }
     }

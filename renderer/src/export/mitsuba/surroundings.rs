@@ -12,7 +12,7 @@ use crate::plugin::element::Element;
 use crate::plugin::emitter::Emitter;
 use crate::plugin::spectra::{RANGE_NM, Spectra};
 use crate::plugin::weights_file;
-use crate::scene::description::{Description, Light, Named};
+use crate::scene::description::Description;
 use crate::scene::world::World;
 use crate::spectrum::Curve;
 
@@ -26,25 +26,12 @@ pub(super) fn spectra_file(light: &str) -> String {
     format!("spectra/light-{light}.csv")
 }
 
-/// Each light of the scene with those that were built of it.
-fn built<'w>(
-    scene: &'w Description,
-    world: &'w World,
-) -> impl Iterator<Item = (&'w Named<Light>, &'w [Built])> {
-    let mut rest = &world.lights[..];
-    scene.lights.iter().map(move |light| {
-        let (own, others) = rest.split_at(light.value.parts());
-        rest = others;
-        (light, own)
-    })
-}
-
 /// The tables of the lights that have one, with the lights' names.
 pub(super) fn tables<'w>(
     scene: &'w Description,
     world: &'w World,
 ) -> impl Iterator<Item = (&'w str, RadianceTable<'w>)> {
-    built(scene, world).filter_map(|(light, own)| {
+    scene.with_built(&world.lights).filter_map(|(light, own)| {
         let table = own.iter().find_map(Built::radiance_table);
         table.map(|table| (light.name.as_str(), table))
     })

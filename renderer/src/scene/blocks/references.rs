@@ -197,7 +197,7 @@ fn check_samples(scene: &Authored, keys: &Keys<'_>) {
             let path = [
                 "instruments",
                 &instrument.name,
-                instrument.value.kind.word(),
+                instrument.value.word(),
                 "object",
             ];
             keys.refuse(&path, problem, help);
@@ -226,7 +226,7 @@ fn check_incident(scene: &Authored, keys: &Keys<'_>) {
             }
             Some(_) => continue,
         };
-        let kind = instrument.value.kind.word();
+        let kind = instrument.value.word();
         let path = ["instruments", &instrument.name, kind, "incident", "light"];
         keys.refuse(&path, problem, "write a `spectrum` instead");
     }

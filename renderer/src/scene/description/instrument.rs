@@ -57,18 +57,6 @@ pub enum InstrumentKind {
     Canopy(Canopy),
 }
 
-impl InstrumentKind {
-    /// Its word in scenes.
-    pub fn word(&self) -> &'static str {
-        match self {
-            Self::Sphere(_) => "sphere",
-            Self::Gonio(_) => "gonio",
-            Self::Canopy(_) => "canopy",
-            Self::Depth(_) => "depth",
-        }
-    }
-}
-
 const KINDS: [Variant<Instrument>; 4] = [
     Variant {
         name: "sphere",
@@ -128,6 +116,12 @@ impl Instrument {
             kind,
             fluorescence: None,
         }
+    }
+
+    /// The word for its kind.
+    pub fn word(&self) -> &'static str {
+        let own = KINDS.iter().find(|kind| (kind.is)(self));
+        own.map_or("", |kind| kind.name)
     }
 
     fn declare_kind(&mut self, keys: &mut Keys<'_>) {

@@ -7,8 +7,7 @@ use rayon::prelude::*;
 use super::super::bounds::Bounds;
 use super::super::{binary_tree, bvh};
 use super::cut::{Cheapest, Cut, FourLevels};
-use super::pack;
-use super::{LEAF, LeafItems, MAX_DEPTH, WideNode, WideTree};
+use super::{LEAF, LeafItems, MAX_DEPTH, WideNode, WideTree, pack};
 use crate::geometry::binary_tree::{BinaryNode, upwards};
 
 impl WideTree {
