@@ -31,7 +31,6 @@ mod plant;
 mod presets;
 #[cfg(test)]
 mod tests;
-mod venation;
 
 use std::path::Path;
 

@@ -358,24 +358,14 @@ pub enum PlantError {
 }
 
 impl Plant {
-    /// Grows a plant; `feet` tells how each individual of each kind of leaf is held. With a flower
-    /// the last two kinds are its sepals and petals. What climbs does so on an even wall.
+    /// Grows a plant; `feet` says how each individual of each kind of leaf is held. With a flower
+    /// the last two kinds are its sepals and petals. What climbs does so on the wall, or on an
+    /// even one if none is given.
     ///
     /// # Errors
     ///
     /// [`PlantError`].
-    pub fn grow(plan: &PlantPlan, feet: &[Vec<Foot>]) -> Result<Self, PlantError> {
-        let wall = plan.climbing.map(|climbing| Wall::flat(climbing.away));
-        Self::grow_on(plan, feet, wall.as_ref())
-    }
-
-    /// As [`Plant::grow`], of a plant that climbs on a wall of this shape. A plant that does not
-    /// climb leaves it alone.
-    ///
-    /// # Errors
-    ///
-    /// [`PlantError`].
-    pub fn grow_on(
+    pub fn grow(
         plan: &PlantPlan,
         feet: &[Vec<Foot>],
         wall: Option<&Wall>,
@@ -385,6 +375,8 @@ impl Plant {
         if feet.len() < least || feet.iter().any(Vec::is_empty) {
             return Err(PlantError::NoLeaf);
         }
-        bearing::grow(plan, feet, wall.filter(|_| plan.climbing.is_some()))
+        let even = plan.climbing.map(|climbing| Wall::flat(climbing.away));
+        let wall = wall.filter(|_| even.is_some()).or(even.as_ref());
+        bearing::grow(plan, feet, wall)
     }
 }

@@ -21,7 +21,7 @@
 //!     pigments: Pigments::default(),
 //!     map_size: 16,
 //! };
-//! let fruit = Solid::grow(&plan, &|| false)?;
+//! let fruit = Solid::grow(&plan)?;
 //! let highest = fruit.positions.iter().map(|p| p.z).fold(0.0, f64::max);
 //! assert!((highest - 30.0).abs() < 0.5, "{highest} mm");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -39,6 +39,7 @@ pub use self::shape::{SolidMesh, SolidShape, creased, smooth_normals};
 use crate::blade::contents_map::ContentsMap;
 use crate::document::declared::Declared;
 use crate::document::keys::Keys;
+use crate::grow_options::GrowOptions;
 use crate::mosaic::atlas::Atlas;
 use crate::mosaic::pattern::MosaicPattern;
 use crate::mosaic::shapes::{Shape, ShapeError};
@@ -234,13 +235,28 @@ impl SolidPlan {
     }
 }
 
+impl GrowOptions<'_> {
+    /// The body of a plan.
+    ///
+    /// # Errors
+    ///
+    /// As [`Solid::grow`]; one that [is a stop](NotGrown::is_stop).
+    pub fn solid(self, plan: &SolidPlan) -> Result<Solid, NotGrown> {
+        Solid::grow_with(plan, self)
+    }
+}
+
 impl Solid {
-    /// Grows the body of a plan, or stops when `is_stopped` returns true.
+    /// Grows the body of a plan with default [`GrowOptions`].
     ///
     /// # Errors
     ///
     /// [`NotGrown`] for the first stage whose numbers are out of range.
-    pub fn grow(plan: &SolidPlan, is_stopped: &dyn Fn() -> bool) -> Result<Self, NotGrown> {
+    pub fn grow(plan: &SolidPlan) -> Result<Self, NotGrown> {
+        Self::grow_with(plan, GrowOptions::default())
+    }
+
+    fn grow_with(plan: &SolidPlan, options: GrowOptions<'_>) -> Result<Self, NotGrown> {
         plan.validate()?;
         let area = plan.shape.area().map_err(of_shape)?;
         let edge_mm = plan.edge_mm(area);
@@ -255,8 +271,8 @@ impl Solid {
             .subdivided(pattern.edge_mm(area))
             .map_err(of("shape"))?;
         let (mosaic, field) = pattern
-            .grow(&surface, plan.seed, is_stopped)
-            .map_err(of("mosaic"))?;
+            .grow(&surface, plan.seed, options)
+            .map_err(|error| error.in_part("mosaic"))?;
         let atlas = Atlas::new(&surface, plan.map_size, GUTTER).map_err(of("map_size"))?;
         let texels = atlas.texels();
         let texel = |contents: Option<Contents>| contents.unwrap_or(plan.contents).to_texel();

@@ -141,6 +141,7 @@ impl Unevenness {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grow_options::GrowOptions;
     use std::sync::LazyLock;
 
     use crate::leaf::{Lamina, LeafPlan};
@@ -159,7 +160,7 @@ mod tests {
     fn ratios(unevenness: Unevenness) -> (Vec<(DVec2, f64)>, [f64; 2]) {
         let lamina = &*LAMINA;
         let [even, own] = [None, Some(unevenness)].map(|unevenness| {
-            let map = plan(unevenness).paint(lamina, &|| false);
+            let map = GrowOptions::default().contents(&plan(unevenness), lamina);
             map.expect("a good plan")
         });
         let frame = frame();

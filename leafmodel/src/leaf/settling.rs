@@ -1,6 +1,7 @@
 //! Where the blade of a leaf has come to lie.
 
-use super::{Lamina, LeafPlan};
+use super::lamina::Lamina;
+use super::plan::LeafPlan;
 use crate::blade::mesh::BladeMesh;
 use crate::blade::stalk::StalkMesh;
 use crate::blade::stance::Settled;

@@ -1,6 +1,7 @@
 //! The plan of a clonal mosaic.
 
 use super::control::{CylinderControl, Steered};
+use crate::grow_options::MOST_CELLS;
 use crate::not_grown::{NotGrown, not_grown};
 
 use super::growth::SurfaceGrowth;
@@ -10,7 +11,6 @@ use crate::document::ranges::RangeError;
 /// Tolerance on sums of probabilities.
 const TOLERANCE: f64 = 1e-6;
 /// Greatest number of cells.
-pub(super) const MOST_CELLS: usize = 4_000_000;
 /// Expected number of cells over the greatest one at which a plan is refused beforehand, since the
 /// actual number may be smaller.
 const OVERCROWDED: f64 = 4.0;

@@ -249,7 +249,7 @@ mod tests {
         let leaf = species::find(leaf).expect("a preset").plan();
         let feet = (0..4_u64).map(|number| Foot::of(&leaf.individual(None, number)));
         let feet: Vec<Foot> = feet.collect::<Result<_, _>>().expect("it is borne");
-        let plant = Plant::grow(&plan, std::slice::from_ref(&feet)).expect("a good plan");
+        let plant = Plant::grow(&plan, std::slice::from_ref(&feet), None).expect("a good plan");
         let bodies: Vec<Body> = plant
             .leaves
             .iter()
@@ -336,7 +336,7 @@ mod tests {
         let foot = Foot::of(&leaf).expect("it is borne");
         let [turned, stayed] = [24, 0].map(|evasions| {
             plan.evasions = evasions;
-            let plant = Plant::grow(&plan, &[vec![foot.clone()]]);
+            let plant = Plant::grow(&plan, &[vec![foot.clone()]], None);
             plant.expect("a good plan").leaves
         });
         assert_eq!((turned.len(), stayed.len()), (12_000, 12_000));

@@ -1,5 +1,6 @@
 //! Leaves that have dried, wilted or fallen.
 
+use crate::blade::stance::Stance;
 use glam::DVec3;
 
 use super::super::tests::plan;

@@ -156,10 +156,7 @@ fn parts(
         .iter()
         .map(|leaves| leaves.iter().map(foot).collect::<Result<Vec<_>, _>>());
     let feet = feet.collect::<Result<Vec<_>, _>>()?;
-    let mut grown = match wall {
-        Some(wall) => Grown::grow_on(&plant.plan, &feet, Some(wall))?,
-        None => Grown::grow(&plant.plan, &feet)?,
-    };
+    let mut grown = Grown::grow(&plant.plan, &feet, wall)?;
     let extrapolate = kinds
         .iter()
         .any(|&leaf| scene.leaves[leaf].value.extrapolate);
