@@ -11,7 +11,8 @@ use glam::{DVec2, DVec3};
 use leafmodel::mosaic::atlas::Atlas;
 use leafmodel::mosaic::noise_pattern::NoisePattern;
 use leafmodel::mosaic::paint::TypeField;
-use leafmodel::mosaic::shapes::{lathe, rounded_cube, sphere};
+use leafmodel::mosaic::shapes::lathe::lathe;
+use leafmodel::mosaic::shapes::{rounded_cube, sphere};
 use leafmodel::mosaic::voronoi::Voronoi;
 use leafmodel::mosaic::{
     CellType, ControlImage, CylinderControl, Mosaic, MosaicPlan, RadiusRule, Steered, Surface,

@@ -270,9 +270,7 @@ impl Along {
     }
 }
 
-mod leaf;
-
-pub(super) use self::leaf::AgeingLeaf;
+pub(super) mod leaf;
 
 #[cfg(test)]
 mod tests;

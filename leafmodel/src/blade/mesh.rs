@@ -8,8 +8,8 @@ pub use super::error::BladeError;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::BladeForm;
 use super::frame::UvFrame;
+use super::plan::BladeForm;
 use super::relief::Relief;
 use super::size_field::SizeField;
 use super::skeleton::Skeleton;

@@ -16,8 +16,8 @@ mod section;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::BladeForm;
 use super::error::BladeError;
+use super::plan::BladeForm;
 use super::relief::Relief;
 use super::stalk::StalkMesh;
 use super::stance::{Posture, Settled};

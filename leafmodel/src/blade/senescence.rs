@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::ageing::{AgeingLeaf, Course, Place};
+use super::ageing::leaf::AgeingLeaf;
+use super::ageing::{Course, Place};
 use super::ageing_courses::{COURSES, LITTER, YELLOW};
 use crate::document::declared::Declared;
 use crate::document::keys::Keys;

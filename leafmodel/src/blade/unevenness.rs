@@ -19,7 +19,7 @@ mod grid;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use self::grid::Grid;
+use self::grid::{Grid, NOISE_DEVIATION};
 use super::contents_map::ContentsMap;
 use super::coverage::{Coverage, extend};
 use super::frame::UvFrame;
@@ -64,8 +64,6 @@ impl Default for Unevenness {
     }
 }
 
-/// Standard deviation of the noise of [`Mottle`] (measured).
-const NOISE_DEVIATION: f64 = 0.36;
 /// What the seed is changed by, so that patches and fields do not follow the mottle.
 const OTHER: [u64; 2] = [0x9a7c_5e11, 0x51e1_d5aa];
 

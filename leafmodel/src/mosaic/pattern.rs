@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::control::Controls;
-use super::paint::{SheetField, TypeField};
+use super::paint::TypeField;
+use super::paint::sheet::SheetField;
 use super::shapes::sheet;
 use super::types::types;
 use super::{CylinderControl, Mosaic, MosaicPlan, Surface};

@@ -14,7 +14,8 @@ use super::division::{child_id, chosen, days_to_division, kind_of_child, place_o
 use super::live::Live;
 use super::plan::{MosaicPlan, RadiusRule};
 use super::relaxation::{Bonds, Relaxation, free_walk};
-use super::surface::{Ancestry, Surface, SurfacePoint};
+use super::surface::subdivide::Ancestry;
+use super::surface::{Surface, SurfacePoint};
 use crate::document::ranges::RangeError;
 use crate::grow_options::GrowOptions;
 use crate::not_grown::{NotGrown, not_grown};

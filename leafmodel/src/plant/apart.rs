@@ -6,8 +6,9 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::plan::PlantPlan;
 use super::posture::LEAST_AWAY;
-use super::{BorneLeaf, Foot, PlantPlan};
+use super::{BorneLeaf, Foot};
 use crate::random::{Use, bell};
 use crate::rotation::about;
 use crate::shell::{Extent, cross, each_near, sweep};

@@ -1,5 +1,6 @@
 //! The shapes of bodies.
 
+use crate::mosaic::shapes::lathe::lathe;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -12,9 +13,7 @@ use crate::document::limits::Limits;
 use crate::document::named_asset::decoded;
 use crate::document::value_kind::{ListOf, Number, Numbers, Text};
 use crate::mosaic::Surface;
-use crate::mosaic::shapes::{
-    Shape, ShapeError, ellipsoid, ellipsoid_triangles, lathe, rounded_cube,
-};
+use crate::mosaic::shapes::{Shape, ShapeError, ellipsoid, ellipsoid_triangles, rounded_cube};
 
 /// The shape of a body.
 #[derive(Clone, Debug, Declared, PartialEq)]

@@ -1,3 +1,5 @@
+use crate::blade::frame::UvFrame;
+use crate::venation::network::VeinSegment;
 use proptest::prelude::*;
 
 use super::*;

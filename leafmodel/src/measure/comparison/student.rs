@@ -3,7 +3,7 @@
 use serde::Serialize;
 use special::Beta;
 
-use super::OUTSIDE;
+use super::effect::OUTSIDE;
 use crate::measure::statistics::{mean, median, variance};
 
 /// What a group of values is like.

@@ -1,7 +1,8 @@
+use crate::mosaic::shapes::lathe::lathe;
 use glam::DVec3;
 
 use super::*;
-use crate::mosaic::shapes::{Shape, lathe, rounded_cube, sheet, sphere};
+use crate::mosaic::shapes::{Shape, rounded_cube, sheet, sphere};
 use crate::shape::outline::Outline;
 
 fn surface(shape: Shape) -> Surface {

@@ -1,3 +1,4 @@
+use crate::mosaic::paint::sheet::SheetField;
 use glam::DVec3;
 
 use super::*;

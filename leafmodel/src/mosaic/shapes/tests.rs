@@ -1,3 +1,4 @@
+use crate::mosaic::shapes::lathe::lathe;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 

@@ -1,6 +1,6 @@
 //! The keys of `outline.growth_algorithm`.
 
-use super::{Axis, GrowthForm, HalfForm, LateralGrowth, SecondaryAxis, VeinRow};
+use super::form::{Axis, GrowthForm, HalfForm, LateralGrowth, SecondaryAxis, VeinRow};
 use crate::document::context::Context;
 use crate::document::declared::Declared;
 use crate::document::error::DocumentError;

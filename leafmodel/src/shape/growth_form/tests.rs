@@ -1,5 +1,6 @@
 //! The model and its extensions, tested against closed forms and intended effects.
 
+use crate::shape::growth::RateCurve;
 use proptest::prelude::*;
 
 use super::*;

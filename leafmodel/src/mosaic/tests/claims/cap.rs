@@ -1,10 +1,10 @@
 //! Fig. 13: the cap of a fly agaric.
 
+use crate::mosaic::shapes::lathe::lathe;
 use glam::{DVec2, DVec3};
 
 use super::super::statistics::neighbourhood;
 use super::{Row, Seen, surface};
-use crate::mosaic::shapes::lathe;
 use crate::mosaic::{ControlImage, CylinderControl, Mosaic, MosaicPlan, Steered};
 
 /// The warts' cells divide every 6, 8 and 20 days.

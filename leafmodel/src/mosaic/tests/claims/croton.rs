@@ -11,7 +11,8 @@ use super::super::statistics::{
 use super::{BACKGROUND, FOREGROUND, Row, Seen, grown, surface};
 use crate::blade::mottle::Mottle;
 use crate::grow_options::GrowOptions;
-use crate::mosaic::paint::{SheetField, TypeField};
+use crate::mosaic::paint::TypeField;
+use crate::mosaic::paint::sheet::SheetField;
 use crate::mosaic::shapes::sheet;
 use crate::mosaic::testing::noise_labels;
 use crate::mosaic::{Mosaic, Surface, SurfacePoint};
