@@ -1,8 +1,8 @@
 //! What `docs/src/architecture.md` says of who may import whom.
 //!
-//! Imports are read from `use` lines outside of tests. Files of the renderer's core import in one
-//! direction. Elsewhere a file and those in the folder of its name are one room: between them both
-//! directions are allowed.
+//! Imports are read from `use` lines outside of tests. Files of leafmodel, the tracer and the
+//! renderer's core import in one direction. Elsewhere, and in `ROOMS`, a file and those in the folder of its name are one room: between them
+//! both directions are allowed.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -39,7 +39,7 @@ impl House {
         Self { imports }
     }
 
-    /// Modules that import each other in a loop through the one given, itself first. `in_rooms` says
+    /// Modules that import each other in a loop through the one given, itself last. `in_rooms` says
     /// whether a file and those in the folder of its name may be part of it.
     fn circle(&self, start: &Module, in_rooms: bool) -> Option<Vec<String>> {
         let mut before: BTreeMap<&Module, &Module> = BTreeMap::new();
@@ -90,7 +90,11 @@ fn read(folder: &Path, module: &mut Module, texts: &mut BTreeMap<Module, String>
             read(&path, module, texts);
         } else if path.extension().is_some_and(|ending| ending == "rs") && !is_root {
             let text = fs::read_to_string(&path).expect("sources are UTF-8");
-            let tests = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
+            let starts = ["", "pub(super) "].map(|scope| {
+                let tests = format!("#[cfg(test)]\n{scope}mod tests {{");
+                text.find(&tests).unwrap_or(text.len())
+            });
+            let tests = starts[0].min(starts[1]);
             texts.insert(module.clone(), text[..tests].to_owned());
         }
         if !is_root {
@@ -219,10 +223,40 @@ fn no_files_import_each_other_in_a_circle() {
     }
 }
 
+/// Files that import each other with those in the folders of their names: what remains to be taken apart. No file is to be added.
+const ROOMS: [(&str, &[&str]); 2] = [
+    (
+        "leafmodel/document",
+        &[
+            "inheritance",
+            "keys",
+            "keys::checks",
+            "keys::kinds",
+            "keys::lists",
+            "schema",
+            "schema::json",
+            "schema::tables",
+        ],
+    ),
+    (
+        "leafmodel",
+        &[
+            "plan_file",
+            "plan_file::one_leaf",
+            "species",
+            "species::file",
+            "species::traits",
+        ],
+    ),
+];
+
 #[test]
 fn files_of_the_core_import_in_one_direction() {
     for (krate, core) in [
-        ("renderer/trace", &[][..]),
+        ("leafmodel/document", &[][..]),
+        ("leafmodel/numerics", &[]),
+        ("leafmodel", &[]),
+        ("renderer/trace", &[]),
         (
             "renderer",
             &[
@@ -247,11 +281,15 @@ fn files_of_the_core_import_in_one_direction() {
             .filter(|module| core.is_empty() || core.contains(&module[0].as_str()))
             .collect();
         assert!(files.len() > 15, "{}", files.len());
-        let circles: Vec<_> = files
+        let circles = files
             .into_iter()
-            .filter_map(|module| house.circle(module, true))
-            .collect();
-        assert!(circles.is_empty(), "{circles:#?}");
+            .filter_map(|module| house.circle(module, true));
+        let rooms = ROOMS.iter().filter(|room| room.0 == krate);
+        let known: BTreeSet<&str> = rooms.flat_map(|room| room.1).copied().collect();
+        let circular: Vec<Vec<String>> = circles.collect();
+        let starts = circular.iter().filter_map(|circle| circle.last());
+        let there: BTreeSet<&str> = starts.map(String::as_str).collect();
+        assert_eq!(there, known, "{krate}: {circular:#?}");
     }
 }
 
