@@ -37,7 +37,7 @@ pub use self::arranged::{CompoundError, CompoundLeaf, PlacedLeaflet, Stalk, Stal
 pub use self::flat::FlatLeaf;
 pub use self::form::{Arrangement, CompoundForm, Feather};
 pub use self::whole::{Placement, WholeLeaf, joined_stalks, leaflet_plans};
-use crate::document::keys::Keys;
+use crate::document::Keys;
 use crate::leaf::outline_plan::Contour;
 use crate::leaf::{LeafError, LeafPlan};
 use crate::shape::outline::Outline;

@@ -42,7 +42,7 @@ use crate::blade::mesh::{BladeMesh, Displacement};
 use crate::blade::stalk::StalkMesh;
 use crate::blade::surface::SurfaceMap;
 use crate::blade::vein_field::VeinField;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::grow_options::GrowOptions;
 
 /// A grown leaf. Lengths are millimetres.

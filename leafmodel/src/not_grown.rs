@@ -4,8 +4,7 @@ use std::fmt::Display;
 
 use thiserror::Error;
 
-use crate::document::keys::Keys;
-use crate::document::ranges::RangeError;
+use crate::document::{Keys, RangeError};
 
 /// Why a plan is not carried out.
 #[derive(Clone, Debug, Error, PartialEq)]

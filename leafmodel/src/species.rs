@@ -43,7 +43,7 @@ use std::sync::OnceLock;
 use self::file::Heading;
 pub(crate) use self::file::{BLOCKS, read};
 use self::traits::{Counts, Traits};
-use crate::document::opened::Opened;
+use crate::document::Opened;
 use crate::leaf::LeafPlan;
 
 /// A named leaf plan.

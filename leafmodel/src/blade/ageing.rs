@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::frame::UvFrame;
 use super::weathering::Weathering;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::optics::{Constituent, Contents};
 use crate::plane::distances::Distances;
 use crate::venation::network::VeinSegment;

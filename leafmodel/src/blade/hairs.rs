@@ -19,8 +19,7 @@ use self::tube::Root;
 
 use super::mesh::BladeMesh;
 use super::vein_grid::VeinGrid;
-use crate::document::declared::Declared;
-use crate::document::ranges::RangeError;
+use crate::document::{Declared, RangeError};
 use crate::random::{Use, uniform};
 use crate::venation::network::VeinSegment;
 

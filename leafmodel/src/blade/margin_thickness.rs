@@ -5,7 +5,7 @@
 //! contents per volume are those of the rest of the blade. The structure parameter is no content
 //! and stays.
 
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::numeric::smooth_step;
 
 /// How thick the margin is.

@@ -21,7 +21,7 @@ use super::plan::BladeForm;
 use super::relief::Relief;
 use super::stalk::StalkMesh;
 use super::stance::{Posture, Settled};
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::numeric::smooth_step;
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};

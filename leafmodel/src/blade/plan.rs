@@ -2,10 +2,7 @@
 
 use super::error::BladeError;
 use super::margin_thickness::MarginThickness;
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
-use crate::document::value_kind::Number;
+use crate::document::{Declared, Keys, Limits, Number};
 use crate::venation::network::VeinSegment;
 
 /// How a flat lamina is bent, and how finely it is meshed. Angles are radians.

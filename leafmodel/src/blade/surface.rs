@@ -37,7 +37,7 @@ use self::mounds::Mounds;
 pub use self::mounds::SurfaceOf;
 pub use self::plan::SurfacePlan;
 use super::coverage::Coverage;
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 use crate::memory;
 use crate::plane::distances::Distances;
 

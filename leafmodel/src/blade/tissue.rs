@@ -2,10 +2,7 @@
 
 use super::vein_body::VeinBody;
 use super::vein_cover::VeinCover;
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
-use crate::document::ranges::RangeError;
-use crate::document::value_kind::Number;
+use crate::document::{Keys, Limits, Number, RangeError};
 use crate::optics::contents_keys::contents;
 use crate::optics::{Constituent, Contents, VeinFactors};
 

@@ -24,7 +24,7 @@ use super::contents_map::ContentsMap;
 use super::coverage::{Coverage, extend};
 use super::frame::UvFrame;
 use super::mottle::Mottle;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::optics::Constituent;
 use crate::plane::distances::Distances;
 use crate::shape::outline::Outline;

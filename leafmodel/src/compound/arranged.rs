@@ -1,6 +1,6 @@
 //! Leaflets and axes of a compound leaf where they lie in the plane.
 
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 use crate::leaf::LeafError;
 use glam::DVec2;
 use thiserror::Error;

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::blade::mesh::BladeError;
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 use crate::not_grown::NotGrown;
 
 /// Why a plan cannot be carried out.

@@ -5,7 +5,7 @@ use super::lamina::Lamina;
 use super::outline_plan::{GrownOutline, Origin};
 use super::plan::LeafPlan;
 use super::venation_plan::GrownVeins;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::grow_options::GrowOptions;
 use crate::shape::outline::Outline;
 

@@ -1,8 +1,7 @@
 //! What an outline is made from: one of several kinds of contour, and teeth on it.
 
 use crate::development::{DevelopedLeaf, DevelopmentPlan};
-use crate::document::declared::{Declared, Kinds};
-use crate::document::keys::{Keys, Variant};
+use crate::document::{Declared, Keys, Kinds, Variant};
 use crate::not_grown::{NotGrown, not_grown};
 use crate::shape::contour_curve::ContourCurve;
 use crate::shape::cubic_margin::CubicMargin;

@@ -5,8 +5,7 @@ use crate::grow_options::MOST_CELLS;
 use crate::not_grown::{NotGrown, not_grown};
 
 use super::growth::SurfaceGrowth;
-use crate::document::declared::{Declared, Words};
-use crate::document::ranges::RangeError;
+use crate::document::{Declared, RangeError, Words};
 
 /// Tolerance on sums of probabilities.
 const TOLERANCE: f64 = 1e-6;

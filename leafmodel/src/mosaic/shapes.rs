@@ -14,7 +14,7 @@ use thiserror::Error;
 
 use crate::blade::error::BladeError;
 use crate::blade::sheet::even_sheet;
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 use crate::shape::outline::Outline;
 
 /// Most triangles of one shape.

@@ -16,7 +16,7 @@ use super::plan::{MosaicPlan, RadiusRule};
 use super::relaxation::{Bonds, Relaxation, free_walk};
 use super::surface::subdivide::Ancestry;
 use super::surface::{Surface, SurfacePoint};
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 use crate::grow_options::GrowOptions;
 use crate::not_grown::{NotGrown, not_grown};
 use crate::random::{Use, bits, uniform};

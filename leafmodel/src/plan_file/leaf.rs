@@ -2,8 +2,7 @@
 
 use super::compound;
 use crate::blade::senescence::AgeSource;
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
+use crate::document::{Declared, Keys};
 use crate::leaf::LeafPlan;
 use crate::optics::Contents;
 use crate::optics::contents_keys::NEVER_TOGETHER;

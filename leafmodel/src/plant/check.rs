@@ -4,8 +4,7 @@ use glam::DVec3;
 
 use super::error::PlantError;
 use super::plan::PlantPlan;
-use crate::document::declared::Declared;
-use crate::document::ranges::RangeError;
+use crate::document::{Declared, RangeError};
 
 impl PlantPlan {
     /// Checks every number.

@@ -2,7 +2,7 @@
 
 use super::foot::NotBorne;
 use crate::blade::stalk::StalkError;
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 use thiserror::Error;
 
 /// Most leaves of a plant.

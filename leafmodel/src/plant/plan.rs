@@ -4,10 +4,7 @@ use super::bark::BarkRelief;
 use super::climbing::Climbing;
 use super::flower::FlowerPlan;
 use super::pot::PotPlan;
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
-use crate::document::value_kind::{Degrees, Integer, Word};
+use crate::document::{Declared, Degrees, Integer, Keys, Limits, Word};
 use glam::DVec3;
 
 /// The keys of a phyllotaxis, and what it is by its name.

@@ -33,8 +33,7 @@ pub use self::layout::ArcuateVeins;
 use self::layout::{Frame, Sides, lay_out};
 pub use self::plan::{ArcuatePlan, PalmateVeins};
 use super::network::{NetworkError, VenationNetwork};
-use crate::document::declared::Declared;
-use crate::document::ranges::RangeError;
+use crate::document::{Declared, RangeError};
 use crate::shape::cubic_margin::{CubicMargin, CubicMarginError};
 use crate::shape::outline::Outline;
 

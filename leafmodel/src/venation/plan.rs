@@ -8,11 +8,9 @@ use glam::DVec2;
 pub use self::error::PlanError;
 use super::architecture::Architecture;
 use super::width::WidthLaw;
-use crate::document::declared::{Declared, Words};
-use crate::document::error::DocumentError;
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
-use crate::document::value_kind::{ListOf, Number, Numbers, Word};
+use crate::document::{
+    Declared, DocumentError, Keys, Limits, ListOf, Number, Numbers, Word, Words,
+};
 use crate::shape::growth::RateCurve;
 use crate::shape::rates::Rates;
 

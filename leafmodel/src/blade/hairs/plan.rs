@@ -1,7 +1,6 @@
 //! What hairs a leaf has.
 
-use crate::document::declared::{Declared, Words};
-use crate::document::keys::{Keys, NamedList};
+use crate::document::{Declared, Keys, NamedList, Words};
 use crate::optics::contents_keys::changed_contents;
 use crate::optics::{Constituent, Contents};
 

@@ -1,9 +1,7 @@
 //! What has happened to a blade since it grew.
 
 use crate::blade::error::BladeError;
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
-use crate::document::value_kind::Word;
+use crate::document::{Declared, Keys, Word};
 
 /// What has happened to a blade since it was as its form says.
 #[derive(Clone, Copy, Debug, Declared, Default, PartialEq)]

@@ -17,7 +17,7 @@ use glam::DVec2;
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
 use crate::blade::mottle::Mottle;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::numeric::smooth_step;
 use crate::optics::{Constituent, Contents};
 use crate::plane::distances::Distances;

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 
 use super::error::{FormPart, GrowthFormError, GrowthFormProblem, Side};
 use super::form::{Axis, GrowthForm, SecondaryAxis};

@@ -3,8 +3,7 @@
 use super::error::{FormPart, GrowthFormError, GrowthFormProblem, Side};
 use super::form::{Axis, GrowthForm, HalfForm};
 use super::rows::{AxisGrowth, Rows, row_at};
-use crate::document::declared::Declared;
-use crate::document::ranges::RangeError;
+use crate::document::{Declared, RangeError};
 
 /// Greatest depth of axes on axes.
 const DEEPEST: usize = 8;

@@ -1,6 +1,6 @@
 //! The parameters of veins that are splines.
 
-use crate::document::declared::Declared;
+use crate::document::Declared;
 
 /// Primary veins that fan out from the petiole beside the midrib.
 #[derive(Clone, Copy, Debug, Declared, PartialEq)]

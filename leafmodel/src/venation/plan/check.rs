@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::error::PlanError;
 use super::young_size;
 use super::{AuxinPlan, Growth, Pattern};
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::shape::outline::Outline;
 use crate::venation::veins::COINCIDENT;
 

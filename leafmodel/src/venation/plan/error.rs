@@ -1,6 +1,6 @@
 //! Why veins do not grow towards auxin, and how to mend their plan.
 
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 use crate::not_grown::NotGrown;
 use crate::shape::growth::GrowthError;
 use crate::venation::architecture::ArchitectureError;
