@@ -8,6 +8,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
 use leafmodel::mosaic::atlas::Atlas;
 use leafmodel::mosaic::noise_pattern::NoisePattern;
 use leafmodel::mosaic::paint::TypeField;
@@ -19,7 +21,6 @@ use leafmodel::mosaic::{
     SurfacePoint,
 };
 use leafmodel::optics::Contents;
-use rayon::prelude::*;
 
 /// Flat colours of the two types.
 const COLOURS: [&str; 2] = ["#3f7a2a", "#e6d36b"];

@@ -4,9 +4,10 @@ mod smoothing;
 #[cfg(test)]
 mod testing;
 
-pub use super::error::BladeError;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+
+pub use super::error::BladeError;
 
 use super::frame::UvFrame;
 use super::plan::BladeForm;

@@ -1,9 +1,10 @@
 //! Leaflets and axes of a compound leaf where they lie in the plane.
 
-use crate::document::RangeError;
-use crate::leaf::LeafError;
 use glam::DVec2;
 use thiserror::Error;
+
+use crate::document::RangeError;
+use crate::leaf::LeafError;
 
 /// A leaflet in its place.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 //! Margin, veins and areoles as shapes with attributes.
 
 use glam::DVec2;
+
 use serde_json::{Value, json};
 
 use super::runs::Runs;

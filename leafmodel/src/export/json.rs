@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use glam::DVec2;
+
 use serde_json::{Value, json};
 
 use super::text::SOFTWARE;

@@ -2,12 +2,13 @@
 
 mod combinations;
 
+use proptest::prelude::*;
+
 use crate::blade::BladeForm;
 use crate::blade::stance::Stance;
 use crate::blade::tissue::Tissue;
 use crate::leaf::outline_plan::OutlinePlan;
 use crate::leaf::venation_plan::VenationPlan;
-use proptest::prelude::*;
 
 use super::*;
 use crate::leaf::outline_plan::Contour;

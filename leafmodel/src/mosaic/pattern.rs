@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use super::control::Controls;
 use super::paint::TypeField;
 use super::paint::sheet::SheetField;
@@ -13,7 +15,6 @@ use crate::grow_options::GrowOptions;
 use crate::not_grown::{NotGrown, not_grown};
 use crate::optics::Contents;
 use crate::shape::outline::Outline;
-use glam::DVec2;
 
 /// Edge of a mosaic's triangles over the distance between cells at the start.
 const EDGE_OVER_SPACING: f64 = 1.0;

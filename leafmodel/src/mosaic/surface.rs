@@ -13,9 +13,10 @@ pub mod subdivide;
 #[cfg(test)]
 mod tests;
 
+use glam::{DVec2, DVec3};
+
 use crate::not_grown::{NotGrown, not_grown};
 use crate::random::{Use, uniform};
-use glam::{DVec2, DVec3};
 
 use self::adjacency::NONE;
 

@@ -1,7 +1,8 @@
 //! One axis: the course of its middle line, its nodes and its radii.
 
-use crate::plant::turned::level;
 use glam::{DQuat, DVec3};
+
+use crate::plant::turned::level;
 
 use super::climbing::Wall;
 use super::error::PlantError;

@@ -1,9 +1,10 @@
 //! Why no plant grows.
 
+use thiserror::Error;
+
 use super::foot::NotBorne;
 use crate::blade::stalk::StalkError;
 use crate::document::RangeError;
-use thiserror::Error;
 
 /// Most leaves of a plant.
 pub const MOST_LEAVES: usize = 100_000;

@@ -1,11 +1,12 @@
 //! The plan of a plant: its axes, and how they bear leaves.
 
+use glam::DVec3;
+
 use super::bark::BarkRelief;
 use super::climbing::Climbing;
 use super::flower::FlowerPlan;
 use super::pot::PotPlan;
 use crate::document::{Declared, Degrees, Integer, Keys, Limits, Word};
-use glam::DVec3;
 
 /// The keys of a phyllotaxis, and what it is by its name.
 fn phyllotaxis(axis: &mut AxisPlan, keys: &mut Keys<'_>) {

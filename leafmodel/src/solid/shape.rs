@@ -1,7 +1,8 @@
 //! The shapes of bodies.
 
-use crate::mosaic::shapes::lathe::lathe;
 use std::sync::Arc;
+
+use crate::mosaic::shapes::lathe::lathe;
 
 use glam::{DVec2, DVec3};
 

@@ -1,8 +1,9 @@
 //! Why a picture is not traced.
 
+use thiserror::Error;
+
 use crate::shape::outline::OutlineError;
 use crate::venation::network::NetworkError;
-use thiserror::Error;
 
 /// Why a picture cannot be traced.
 #[derive(Clone, Debug, Error, PartialEq)]

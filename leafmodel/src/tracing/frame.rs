@@ -1,7 +1,8 @@
 //! From pixels to the frame of a leaf: base, apex, millimetres.
 
-use crate::tracing::Frame;
 use glam::DVec2;
+
+use crate::tracing::Frame;
 
 use super::assembly::{Vein, Veins, network, parts};
 use super::error::TraceError;

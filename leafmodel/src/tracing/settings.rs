@@ -1,8 +1,9 @@
 //! How a picture is read.
 
+use glam::DVec2;
+
 use super::error::TraceError;
 use super::grid::Raster;
-use glam::DVec2;
 
 /// Whether veins are darker or brighter than the tissue between them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,9 +1,10 @@
 //! What a picture was traced to, and how its places become millimetres.
 
+use glam::DVec2;
+
 use super::findings::Finding;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;
-use glam::DVec2;
 
 /// What a picture shows.
 #[derive(Clone, Debug)]

@@ -1,11 +1,12 @@
 //! Grooves and ridges along veins.
 
+use std::f64::consts::PI;
+
 use crate::blade::frame::UvFrame;
 use crate::blade::mesh::BladeMesh;
 use crate::blade::senescence::Withering;
 use crate::blade::tissue::Tissue;
 use crate::venation::network::VeinSegment;
-use std::f64::consts::PI;
 
 use glam::DVec2;
 

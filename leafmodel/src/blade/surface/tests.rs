@@ -1,6 +1,7 @@
+use proptest::prelude::*;
+
 use crate::blade::frame::UvFrame;
 use crate::venation::network::VeinSegment;
-use proptest::prelude::*;
 
 use super::*;
 use crate::blade::tissue::tests::GREEN;

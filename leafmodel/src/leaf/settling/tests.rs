@@ -1,7 +1,8 @@
 //! Leaves that have dried, wilted or fallen.
 
-use crate::blade::stance::Stance;
 use glam::DVec3;
+
+use crate::blade::stance::Stance;
 
 use super::super::tests::plan;
 use super::super::*;

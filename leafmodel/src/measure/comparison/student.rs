@@ -1,6 +1,7 @@
 //! Means, their intervals, and Welch's test of two of them.
 
 use serde::Serialize;
+
 use special::Beta;
 
 use super::effect::OUTSIDE;

@@ -1,5 +1,6 @@
-use crate::mosaic::shapes::lathe::lathe;
 use glam::DVec3;
+
+use crate::mosaic::shapes::lathe::lathe;
 
 use super::*;
 use crate::mosaic::shapes::{Shape, rounded_cube, sheet, sphere};

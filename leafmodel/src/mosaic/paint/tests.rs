@@ -1,5 +1,6 @@
-use crate::mosaic::paint::sheet::SheetField;
 use glam::DVec3;
+
+use crate::mosaic::paint::sheet::SheetField;
 
 use super::*;
 use crate::mosaic::control::{ControlImage, Steered};

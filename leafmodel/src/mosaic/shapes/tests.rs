@@ -1,6 +1,7 @@
-use crate::mosaic::shapes::lathe::lathe;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
+
+use crate::mosaic::shapes::lathe::lathe;
 
 use super::*;
 

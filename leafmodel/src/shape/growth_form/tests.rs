@@ -1,7 +1,8 @@
 //! The model and its extensions, tested against closed forms and intended effects.
 
-use crate::shape::growth::RateCurve;
 use proptest::prelude::*;
+
+use crate::shape::growth::RateCurve;
 
 use super::*;
 use crate::measure::shape;

@@ -1,10 +1,11 @@
 //! Why veins do not grow towards auxin, and how to mend their plan.
 
+use thiserror::Error;
+
 use crate::document::RangeError;
 use crate::not_grown::NotGrown;
 use crate::shape::growth::GrowthError;
 use crate::venation::architecture::ArchitectureError;
-use thiserror::Error;
 
 /// Why a plan cannot be carried out.
 #[derive(Clone, Debug, Error, PartialEq)]

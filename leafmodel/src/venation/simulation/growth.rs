@@ -1,10 +1,11 @@
 //! A step's growth: driven nodes get children, and sources that veins have reached are used up.
 
+use glam::DVec2;
+
 use crate::venation::simulation::NO_DIRECTION;
 use crate::venation::simulation::Outcome;
 use crate::venation::simulation::TURNING;
 use crate::venation::simulation::turned;
-use glam::DVec2;
 
 use super::{PATIENCE, Simulation};
 use crate::venation::influence::{Fate, Influence};

@@ -1,7 +1,8 @@
 //! Fig. 13: the cap of a fly agaric.
 
-use crate::mosaic::shapes::lathe::lathe;
 use glam::{DVec2, DVec3};
+
+use crate::mosaic::shapes::lathe::lathe;
 
 use super::super::statistics::neighbourhood;
 use super::{Row, Seen, surface};

@@ -1,9 +1,10 @@
 //! Secondary veins that are laid out, and what goes with them.
 
+use glam::DVec2;
+
 use crate::venation::architecture::course::{Axis, Course};
 use crate::venation::architecture::ground::Ground;
 use crate::venation::architecture::margin::Hit;
-use glam::DVec2;
 
 /// A secondary vein to be laid out.
 #[derive(Clone, Debug)]

@@ -1,5 +1,7 @@
 //! The veins of one side of an axis.
 
+use glam::DVec2;
+
 use super::between::intersecondaries;
 use super::laid::{Draft, Laid, Secondary, Site};
 use super::targets::{branch_into_teeth, inward, run_into};
@@ -9,7 +11,6 @@ use crate::venation::architecture::ends::aside;
 use crate::venation::architecture::festoons;
 use crate::venation::architecture::ground::Ground;
 use crate::venation::architecture::{Attachment, Secondaries, SecondaryEnding};
-use glam::DVec2;
 
 /// The veins of one side of an axis.
 pub(super) struct Row {
