@@ -148,7 +148,7 @@ impl MosaicPattern {
     /// # Errors
     ///
     /// [`NotGrown`], also where growth is stopped.
-    pub(crate) fn grow(
+    pub fn grow(
         &self,
         surface: &Surface,
         seed: u64,
