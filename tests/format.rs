@@ -50,6 +50,13 @@ fn folder() -> TempDir {
         "wavelength_nm,r,g,b\n400,0,0.1,0.8\n410,0,-0.02,0.9\n420,0,0.2,1\n",
     );
     write("paper.csv", "wavelength_nm,percent\n380,70\n800,90\n");
+    let head = "wavelength_nm,absorption_cm2_per_ug\n";
+    write("extra.csv", &format!("{head}400,0.02\n700,0.01\n2500,0\n"));
+    write("extra_short.csv", &format!("{head}400,0.02\n700,0.01\n"));
+    write(
+        "extra_below_0.csv",
+        &format!("{head}400,0.02\n700,-0.01\n2500,0\n"),
+    );
     write(
         "margin.svg",
         "<svg xmlns=\"http://www.w3.org/2000/svg\"><path id=\"blade\" d=\"M50 90C90 80 90 30 50 10C10 30 10 80 50 90Z\"/>\

@@ -85,7 +85,7 @@ pub struct LeafPlan {
     /// What the tissue holds, and how veins change it.
     #[key(with = tissue)]
     pub tissue: Tissue,
-    /// Which substances its pigments are.
+    /// What its constituents absorb.
     #[key("pigments", block)]
     pub pigments: Pigments,
     /// Cells of several types, each with contents of its own, in place of the tissue's lamina;

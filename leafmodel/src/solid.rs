@@ -44,7 +44,7 @@ use crate::mosaic::pattern::MosaicPattern;
 use crate::mosaic::shapes::{Shape, ShapeError};
 use crate::mosaic::{Mosaic, Surface, SurfacePoint};
 use crate::not_grown::{NotGrown, not_grown};
-use crate::optics::contents_keys::{changed_contents, warn_of_mixture};
+use crate::optics::contents_keys::{changed_contents, refuse_unknown_absorption, warn_of_mixture};
 use crate::optics::{Contents, Pigments};
 
 /// Width of the gutter around each chart of the map, texels.
@@ -60,11 +60,11 @@ const MOST_PER_SPACING: f64 = 3.0;
 /// Memory of a triangle of a body and of a texel of its map, bytes: what their arrays hold, twice,
 /// since they are made from others.
 const OF_A_TRIANGLE: f64 = 300.0;
-const OF_A_TEXEL: f64 = 120.0;
+const OF_A_TEXEL: f64 = 144.0;
 
 /// The plan of a body.
 #[derive(Clone, Debug, Declared, PartialEq)]
-#[key(last = warn_of_mixed_cells)]
+#[key(last = check_contents)]
 pub struct SolidPlan {
     /// Same plan and seed, same body, bit for bit.
     #[key("seed")]
@@ -84,7 +84,7 @@ pub struct SolidPlan {
     /// Tissue of cells that stands out, or lies below.
     #[key(with = raised)]
     pub raised: Option<Raised>,
-    /// Which substances its pigments are.
+    /// What its constituents absorb.
     #[key("pigments", block)]
     pub pigments: Pigments,
 }
@@ -137,12 +137,13 @@ pub fn held_contents(contents: &mut Contents, keys: &mut Keys<'_>) {
     warn_of_mixture(contents, keys, "this tissue holds");
 }
 
-/// Warns of anthocyanins and betalains in unlike cells of one body; what the body itself holds is
-/// told there.
-fn warn_of_mixed_cells(plan: &mut SolidPlan, keys: &mut Keys<'_>) {
+/// Refuses what the model does not have, and warns of anthocyanins and betalains in unlike cells of
+/// one body; those of the body itself are reported with its contents.
+fn check_contents(plan: &mut SolidPlan, keys: &mut Keys<'_>) {
     if !keys.is_sound() {
         return;
     }
+    refuse_unknown_absorption(&plan.pigments, &plan.contents, keys);
     let cells = plan.mosaic.iter().flat_map(|mosaic| &mosaic.contents);
     // Under a mosaic the body itself shows only where no cell may be.
     let shows = |mosaic: &MosaicPattern| mosaic.may_leave_bare();

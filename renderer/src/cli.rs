@@ -67,6 +67,7 @@ mod instruments;
 mod licenses;
 mod measure;
 mod merge;
+mod model;
 mod needs;
 mod optics;
 mod picture_files;

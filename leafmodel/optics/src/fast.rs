@@ -28,8 +28,22 @@ const LEAST_T: f32 = 1e-15;
 /// Numbers that [`PileLanes`] holds for a wavelength.
 pub const CONSTANTS: usize = FACES + Constituent::ABSORBING.len();
 
-/// Those of them that tell of the faces of a plate.
+/// Those of them that describe the faces of a plate.
 const FACES: usize = 3;
+
+/// Absorbing constituents of which most leaves have some. The others, behind them, are left out where
+/// a leaf has none of them: the sum is the same to the bit.
+const USUAL: usize = Constituent::DryMatter as usize;
+
+/// Whether there is something of any of these.
+#[inline(always)]
+fn has_some(rare: &[f32]) -> bool {
+    let mut bits = 0;
+    for content in rare {
+        bits |= content.to_bits();
+    }
+    bits != 0
+}
 
 /// What the faces of a plate do at `L` wavelengths, and what the constituents absorb there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,12 +87,18 @@ impl<const L: usize> PileLanes<L> {
     #[inline(always)]
     pub fn absorption(&self, contents: &Texel) -> [f32; L] {
         let mut sum = [0.0; L];
-        for (row, content) in self.constants[FACES..]
-            .iter()
-            .zip(&contents.as_array()[1..])
-        {
+        let (usual, rare) = contents.as_array()[1..].split_at(USUAL);
+        let (usual_rows, rare_rows) = self.constants[FACES..].split_at(USUAL);
+        for (row, content) in usual_rows.iter().zip(usual) {
             for lane in 0..L {
                 sum[lane] += row[lane] * content;
+            }
+        }
+        if has_some(rare) {
+            for (row, content) in rare_rows.iter().zip(rare) {
+                for lane in 0..L {
+                    sum[lane] += row[lane] * content;
+                }
             }
         }
         sum
@@ -144,8 +164,15 @@ impl<const L: usize> PileLanes<L> {
         for lane in 0..L {
             let [plates, held @ ..] = contents[lane].as_array();
             structure[lane] = *plates;
-            for (row, content) in self.constants[FACES..].iter().zip(held) {
+            let (usual, rare) = held.split_at(USUAL);
+            let (usual_rows, rare_rows) = self.constants[FACES..].split_at(USUAL);
+            for (row, content) in usual_rows.iter().zip(usual) {
                 absorption[lane] += row[lane] * content;
+            }
+            if has_some(rare) {
+                for (row, content) in rare_rows.iter().zip(rare) {
+                    absorption[lane] += row[lane] * content;
+                }
             }
         }
         let mut layers = [(0.0, 0.0); L];

@@ -395,7 +395,8 @@ fn parameter(of: Constituent) -> Parameter {
         | Constituent::Betaxanthins => (high, 5.0),
         Constituent::Brown => (high, 0.5),
         Constituent::Water => (high, 0.01),
-        Constituent::DryMatter => (high, 0.005),
+        Constituent::DryMatter | Constituent::Proteins | Constituent::CarbonBased => (high, 0.005),
+        Constituent::Extra => (high, 10.0),
     };
     Parameter {
         bounds: [low, high],

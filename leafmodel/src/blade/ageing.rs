@@ -187,6 +187,8 @@ impl Course {
             (Constituent::Structure, self.structure_factor),
             (Constituent::Water, self.water_factor),
             (Constituent::DryMatter, self.dry_matter_factor),
+            (Constituent::Proteins, self.dry_matter_factor),
+            (Constituent::CarbonBased, self.dry_matter_factor),
         ] {
             aged[constituent] *= 1.0 + (factor - 1.0) * (1.0 - left);
         }

@@ -19,7 +19,7 @@ impl LeafPlan {
             &self.stance,
             &self.form,
             (outline, network),
-            [held[Constituent::Water], held[Constituent::DryMatter]],
+            [held[Constituent::Water], held.all_dry_matter()],
             stalk,
             self.seed,
         )

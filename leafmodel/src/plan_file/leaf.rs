@@ -8,7 +8,7 @@ use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::Contour;
 use crate::leaf::venation_plan::VenationPlan;
 use crate::optics::Contents;
-use crate::optics::contents_keys::NEVER_TOGETHER;
+use crate::optics::contents_keys::{NEVER_TOGETHER, refuse_unknown_absorption};
 
 /// The keys of a leaf, and what belongs together in them.
 pub fn leaf(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
@@ -60,6 +60,7 @@ fn check(plan: &LeafPlan, keys: &Keys<'_>) {
         keys.refuse(path, problem.to_owned(), help);
     }
     compound::check(plan, keys);
+    refuse_unknown_absorption(&plan.pigments, &plan.tissue.lamina, keys);
     let lamina = &plan.tissue.lamina;
     let dead = plan
         .senescence

@@ -120,8 +120,11 @@ impl LeafPlan {
                     Constituent::Anthocyanins
                     | Constituent::Betacyanins
                     | Constituent::Betaxanthins => anthocyanins,
-                    Constituent::Water | Constituent::DryMatter => water,
-                    Constituent::Structure | Constituent::Brown => 1.0,
+                    Constituent::Water
+                    | Constituent::DryMatter
+                    | Constituent::Proteins
+                    | Constituent::CarbonBased => water,
+                    Constituent::Structure | Constituent::Brown | Constituent::Extra => 1.0,
                 };
                 *value = value.min(MOST_HELD);
             }

@@ -250,12 +250,15 @@ impl Front {
                 Constituent::Betacyanins
                 | Constituent::Betaxanthins
                 | Constituent::Brown
-                | Constituent::DryMatter => 1.0,
+                | Constituent::DryMatter
+                | Constituent::Proteins
+                | Constituent::CarbonBased
+                | Constituent::Extra => 1.0,
             };
         }
         // What died last is darkest; the oldest has bleached.
         // Veins, which hold more dry matter, brown more.
-        let thick = (living[Constituent::DryMatter] / USUAL_DRY_MATTER).clamp(0.7, 2.5);
+        let thick = (living.all_dry_matter() / USUAL_DRY_MATTER).clamp(0.7, 2.5);
         let brown = (0.9 + 0.8 * libm::exp(-depth.max(0.0) / DARK_MM)) * thick;
         dead[Constituent::Brown] = dead[Constituent::Brown].max(brown);
         let is_dead = smooth_step(depth / EDGE_MM + 0.5);

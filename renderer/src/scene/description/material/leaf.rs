@@ -2,6 +2,7 @@
 
 use leafmodel::document::declared::{Declared, Defaults};
 use leafmodel::document::keys::Keys;
+use leafmodel::optics::contents_keys::refuse_unknown_absorption;
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plan_file::{self, require_prospect};
 
@@ -24,7 +25,7 @@ pub struct PlainLeaf {
     /// Its tissue, which determines R and T.
     #[key(with = Self::declare_tissue)]
     pub tissue: LeafTissue,
-    /// Which substances its pigments are.
+    /// What its constituents absorb.
     #[key("pigments", block, with = Pigments::declare)]
     pub pigments: Box<Pigments>,
     /// The properties of its faces.
@@ -122,6 +123,9 @@ impl PlainLeaf {
     }
 
     fn refuse_layers(&mut self, keys: &mut Keys<'_>) {
+        if let LeafTissue::Held(Held::Contents { contents, .. }) = &self.tissue {
+            refuse_unknown_absorption(&self.pigments, contents, keys);
+        }
         self.faces.refuse_light_of(self.fluorescence, keys);
         if self.faces.optics == LeafOptics::Layers
             && matches!(self.tissue, LeafTissue::Measured { .. })
