@@ -67,6 +67,34 @@ const PIGMENT: Facts = Facts {
     is_bulk: false,
 };
 
+/// Number of plates.
+const STRUCTURE: Facts = Facts {
+    name: "structure",
+    key: "structure",
+    words: "structure N",
+    meaning: "Number of plates that scatter as the mesophyll does, PROSPECT's N.",
+    symbol: "N",
+    unit: "",
+    counted_in: "plates",
+    range: [1.0, 10.0],
+    if_left_out: None,
+    is_bulk: true,
+};
+
+/// Water.
+const WATER: Facts = Facts {
+    name: "water",
+    key: "water_cm",
+    words: "water",
+    meaning: "Thickness of the water in the leaf.",
+    symbol: "Cw",
+    unit: "cm",
+    counted_in: "cm",
+    range: [0.0, 1.0],
+    if_left_out: None,
+    is_bulk: true,
+};
+
 /// Dry matter, of which a file may give the parts instead.
 const DRY_MATTER: Facts = Facts {
     name: "dry_matter",
@@ -115,18 +143,7 @@ impl Constituent {
 
     const fn facts(self) -> Facts {
         match self {
-            Self::Structure => Facts {
-                name: "structure",
-                key: "structure",
-                words: "structure N",
-                meaning: "Number of plates that scatter as the mesophyll does, PROSPECT's N.",
-                symbol: "N",
-                unit: "",
-                counted_in: "plates",
-                range: [1.0, 10.0],
-                if_left_out: None,
-                is_bulk: true,
-            },
+            Self::Structure => STRUCTURE,
             Self::Chlorophyll => Facts {
                 name: "chlorophyll",
                 key: "chlorophyll_ug_per_cm2",
@@ -180,18 +197,7 @@ impl Constituent {
                 range: [0.0, 100.0],
                 ..PIGMENT
             },
-            Self::Water => Facts {
-                name: "water",
-                key: "water_cm",
-                words: "water",
-                meaning: "Thickness of the water in the leaf.",
-                symbol: "Cw",
-                unit: "cm",
-                counted_in: "cm",
-                range: [0.0, 1.0],
-                if_left_out: None,
-                is_bulk: true,
-            },
+            Self::Water => WATER,
             Self::DryMatter => DRY_MATTER,
             Self::Proteins => Facts {
                 name: "proteins",
