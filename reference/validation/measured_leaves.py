@@ -5,8 +5,8 @@ adaxial R, adaxial T, abaxial R, abaxial T. They are in the folder `data-raw/JaL
 a clone of aphalo/photobiologyPlants. Their terms allow use that is not for profit, so that they are
 not in this repository.
 
-`--database FOLDER`, any number of times, holds leaves with known contents in the form of the authors
-of PROSPECT: `DataBioch.txt`, `ReflectanceData.txt` and `TransmittanceData.txt`, as at
+`--database FOLDER`, any number of times, holds leaves with known contents in the form of the
+authors of PROSPECT: `DataBioch.txt`, `ReflectanceData.txt` and `TransmittanceData.txt`, as at
 https://gitlab.com/jbferet/myshareddata in `LOP/ANGERS`, `LOP/LOPEX_FRESH_VAL` and others.
 
 Each leaf is fitted by `lamina fit` with R and T from 400 to 2500 nm. The table has the root mean
@@ -91,14 +91,14 @@ def of_database(folder: Path) -> list[Leaf]:
         raise SystemExit(f"{folder}: {len(held)} leaves have contents, {len(names)} have spectra")
     leaves = []
     for name, contents in zip(names, held, strict=True):
-        spectra = [
+        r, t = (
             {float(row[wavelength]): float(row[name]) for row in rows}
             for rows in (reflectance, transmittance)
-        ]
+        )
         known = {key.upper(): value for key, value in contents.items()}
         numbers = {key: float(known[key]) for key in CONTENTS if known.get(key, "NA") != "NA"}
         there = {key: value for key, value in numbers.items() if value >= 0}
-        leaves.append(Leaf(f"{folder.name}_{name}", *spectra, there))
+        leaves.append(Leaf(f"{folder.name}_{name}", r, t, there))
     return leaves
 
 
@@ -140,8 +140,8 @@ def fitted(
         [lamina, "fit", spectra, "--model", model, *outputs], check=True, capture_output=True
     )
     tables = []
-    for file in (contents, found):
-        with file.open(encoding="utf-8", newline="") as text:
+    for path in (contents, found):
+        with path.open(encoding="utf-8", newline="") as text:
             tables.append(list(csv.DictReader(text)))
     return tables[0], tables[1]
 

@@ -2,8 +2,8 @@
 
 progeosail 2.1.0 computes R and T of leaves by chance and writes them to
 `tests/data/prospect_models_reference.csv`, to which `tests/optics.rs` holds the program. It has
-tables of its own for PROSPECT-PRO and PROSPECT-5; that of PROSPECT-5 is rounded to single precision.
-PROSPECT-4 is not in it: there it computes with the columns of `prospect_others.csv`.
+tables of its own for PROSPECT-PRO and PROSPECT-5; that of PROSPECT-5 is rounded to single
+precision. PROSPECT-4 is not in it: there it computes with the columns of `prospect_others.csv`.
 
 progeosail is not in the environment: `pip install progeosail==2.1.0` brings it.
 """
@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 
 def spectra(model: str, leaf: dict[str, float], columns: dict[str, Array]) -> list[Array]:
     """R and T at each whole nanometre from 400 to 2500."""
-    from progeosail.prospect_d import run_prospect  # noqa: PLC0415
+    from progeosail.prospect_d import run_prospect  # type: ignore[import-not-found]
 
     own = {}
     if model == "prospect-4":

@@ -23,8 +23,8 @@ from lamina.mitsuba.lookup import Table, cell
 # PROSPECT-D's own absorbers, in the order of the published table's columns after the refractive
 # index.
 PROSPECT_D = ("chlorophyll", "carotenoids", "anthocyanins", "brown", "water", "dry_matter")
-# Those of exported tables, which have betalains, PROSPECT-PRO's parts of dry matter and a constituent
-# of the scene's own besides.
+# Those of exported tables, which have betalains, PROSPECT-PRO's parts of dry matter and a
+# constituent of the scene's own besides.
 OPTIONAL = ("betacyanins", "betaxanthins", "proteins", "carbon_based", "extra")
 ABSORBERS = (*PROSPECT_D[:3], *OPTIONAL[:2], *PROSPECT_D[3:], *OPTIONAL[2:])
 CONTENTS = ("structure", *ABSORBERS)
