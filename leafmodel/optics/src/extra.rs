@@ -18,7 +18,7 @@ use document::source::Place;
 use document::value_kind::{FilePath, NamedFile};
 use document::whole_file;
 
-use super::prospect_d::{FIRST_NM, LAST_NM};
+use super::model::{FIRST_NM, LAST_NM};
 
 /// Greatest specific absorption, cm² µg⁻¹. The strongest dyes have 2; chlorophyll in leaves has 0.09.
 pub const MOST: f64 = 10.0;

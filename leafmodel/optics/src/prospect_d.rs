@@ -12,13 +12,9 @@ use thiserror::Error;
 use super::constituent::Constituent;
 use super::interface::Interface;
 use super::model::Model;
+pub use super::model::{FIRST_NM, LAST_NM};
 use super::per_constituent::PerConstituent;
 use super::pigments::Pigments;
-
-/// First wavelength of the tables, nm.
-pub const FIRST_NM: f64 = 400.0;
-/// Last wavelength of the tables, nm.
-pub const LAST_NM: f64 = 2500.0;
 
 const PROSPECT_D: &str = include_str!("prospect_d.csv");
 const OTHERS: &str = include_str!("prospect_others.csv");
@@ -226,6 +222,7 @@ fn parse_row(line: &str) -> [f64; COLUMNS] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::presets;
 
     #[test]
     fn whole_nanometres_give_the_figures_of_the_table() {
@@ -280,6 +277,30 @@ mod tests {
         }
         let end = ProspectD::coefficients(400.0).expect("in range");
         assert_eq!(ProspectD::coefficients_extrapolated(360.0), end);
+    }
+
+    #[test]
+    fn models_share_what_they_do_not_change() {
+        let leaf = presets::ALL[0].contents;
+        let of = |model| {
+            let pigments = Pigments {
+                model,
+                ..Pigments::default()
+            };
+            move |nm| ProspectD::coefficients_of(&pigments, nm)
+        };
+        let (own, pro, five) = (
+            of(Model::ProspectD),
+            of(Model::ProspectPro),
+            of(Model::Prospect5),
+        );
+        assert_ne!(own(550.0).interface, five(550.0).interface);
+        for nm in [400.0, 550.5, 1000.0, 1700.0, 2500.0] {
+            assert_eq!(own(nm), pro(nm));
+            let [d, five] = [own(nm), five(nm)].map(|at| at.reflectance_transmittance(&leaf));
+            let change = (d.reflectance - five.reflectance).abs();
+            assert!(change < 0.05, "{nm} nm: {d:?} {five:?}");
+        }
     }
 
     #[test]

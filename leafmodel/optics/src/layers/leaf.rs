@@ -90,10 +90,7 @@ impl LayeredLeaf {
     }
 
     fn of_anatomy(contents: &Contents, anatomy: Anatomy, scattering: Scattering) -> Self {
-        let (water, dry) = (
-            contents[Constituent::Water],
-            contents[Constituent::DryMatter],
-        );
+        let (water, dry) = (contents[Constituent::Water], contents.all_dry_matter());
         // A gram of water is a cubic centimetre.
         let cells = if water < DRY_BELOW * dry {
             Cells::Empty

@@ -197,6 +197,8 @@ radiance_w_m2_sr_nm = 0.1
             ("brown", "1"),
             ("water", "cm"),
             ("dry_matter", "g/cm2"),
+            ("proteins", "g/cm2"),
+            ("extra", "ug/cm2"),
         ] {
             assert_eq!(told(&format!("lamina:unit.{content}")), unit);
         }
