@@ -33,15 +33,17 @@ MODELS = ("prospect-4", "prospect-5", "prospect-d", "prospect-pro")
 RANGES = ((400, 700), (700, 1300), (1300, 2500))
 # Needles fill the sphere's port only in part.
 NEEDLES = ("Picea", "Pinus", "Larix", "Cryptomeria", "Chamaecyparis", "Cunninghamia")
-# Content, its key in the program's tables, unit, and factor for the table.
+PARTS = ("proteins_g_per_cm2", "carbon_based_g_per_cm2")
+# Content, its keys in the program's tables, whose values add up, unit, and factor for the table.
 CONTENTS = {
-    "CHL": ("chlorophyll_ug_per_cm2", "µg/cm²", 1.0),
-    "CAR": ("carotenoids_ug_per_cm2", "µg/cm²", 1.0),
-    "ANT": ("anthocyanins_ug_per_cm2", "µg/cm²", 1.0),
-    "EWT": ("water_cm", "mg/cm²", 1e3),
-    "LMA": ("dry_matter_g_per_cm2", "mg/cm²", 1e3),
-    "PROT": ("proteins_g_per_cm2", "mg/cm²", 1e3),
-    "CBC": ("carbon_based_g_per_cm2", "mg/cm²", 1e3),
+    "CHL": (("chlorophyll_ug_per_cm2",), "µg/cm²", 1.0),
+    "CAR": (("carotenoids_ug_per_cm2",), "µg/cm²", 1.0),
+    "ANT": (("anthocyanins_ug_per_cm2",), "µg/cm²", 1.0),
+    "EWT": (("water_cm",), "mg/cm²", 1e3),
+    # A model has the whole or its parts.
+    "LMA": (("dry_matter_g_per_cm2", *PARTS), "mg/cm²", 1e3),
+    "PROT": (PARTS[:1], "mg/cm²", 1e3),
+    "CBC": (PARTS[1:], "mg/cm²", 1e3),
 }
 
 Spectrum = dict[float, float]
@@ -165,11 +167,12 @@ def sections(name: str, leaves: list[Leaf], lamina: Path) -> Iterable[str]:
         of_spectra.append(f"| {model} | " + " | ".join(cells) + " |")
         cells = []
         for key in there:
-            column, _, factor = CONTENTS[key]
+            columns, _, factor = CONTENTS[key]
             error = Errors()
             for leaf, row in zip(leaves, contents, strict=True):
-                if key in leaf.contents and row.get(column):
-                    error.add(factor * (float(row[column]) - leaf.contents[key]))
+                found = [float(row[column]) for column in columns if row.get(column)]
+                if key in leaf.contents and found:
+                    error.add(factor * (sum(found) - leaf.contents[key]))
             cells.append(error.text(2))
         of_contents.append(f"| {model} | " + " | ".join(cells) + " |")
     heads = [f"{quantity} {low}–{high}" for quantity in "RT" for low, high in RANGES]

@@ -252,8 +252,8 @@ impl Held {
         keys.required_block("map", "A map of what it holds.", &[], |keys| {
             require_prospect(keys);
             let mut file = PathBuf::new();
-            let about = "A channel for each of the contents, by its name without the unit, over uv; those of \
-                betalains may be absent; the first row of the picture is v = 0.";
+            let about = "A channel for each of the contents, by its name without the unit, over uv; \
+                those that contents may leave out may be absent; the first row of the picture is v = 0.";
             keys.required("file", &mut file, MAP, about);
             *self = Self::Map { file, extrapolate };
         });
