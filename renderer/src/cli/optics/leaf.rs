@@ -119,8 +119,8 @@ impl Chosen {
 
     /// The contents by name.
     pub(super) fn json(&self) -> Value {
-        self.listed()
-            .map(|(constituent, value)| (constituent.name().to_owned(), json!(value)))
+        let all = self.contents.into_iter();
+        all.map(|(constituent, value)| (constituent.name().to_owned(), json!(value)))
             .collect()
     }
 
