@@ -295,6 +295,38 @@ mod tests {
     }
 
     #[test]
+    fn what_few_leaves_have_absorbs_too_alone_and_among_others() {
+        let at = [1500.0, 1700.0, 2300.0].map(|nm| {
+            let mut at = ProspectD::coefficients(nm).expect("in range");
+            at.absorption[Constituent::Extra] = 0.01;
+            at
+        });
+        let pro = Contents::of(&[
+            (Constituent::Structure, 1.5),
+            (Constituent::Water, 0.01),
+            (Constituent::Proteins, 0.001),
+            (Constituent::CarbonBased, 0.005),
+            (Constituent::Extra, 20.0),
+        ]);
+        let texel = pro.to_texel();
+        let ((r, t), each) = PileLanes::new(&at).with_each(&texel, &[&texel; 3]);
+        for (lane, at) in at.iter().enumerate() {
+            let exact = at.reflectance_transmittance(&pro);
+            assert!(
+                (f64::from(r[lane]) - exact.reflectance).abs() < 1e-6,
+                "{lane}"
+            );
+            assert!(
+                (f64::from(t[lane]) - exact.transmittance).abs() < 1e-6,
+                "{lane}"
+            );
+            assert!((each[lane] - t[lane]).abs() < 1e-6, "{lane}");
+            let bare = at.reflectance_transmittance(&pro.with(&[(Constituent::Extra, 0.0)]));
+            assert!(bare.reflectance > exact.reflectance + 0.01, "{lane}");
+        }
+    }
+
+    #[test]
     fn nothing_absorbed_means_all_comes_out() {
         for n in [1.0, 1.0 + 1e-6, 1.5, 3.7] {
             for k in [0.0, 1e-300, 1e-40, 1e-20] {
