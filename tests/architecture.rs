@@ -1,8 +1,8 @@
 //! What `docs/src/architecture.md` says of who may import whom.
 //!
-//! Imports are read from `use` lines outside of tests. Files of the renderer's core import in one
-//! direction. Elsewhere a file and those in the folder of its name are one room: between them both
-//! directions are allowed.
+//! Imports are read from `use` lines outside of tests, in the renderer from every path in the code. Files of
+//! leafmodel, the tracer and the renderer import in one direction. Elsewhere, and in `ROOMS`, a file and those in the
+//! folder of its name are one room: between them both directions are allowed.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -18,6 +18,11 @@ struct House {
 
 impl House {
     fn of(krate: &str) -> Self {
+        Self::by(krate, paths)
+    }
+
+    /// A crate whose imports are the paths that are found in a file's text.
+    fn by(krate: &str, paths: impl Fn(&str) -> Vec<Vec<String>>) -> Self {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("..")
             .join(krate)
@@ -39,7 +44,7 @@ impl House {
         Self { imports }
     }
 
-    /// Modules that import each other in a loop through the one given, itself first. `in_rooms` says
+    /// Modules that import each other in a loop through the one given, itself last. `in_rooms` says
     /// whether a file and those in the folder of its name may be part of it.
     fn circle(&self, start: &Module, in_rooms: bool) -> Option<Vec<String>> {
         let mut before: BTreeMap<&Module, &Module> = BTreeMap::new();
@@ -90,7 +95,11 @@ fn read(folder: &Path, module: &mut Module, texts: &mut BTreeMap<Module, String>
             read(&path, module, texts);
         } else if path.extension().is_some_and(|ending| ending == "rs") && !is_root {
             let text = fs::read_to_string(&path).expect("sources are UTF-8");
-            let tests = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
+            let starts = ["", "pub(super) "].map(|scope| {
+                let tests = format!("#[cfg(test)]\n{scope}mod tests {{");
+                text.find(&tests).unwrap_or(text.len())
+            });
+            let tests = starts[0].min(starts[1]);
             texts.insert(module.clone(), text[..tests].to_owned());
         }
         if !is_root {
@@ -122,6 +131,23 @@ fn paths(text: &str) -> Vec<Vec<String>> {
         }
     }
     found
+}
+
+/// The paths in code, whether a `use` line names them or not; those of trees are left out.
+fn qualified(text: &str) -> Vec<Vec<String>> {
+    let lines = text
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("//"));
+    let code = lines.collect::<Vec<_>>().join("\n");
+    let is_between = |letter: char| !letter.is_ascii_alphanumeric() && !"_:".contains(letter);
+    let words: Vec<&str> = code.split(is_between).collect();
+    let pairs = words.windows(2);
+    // `pub(in crate::scene)` imports nothing.
+    let named = pairs.filter(|pair| pair[0] != "in" && pair[1].contains("::"));
+    let parts = named.map(|pair| pair[1].split("::").map(str::to_owned).collect::<Vec<_>>());
+    parts
+        .filter(|path| path.iter().all(|part| !part.is_empty()))
+        .collect()
 }
 
 /// The single paths of a tree `a::{b, c::d}`.
@@ -219,39 +245,68 @@ fn no_files_import_each_other_in_a_circle() {
     }
 }
 
+/// Files that import each other with those in the folders of their names: what remains to be taken apart. No file is to be added.
+const ROOMS: [(&str, &[&str]); 3] = [
+    (
+        "renderer",
+        &[
+            "cli::optics",
+            "cli::optics::table",
+            "cli::optics::table::output",
+        ],
+    ),
+    (
+        "leafmodel/document",
+        &[
+            "inheritance",
+            "keys",
+            "keys::checks",
+            "keys::kinds",
+            "keys::lists",
+            "schema",
+            "schema::json",
+            "schema::tables",
+        ],
+    ),
+    (
+        "leafmodel",
+        &[
+            "plan_file",
+            "plan_file::one_leaf",
+            "species",
+            "species::file",
+            "species::traits",
+        ],
+    ),
+];
+
 #[test]
-fn files_of_the_core_import_in_one_direction() {
-    for (krate, core) in [
-        ("renderer/trace", &[][..]),
-        (
-            "renderer",
-            &[
-                "checkpoint",
-                "cli",
-                "codec",
-                "comparison",
-                "export",
-                "image",
-                "instruments",
-                "integrator",
-                "measured",
-                "plot",
-                "report",
-                "sweep",
-            ],
-        ),
+fn files_import_in_one_direction() {
+    for (krate, reads_paths) in [
+        ("leafmodel/document", false),
+        ("leafmodel/numerics", false),
+        ("leafmodel", false),
+        ("renderer/trace", true),
+        ("renderer", true),
     ] {
-        let house = House::of(krate);
-        let files = house.imports.keys();
-        let files: Vec<_> = files
-            .filter(|module| core.is_empty() || core.contains(&module[0].as_str()))
-            .collect();
+        let house = House::by(krate, |text| {
+            let mut found = paths(text);
+            if reads_paths {
+                found.extend(qualified(text));
+            }
+            found
+        });
+        let files: Vec<_> = house.imports.keys().collect();
         assert!(files.len() > 15, "{}", files.len());
-        let circles: Vec<_> = files
+        let circles = files
             .into_iter()
-            .filter_map(|module| house.circle(module, true))
-            .collect();
-        assert!(circles.is_empty(), "{circles:#?}");
+            .filter_map(|module| house.circle(module, true));
+        let rooms = ROOMS.iter().filter(|room| room.0 == krate);
+        let known: BTreeSet<&str> = rooms.flat_map(|room| room.1).copied().collect();
+        let circular: Vec<Vec<String>> = circles.collect();
+        let starts = circular.iter().filter_map(|circle| circle.last());
+        let there: BTreeSet<&str> = starts.map(String::as_str).collect();
+        assert_eq!(there, known, "{krate}: {circular:#?}");
     }
 }
 
@@ -270,13 +325,12 @@ fn leaves_are_grown_behind_one_seam() {
         "solid",
         "tracing",
     ];
-    const SEAM: [&str; 19] = [
+    const SEAM: [&str; 18] = [
         "scene/plants",
         "scene/expand/boughs",
         "scene/expand/individuals",
         "scene/plant_cache",
         "scene/description",
-        "scene/blocks/leaf",
         "cli/grow",
         "cli/measure",
         "cli/compare_networks",

@@ -28,6 +28,19 @@ fn text_of(name: &str) -> String {
     fs::read_to_string(own_folder().join(name)).expect("the test's own file is there")
 }
 
+/// A reflectance, and tables of specific absorption: a sound one, one that ends too early, and one
+/// below 0.
+fn tables_of_spectra() -> [(&'static str, String); 4] {
+    let with = |rows: &str| format!("wavelength_nm,absorption_cm2_per_ug\n{rows}");
+    let paper = "wavelength_nm,percent\n380,70\n800,90\n";
+    [
+        ("paper.csv", paper.to_owned()),
+        ("extra.csv", with("400,0.02\n700,0.01\n2500,0\n")),
+        ("extra_short.csv", with("400,0.02\n700,0.01\n")),
+        ("extra_below_0.csv", with("400,0.02\n700,-0.01\n2500,0\n")),
+    ]
+}
+
 /// A folder with the files that the scenes of these tests name. Meshes and pictures are only
 /// looked up, so they may be empty.
 fn folder() -> TempDir {
@@ -49,7 +62,9 @@ fn folder() -> TempDir {
         "camera.csv",
         "wavelength_nm,r,g,b\n400,0,0.1,0.8\n410,0,-0.02,0.9\n420,0,0.2,1\n",
     );
-    write("paper.csv", "wavelength_nm,percent\n380,70\n800,90\n");
+    for (name, table) in tables_of_spectra() {
+        write(name, &table);
+    }
     write(
         "margin.svg",
         "<svg xmlns=\"http://www.w3.org/2000/svg\"><path id=\"blade\" d=\"M50 90C90 80 90 30 50 10C10 30 10 80 50 90Z\"/>\

@@ -1,7 +1,8 @@
 //! PROSPECT-D against figures computed independently (33 sets of contents × 211 wavelengths).
 
+use leafmodel::document::declared::Words;
 use leafmodel::optics::presets::{Preset, PresetBasis};
-use leafmodel::optics::{Constituent, Contents, Pigments, ProspectD, presets};
+use leafmodel::optics::{Constituent, Contents, Model, Pigments, ProspectD, presets};
 use renderer::image::tone::to_srgb;
 use renderer::spectrum::cie;
 
@@ -57,6 +58,63 @@ fn reflectance_and_transmittance_agree_with_the_reference_to_1e_9() {
         let (r, t) = (leaf.reflectance, leaf.transmittance);
         assert!((r - row.reflectance).abs() < 1e-9, "{place}: R = {r}");
         assert!((t - row.transmittance).abs() < 1e-9, "{place}: T = {t}");
+    }
+}
+
+/// Rows of another program: its model, and what the row has by column.
+const MODELS: &str = include_str!("data/prospect_models_reference.csv");
+
+#[test]
+fn prospect_pro_5_and_4_agree_with_another_program() {
+    let contents = [
+        Constituent::Structure,
+        Constituent::Chlorophyll,
+        Constituent::Carotenoids,
+        Constituent::Anthocyanins,
+        Constituent::Brown,
+        Constituent::Water,
+        Constituent::DryMatter,
+        Constituent::Proteins,
+        Constituent::CarbonBased,
+    ];
+    let mut worst = [0.0_f64; 3];
+    let rows = MODELS.lines().skip(2);
+    assert_eq!(rows.clone().count(), 3 * 12 * 29);
+    for row in rows {
+        let (model, figures) = row.split_once(',').expect("a row has a model");
+        let figures: Vec<f64> = figures
+            .split(',')
+            .map(|figure| figure.parse().expect("a figure is a number"))
+            .collect();
+        let mut leaf = Contents::NOTHING;
+        for (of, value) in contents.into_iter().zip(&figures) {
+            leaf[of] = *value;
+        }
+        let number = Model::WORDS
+            .iter()
+            .skip(1)
+            .position(|(name, _)| *name == model);
+        let number = number.expect("it is one of three");
+        let model = Model::WORDS[number + 1].1;
+        assert_eq!(model.refusal(&leaf), None, "{row}");
+        let pigments = Pigments {
+            model,
+            ..Pigments::default()
+        };
+        let [nm, r, t] = figures[contents.len()..] else {
+            panic!("a row ends with the wavelength, R and T");
+        };
+        let at = ProspectD::coefficients_of(&pigments, nm);
+        let found = at.reflectance_transmittance(&leaf);
+        let off = (found.reflectance - r)
+            .abs()
+            .max((found.transmittance - t).abs());
+        worst[number] = worst[number].max(off);
+    }
+    eprintln!("greatest difference of PROSPECT-PRO, -5, -4: {worst:?}");
+    // Its table of PROSPECT-5 is rounded to single precision.
+    for (off, allowed) in worst.into_iter().zip([1e-9, 1e-7, 1e-7]) {
+        assert!(off < allowed, "{worst:?}");
     }
 }
 

@@ -8,17 +8,19 @@ use std::path::Path;
 use std::time::Instant;
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
 use leafmodel::mosaic::atlas::Atlas;
 use leafmodel::mosaic::noise_pattern::NoisePattern;
 use leafmodel::mosaic::paint::TypeField;
-use leafmodel::mosaic::shapes::{lathe, rounded_cube, sphere};
+use leafmodel::mosaic::shapes::lathe::lathe;
+use leafmodel::mosaic::shapes::{rounded_cube, sphere};
 use leafmodel::mosaic::voronoi::Voronoi;
 use leafmodel::mosaic::{
     CellType, ControlImage, CylinderControl, Mosaic, MosaicPlan, RadiusRule, Steered, Surface,
     SurfacePoint,
 };
 use leafmodel::optics::Contents;
-use rayon::prelude::*;
 
 /// Flat colours of the two types.
 const COLOURS: [&str; 2] = ["#3f7a2a", "#e6d36b"];

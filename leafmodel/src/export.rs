@@ -31,36 +31,10 @@ mod svg;
 mod table;
 #[cfg(test)]
 mod tests;
+mod text;
 
 pub use self::geojson::geojson;
 pub use self::graphml::graphml;
 pub use self::json::json;
-pub use self::svg::{SvgStyle, svg, svg_within};
+pub use self::svg::{ORDER_COLOURS, SvgStyle, order_colour, svg, svg_within};
 pub use self::table::table;
-
-/// Colours (sRGB) that tell vein orders apart on white, also for most colour-blind eyes (after
-/// Okabe and Ito); finer orders than there are colours share the last.
-pub const ORDER_COLOURS: [[u8; 3]; 7] = [
-    [0, 0, 0],
-    [213, 94, 0],
-    [0, 114, 178],
-    [0, 158, 115],
-    [204, 121, 167],
-    [86, 180, 233],
-    [160, 150, 120],
-];
-
-/// Colour of a vein order, 1 or more.
-pub fn order_colour(order: u8) -> [u8; 3] {
-    let last = ORDER_COLOURS.len() - 1;
-    ORDER_COLOURS[usize::from(order.max(1) - 1).min(last)]
-}
-
-/// What has written a file.
-const SOFTWARE: &str = concat!("Lamina ", env!("CARGO_PKG_VERSION"));
-
-/// A coordinate rounded to 10⁻⁴ mm, without trailing zeros.
-fn rounded(value: f64) -> f64 {
-    // Adding 0 turns −0 into 0.
-    (value * 1e4).round() / 1e4 + 0.0
-}

@@ -55,6 +55,7 @@
 //! | question | where |
 //! | --- | --- |
 //! | a margin from an SVG file or from control points | [`shape`] |
+//! | growth that a program can stop | [`grow_options`] |
 //! | how veins come to be | [`venation`], [`transport`] |
 //! | margin and main veins from one development | [`development`] |
 //! | measures of shape and veins; networks as files for other programs, and from them | [`measure`], [`export`], [`import`] |
@@ -72,6 +73,7 @@ pub mod blade;
 pub mod compound;
 pub mod development;
 pub mod export;
+pub mod grow_options;
 pub mod import;
 pub mod leaf;
 pub mod measure;

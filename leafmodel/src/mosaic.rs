@@ -70,4 +70,5 @@ pub use self::growth::SurfaceGrowth;
 pub use self::patch::{Patch, PatchFinder};
 pub use self::plan::{CellType, MosaicPlan, RadiusRule};
 pub use self::simulation::{Cell, Mosaic};
-pub use self::surface::{Ancestry, Surface, SurfacePoint, Unfold};
+pub use self::surface::subdivide::Ancestry;
+pub use self::surface::{Surface, SurfacePoint, Unfold};

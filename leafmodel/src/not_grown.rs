@@ -4,8 +4,7 @@ use std::fmt::Display;
 
 use thiserror::Error;
 
-use crate::document::keys::Keys;
-use crate::document::ranges::RangeError;
+use crate::document::{Keys, RangeError};
 
 /// Why a plan is not carried out.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -15,6 +14,7 @@ pub struct NotGrown {
     /// Paths of keys: the first that a file has is to be changed, or else the last.
     paths: Vec<String>,
     help: &'static str,
+    is_stop: bool,
 }
 
 impl NotGrown {
@@ -24,12 +24,32 @@ impl NotGrown {
             problem: problem.to_string(),
             paths: Vec::new(),
             help: "",
+            is_stop: false,
         }
+    }
+
+    /// The end of growth that the caller has stopped.
+    pub(crate) fn stopped(message: impl Display) -> Self {
+        Self {
+            is_stop: true,
+            ..Self::because(message)
+        }
+    }
+
+    /// Whether the caller has stopped the growth.
+    pub fn is_stop(&self) -> bool {
+        self.is_stop
     }
 
     /// The same as an error of a part of the plan.
     pub fn of(part: &str, problem: impl Display) -> Self {
         Self::because(format!("{part}: {problem}"))
+    }
+
+    /// The same error, named as one of a part of the plan.
+    pub(crate) fn in_part(self, part: &str) -> Self {
+        let problem = format!("{part}: {}", self.problem);
+        Self { problem, ..self }
     }
 
     /// The same with the key to change, by its path in the block of the plan, and what to write

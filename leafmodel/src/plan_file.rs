@@ -31,7 +31,6 @@ mod plant;
 mod presets;
 #[cfg(test)]
 mod tests;
-mod venation;
 
 use std::path::Path;
 
@@ -41,22 +40,18 @@ pub use self::plant::{plant, plant_preset, usual_plant};
 pub use self::presets::{colour_preset, leaf_preset};
 use crate::blade::senescence::Senescence;
 use crate::document::assets::Assets;
-use crate::document::context::Context;
 use crate::document::coverage::require_coverage;
-use crate::document::error::DocumentError;
-use crate::document::keys::{Keys, NamedList};
-use crate::document::limits::Limits;
 use crate::document::names::Named;
-use crate::document::opened::Opened;
 use crate::document::reader::Block;
 use crate::document::report::DocumentErrors;
 use crate::document::schema::{BlockSchema, Type};
 use crate::document::source::Place;
-use crate::document::tree::{Node, Table, Value};
-use crate::document::value_kind::{Flag, Kind};
 use crate::document::values::integer_at;
 use crate::document::write::to_toml;
 use crate::document::written::{Extent, Written};
+use crate::document::{
+    Context, DocumentError, Flag, Keys, Kind, Limits, NamedList, Node, Opened, Table, Value,
+};
 use crate::leaf::LeafPlan;
 pub use crate::optics::contents_keys::{changed_contents, contents};
 use crate::plant::PlantPlan;

@@ -21,7 +21,7 @@
 //!     pigments: Pigments::default(),
 //!     map_size: 16,
 //! };
-//! let fruit = Solid::grow(&plan, &|| false)?;
+//! let fruit = Solid::grow(&plan)?;
 //! let highest = fruit.positions.iter().map(|p| p.z).fold(0.0, f64::max);
 //! assert!((highest - 30.0).abs() < 0.5, "{highest} mm");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -37,14 +37,14 @@ pub use self::raised::Raised;
 use self::raised::Relief;
 pub use self::shape::{SolidMesh, SolidShape, creased, smooth_normals};
 use crate::blade::contents_map::ContentsMap;
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
+use crate::document::{Declared, Keys};
+use crate::grow_options::GrowOptions;
 use crate::mosaic::atlas::Atlas;
 use crate::mosaic::pattern::MosaicPattern;
 use crate::mosaic::shapes::{Shape, ShapeError};
 use crate::mosaic::{Mosaic, Surface, SurfacePoint};
 use crate::not_grown::{NotGrown, not_grown};
-use crate::optics::contents_keys::{changed_contents, warn_of_mixture};
+use crate::optics::contents_keys::{changed_contents, refuse_unknown_absorption, warn_of_mixture};
 use crate::optics::{Contents, Pigments};
 
 /// Width of the gutter around each chart of the map, texels.
@@ -60,11 +60,11 @@ const MOST_PER_SPACING: f64 = 3.0;
 /// Memory of a triangle of a body and of a texel of its map, bytes: what their arrays hold, twice,
 /// since they are made from others.
 const OF_A_TRIANGLE: f64 = 300.0;
-const OF_A_TEXEL: f64 = 120.0;
+const OF_A_TEXEL: f64 = 144.0;
 
 /// The plan of a body.
 #[derive(Clone, Debug, Declared, PartialEq)]
-#[key(last = warn_of_mixed_cells)]
+#[key(last = check_contents)]
 pub struct SolidPlan {
     /// Same plan and seed, same body, bit for bit.
     #[key("seed")]
@@ -84,7 +84,7 @@ pub struct SolidPlan {
     /// Tissue of cells that stands out, or lies below.
     #[key(with = raised)]
     pub raised: Option<Raised>,
-    /// Which substances its pigments are.
+    /// What its constituents absorb.
     #[key("pigments", block)]
     pub pigments: Pigments,
 }
@@ -137,12 +137,13 @@ pub fn held_contents(contents: &mut Contents, keys: &mut Keys<'_>) {
     warn_of_mixture(contents, keys, "this tissue holds");
 }
 
-/// Warns of anthocyanins and betalains in unlike cells of one body; what the body itself holds is
-/// told there.
-fn warn_of_mixed_cells(plan: &mut SolidPlan, keys: &mut Keys<'_>) {
+/// Refuses what the model does not have, and warns of anthocyanins and betalains in unlike cells of
+/// one body; those of the body itself are reported with its contents.
+fn check_contents(plan: &mut SolidPlan, keys: &mut Keys<'_>) {
     if !keys.is_sound() {
         return;
     }
+    refuse_unknown_absorption(&plan.pigments, &plan.contents, keys);
     let cells = plan.mosaic.iter().flat_map(|mosaic| &mosaic.contents);
     // Under a mosaic the body itself shows only where no cell may be.
     let shows = |mosaic: &MosaicPattern| mosaic.may_leave_bare();
@@ -234,13 +235,28 @@ impl SolidPlan {
     }
 }
 
+impl GrowOptions<'_> {
+    /// The body of a plan.
+    ///
+    /// # Errors
+    ///
+    /// As [`Solid::grow`]; one that [is a stop](NotGrown::is_stop).
+    pub fn solid(self, plan: &SolidPlan) -> Result<Solid, NotGrown> {
+        Solid::grow_with(plan, self)
+    }
+}
+
 impl Solid {
-    /// Grows the body of a plan, or stops when `is_stopped` returns true.
+    /// Grows the body of a plan with default [`GrowOptions`].
     ///
     /// # Errors
     ///
     /// [`NotGrown`] for the first stage whose numbers are out of range.
-    pub fn grow(plan: &SolidPlan, is_stopped: &dyn Fn() -> bool) -> Result<Self, NotGrown> {
+    pub fn grow(plan: &SolidPlan) -> Result<Self, NotGrown> {
+        Self::grow_with(plan, GrowOptions::default())
+    }
+
+    fn grow_with(plan: &SolidPlan, options: GrowOptions<'_>) -> Result<Self, NotGrown> {
         plan.validate()?;
         let area = plan.shape.area().map_err(of_shape)?;
         let edge_mm = plan.edge_mm(area);
@@ -255,8 +271,8 @@ impl Solid {
             .subdivided(pattern.edge_mm(area))
             .map_err(of("shape"))?;
         let (mosaic, field) = pattern
-            .grow(&surface, plan.seed, is_stopped)
-            .map_err(of("mosaic"))?;
+            .grow(&surface, plan.seed, options)
+            .map_err(|error| error.in_part("mosaic"))?;
         let atlas = Atlas::new(&surface, plan.map_size, GUTTER).map_err(of("map_size"))?;
         let texels = atlas.texels();
         let texel = |contents: Option<Contents>| contents.unwrap_or(plan.contents).to_texel();

@@ -86,6 +86,7 @@ use self::lamina::Lamina;
 use self::lamina_clock::LaminaClock;
 use self::network::VenationNetwork;
 use self::plan::{AuxinPlan, Growth, PlanError};
+use crate::not_grown::NotGrown;
 use crate::shape::outline::Outline;
 
 /// Why no veins grow.
@@ -97,6 +98,29 @@ pub enum VenationError {
     /// The caller stopped the growth.
     #[error("growing the veins was stopped")]
     Stopped,
+}
+
+impl From<VenationError> for NotGrown {
+    fn from(error: VenationError) -> Self {
+        match error {
+            VenationError::Plan(error) => error.into(),
+            VenationError::Stopped => Self::stopped(error),
+        }
+    }
+}
+
+/// A leaf at one step of its development.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stage {
+    /// Number of steps done.
+    pub step: u32,
+    /// The margin at that step, mm, in its size at that step.
+    pub outline: Outline,
+    /// The veins at that step, mm, in their size at that step. A node keeps its number from stage
+    /// to stage.
+    pub network: VenationNetwork,
+    /// The auxin sources that are there after that step, mm, in the order of their birth.
+    pub sources: Vec<DVec2>,
 }
 
 /// Grows the veins of a leaf.
@@ -115,111 +139,106 @@ pub fn grow(
     plan: &AuxinPlan,
     seed: u64,
 ) -> Result<VenationNetwork, VenationError> {
-    grow_around(outline, plan, None, seed, &|| false)
+    VeinGrowth::new(outline, plan, seed).network()
 }
 
-/// As [`grow`], but stops when `is_stopped`, which is called after each step, returns true. If main
-/// veins are there, in the frame of the full-grown outline, finer veins grow around them. They move
-/// with the lamina as it grows, and a margin that grows alone finds them in place.
-///
-/// # Errors
-///
-/// As [`grow`], [`VenationError::Stopped`], and if main veins are there and the plan has an
-/// architecture.
-pub(crate) fn grow_around(
-    outline: &Outline,
-    plan: &AuxinPlan,
-    main: Option<&VenationNetwork>,
-    seed: u64,
-    is_stopped: &dyn Fn() -> bool,
-) -> Result<VenationNetwork, VenationError> {
-    let (grown, _) = develop(outline, plan, main, seed, &[], is_stopped)?;
-    Ok(grown.network)
+/// The growth of veins in an outline.
+pub(crate) struct VeinGrowth<'a> {
+    /// The margin of the full-grown leaf, mm.
+    pub(crate) outline: &'a Outline,
+    pub(crate) plan: &'a AuxinPlan,
+    pub(crate) seed: u64,
+    /// Main veins that are there before, in the frame of the full-grown outline. Finer veins grow around
+    /// them. They move with the lamina as it grows, and a margin that grows alone finds them in
+    /// place. They exclude an architecture.
+    pub(crate) main: Option<&'a VenationNetwork>,
+    /// Called after each step; growth ends with an error once it returns true.
+    pub(crate) is_stopped: &'a dyn Fn() -> bool,
 }
 
-/// A leaf at one step of its development.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Stage {
-    /// Number of steps done.
-    pub step: u32,
-    /// The margin at that step, mm, in its size at that step.
-    pub outline: Outline,
-    /// The veins at that step, mm, in their size at that step. A node keeps its number from stage
-    /// to stage.
-    pub network: VenationNetwork,
-    /// The auxin sources that are there after that step, mm, in the order of their birth.
-    pub sources: Vec<DVec2>,
-}
-
-/// Grows the veins of a leaf and returns their state after each of `steps`; 0 is before the first.
-/// A step beyond the last gives the full-grown leaf. Stages come in the order of `steps`.
-///
-/// Main veins may be there before as in [`grow_around`].
-///
-/// # Errors
-///
-/// As [`grow_around`].
-pub(crate) fn grow_stages(
-    outline: &Outline,
-    plan: &AuxinPlan,
-    main: Option<&VenationNetwork>,
-    seed: u64,
-    steps: &[u32],
-) -> Result<Vec<Stage>, VenationError> {
-    let (full_grown, mut stages) = develop(outline, plan, main, seed, steps, &|| false)?;
-    stages.sort_by_key(|stage| stage.step);
-    let at = |&step: &u32| {
-        let found = stages.binary_search_by_key(&step, |stage| stage.step);
-        found.map_or(&full_grown, |i| &stages[i]).clone()
-    };
-    Ok(steps.iter().map(at).collect())
-}
-
-/// The full-grown leaf, and the stages after those of `steps` that are reached.
-fn develop(
-    outline: &Outline,
-    plan: &AuxinPlan,
-    main: Option<&VenationNetwork>,
-    seed: u64,
-    steps: &[u32],
-    is_stopped: &dyn Fn() -> bool,
-) -> Result<(Stage, Vec<Stage>), VenationError> {
-    plan.validate()?;
-    if main.is_some() && plan.architecture.is_some() {
-        let (key, other) = ("architecture", "an outline that brings its main veins");
-        return Err(PlanError::Incompatible { key, other }.into());
+impl<'a> VeinGrowth<'a> {
+    /// Growth from the base alone, which nobody stops.
+    pub(crate) fn new(outline: &'a Outline, plan: &'a AuxinPlan, seed: u64) -> Self {
+        Self {
+            outline,
+            plan,
+            seed,
+            main: None,
+            is_stopped: &|| false,
+        }
     }
-    let blade = in_segments(outline, plan);
-    let (lamina, clock) = prepared(&blade, plan)?;
-    let segment_mm = outline.length() / plan.final_length;
-    let given = main.map(|main| GivenVeins::new(main, outline.base(), segment_mm));
-    let watch = Watch {
-        steps,
-        young: Vec::new(),
-        is_stopped,
-    };
-    let (grown, young) = carry_out_from(plan, lamina, clock, given.as_ref(), seed, watch);
-    if is_stopped() {
-        return Err(VenationError::Stopped);
+
+    /// The veins of the full-grown leaf.
+    ///
+    /// # Errors
+    ///
+    /// As [`grow`], and [`VenationError::Stopped`].
+    pub(crate) fn network(&self) -> Result<VenationNetwork, VenationError> {
+        Ok(self.develop(&[])?.0.network)
     }
-    let base = outline.base();
-    let place = |&p: &DVec2| base + p * segment_mm;
-    let stage = |grown: Grown| Stage {
-        step: grown.steps,
-        outline: outline.with_points(
-            grown.margin.iter().map(place).collect(),
-            base + grown.apex * segment_mm,
-        ),
-        sources: grown.live_sources.iter().map(place).collect(),
-        network: grown.into_network(plan, segment_mm, base),
-    };
-    let full_grown = Stage {
-        step: grown.steps,
-        outline: outline.clone(),
-        sources: grown.live_sources.iter().map(place).collect(),
-        network: grown.into_network(plan, segment_mm, base),
-    };
-    Ok((full_grown, young.into_iter().map(stage).collect()))
+
+    /// The state after each of `steps`, in their order; 0 is before the first. A step beyond the last gives the full-grown
+    /// leaf.
+    ///
+    /// # Errors
+    ///
+    /// As [`VeinGrowth::network`].
+    pub(crate) fn stages(&self, steps: &[u32]) -> Result<Vec<Stage>, VenationError> {
+        let (full_grown, mut stages) = self.develop(steps)?;
+        stages.sort_by_key(|stage| stage.step);
+        let at = |&step: &u32| {
+            let found = stages.binary_search_by_key(&step, |stage| stage.step);
+            found.map_or(&full_grown, |i| &stages[i]).clone()
+        };
+        Ok(steps.iter().map(at).collect())
+    }
+
+    /// The full-grown leaf, and the stages after those of `steps` that are reached.
+    fn develop(&self, steps: &[u32]) -> Result<(Stage, Vec<Stage>), VenationError> {
+        let &Self {
+            outline,
+            plan,
+            seed,
+            main,
+            is_stopped,
+        } = self;
+        plan.validate()?;
+        if main.is_some() && plan.architecture.is_some() {
+            let (key, other) = ("architecture", "an outline that brings its main veins");
+            return Err(PlanError::Incompatible { key, other }.into());
+        }
+        let blade = in_segments(outline, plan);
+        let (lamina, clock) = prepared(&blade, plan)?;
+        let segment_mm = outline.length() / plan.final_length;
+        let given = main.map(|main| GivenVeins::new(main, outline.base(), segment_mm));
+        let watch = Watch {
+            steps,
+            young: Vec::new(),
+            is_stopped,
+        };
+        let (grown, young) = carry_out_from(plan, lamina, clock, given.as_ref(), seed, watch);
+        if is_stopped() {
+            return Err(VenationError::Stopped);
+        }
+        let base = outline.base();
+        let place = |&p: &DVec2| base + p * segment_mm;
+        let stage = |grown: Grown| Stage {
+            step: grown.steps,
+            outline: outline.with_points(
+                grown.margin.iter().map(place).collect(),
+                base + grown.apex * segment_mm,
+            ),
+            sources: grown.live_sources.iter().map(place).collect(),
+            network: grown.into_network(plan, segment_mm, base),
+        };
+        let full_grown = Stage {
+            step: grown.steps,
+            outline: outline.clone(),
+            sources: grown.live_sources.iter().map(place).collect(),
+            network: grown.into_network(plan, segment_mm, base),
+        };
+        Ok((full_grown, young.into_iter().map(stage).collect()))
+    }
 }
 
 /// Checks that a plan can be carried out on an outline without doing it: refuses what [`grow`]

@@ -60,7 +60,7 @@ def test_solid_gives_back_the_half_space() -> None:
     kind = leaf_bsdf.Double
     model = prospect.Prospect(TABLE, kind, False)
     held = {name: 0.01 * value for name, value in GREEN.items()} | {"water": 0.01}
-    held |= dict.fromkeys(prospect.BETALAINS, 0.0)
+    held |= dict.fromkeys(prospect.OPTIONAL, 0.0)
     absorbed = np.array(model.absorbed(kind(*WAVELENGTHS), held)).ravel() / 0.5
     want = np.array([half_space.reflectance(1.2 / (1.2 + mu), 1.38) for mu in absorbed])
     for alpha, coat_eta, side in ((0.05, 1.33, 1.0), (0.3, 1.38, -1.0), (0.6, 1.45, 1.0)):

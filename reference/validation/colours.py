@@ -109,7 +109,7 @@ def rows(binary: Path) -> list[Row]:
             colours = data["colours"]
             nm, *ours = np.loadtxt(csv, delimiter=",", skiprows=2).T
             contents = data["contents"]
-            assert all(contents[absorber] == 0.0 for absorber in prospect.BETALAINS), name
+            assert all(contents[absorber] == 0.0 for absorber in prospect.OPTIONAL), name
             own = [np.array(part).ravel() for part in model.spectra(kind(nm), contents)]
             for of, spectrum, other, earlier in zip("RT", ours, own, EARLIER[name], strict=True):
                 xyz = np.array(colours[of]["xyz"])

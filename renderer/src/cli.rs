@@ -64,9 +64,9 @@ mod fit;
 mod fit_veins;
 mod grow;
 mod instruments;
-mod licenses;
 mod measure;
 mod merge;
+mod model;
 mod needs;
 mod optics;
 mod picture_files;
@@ -77,11 +77,9 @@ mod render;
 mod schema;
 mod shell;
 mod signals;
-mod stats;
 mod sweep;
 mod terminal;
 mod texts;
-mod tonemap;
 mod trace;
 
 use std::ffi::OsString;
@@ -129,7 +127,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str)
         Command::Render(render) => render::run(render, &line),
         Command::Merge(merge) => merge::run(merge),
         Command::Check(scene) => check::run(scene),
-        Command::Tonemap(tonemap) => tonemap::run(tonemap),
+        Command::Tonemap(tonemap) => pictures::tonemap(tonemap),
         Command::Optics(optics) => optics::run(optics),
         Command::Fit(fit) => fit::run(fit),
         Command::CheckBsdf(table) => check_bsdf::run(table),
@@ -151,7 +149,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str)
         }
         Command::Man(man) => shell::man(man),
         Command::Licenses => {
-            licenses::run();
+            shell::licenses();
             Ok(())
         }
     })

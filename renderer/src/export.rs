@@ -45,7 +45,6 @@ pub(crate) mod blade;
 pub mod caption;
 pub(crate) mod daylight;
 pub mod drawing;
-mod element;
 pub mod mitsuba;
 pub mod overlay;
 pub(crate) mod sheet;

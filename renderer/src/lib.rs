@@ -81,6 +81,7 @@ pub mod instruments;
 pub mod integrator;
 pub mod measured;
 mod plot;
+mod plugin;
 mod report;
 pub mod scene;
 pub mod sweep;

@@ -13,5 +13,6 @@ pub(crate) mod measures;
 pub(crate) mod optics;
 pub(crate) mod page;
 pub(crate) mod table;
+pub(crate) mod tracing;
 pub(crate) mod vein_fit;
 pub(crate) mod warnings;

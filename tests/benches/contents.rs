@@ -14,6 +14,7 @@ use leafmodel::blade::contents_map::ContentsMap;
 use leafmodel::blade::layers::{Change, Layer, Mode};
 use leafmodel::blade::masks::{Mask, RimWidth};
 use leafmodel::blade::senescence::Withering;
+use leafmodel::grow_options::GrowOptions;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::mosaic::pattern::LaminaPattern;
 use leafmodel::optics::{Constituent, PerConstituent};
@@ -38,7 +39,7 @@ fn maps(criterion: &mut Criterion) {
     let senescence = maple.senescence.expect("it ages");
     let croton = find("croton-variegated").expect("a preset").plan();
     let mosaic = croton.mosaic.expect("it has one");
-    let grown = || mosaic.on_lamina(&lamina.outline, maple.seed, &|| false);
+    let grown = || mosaic.on_lamina(&lamina.outline, maple.seed, GrowOptions::default());
     let pattern = grown().expect("a good plan");
 
     let mut group = criterion.benchmark_group("contents of a maple, 2048 texels");

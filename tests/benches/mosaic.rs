@@ -10,8 +10,10 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::{DVec2, DVec3};
+use leafmodel::grow_options::GrowOptions;
 use leafmodel::mosaic::pattern::{LeafFaces, MosaicPattern};
-use leafmodel::mosaic::shapes::{Shape, lathe, rounded_cube, sheet, sphere};
+use leafmodel::mosaic::shapes::lathe::lathe;
+use leafmodel::mosaic::shapes::{Shape, rounded_cube, sheet, sphere};
 use leafmodel::mosaic::{ControlImage, CylinderControl, Mosaic, MosaicPlan, Steered, Surface};
 use leafmodel::optics::{Constituent, Contents};
 use leafmodel::species;
@@ -149,7 +151,7 @@ fn rows(criterion: &mut Criterion) {
         };
         let surface = body.surface(&pattern);
         let grow = || {
-            let grown = pattern.grow(black_box(&surface), 1, &|| false);
+            let grown = pattern.grow(black_box(&surface), 1, GrowOptions::default());
             grown.expect("a good plan")
         };
         let cells = pool.install(grow).0.cells.len();

@@ -7,7 +7,7 @@ use leafmodel::optics::betalains::{Betacyanin, Betalains, Betaxanthin};
 use leafmodel::optics::pigments::{
     AnthocyaninMix, CarotenoidMix, ChlorophyllBands, ChlorophyllMix,
 };
-use leafmodel::optics::{Constituent, Pigments};
+use leafmodel::optics::{Constituent, Model, Pigments};
 use leafmodel::solid::SolidShape;
 use renderer::scene::description::material::leaf::PlainLeaf;
 use renderer::scene::description::material::solid::PlainSolid;
@@ -103,6 +103,8 @@ fn pigments_are_those_that_are_written_and_else_prospects() {
         panic!("green is {:?}", scene.materials[2].value);
     };
     let green = Pigments {
+        model: Model::ProspectPro,
+        extra: pigments.extra.clone(),
         chlorophyll: Some(ChlorophyllMix {
             bands: ChlorophyllBands::Solution,
             a_to_b: 3.1,

@@ -45,3 +45,14 @@ pub mod values;
 pub mod whole_file;
 pub mod write;
 pub mod written;
+
+// What most blocks are declared with.
+pub use context::Context;
+pub use declared::{Declared, Kinds, Words};
+pub use error::DocumentError;
+pub use keys::{Keys, NamedList, Variant};
+pub use limits::Limits;
+pub use opened::Opened;
+pub use ranges::RangeError;
+pub use tree::{Node, Table, Value};
+pub use value_kind::{Degrees, Flag, Integer, Kind, ListOf, MapOf, Number, Numbers, Text, Word};

@@ -1,8 +1,8 @@
 //! What a leaf is made of, as far as it decides its optics.
 //!
-//! A [`Constituent`] is one of the numbers that PROSPECT-D takes, or a betalain. One row of
-//! [`Constituent`]'s table defines each: names, keys, unit, range, and the value if a file leaves
-//! it out. Reading, writing and reports use that row.
+//! A [`Constituent`] is one of the numbers that a version of PROSPECT takes, a betalain, or what a
+//! table of the user's absorbs. One row of [`Constituent`]'s table defines each: names, keys, unit,
+//! range, and the value if a file leaves it out. Reading, writing and reports use that row.
 
 /// The structure of a leaf, or a substance in it.
 ///
@@ -27,6 +27,14 @@ pub enum Constituent {
     Water,
     /// Dry matter, g cm⁻².
     DryMatter,
+    /// Proteins, g cm⁻²; PROSPECT-PRO's part of dry matter.
+    Proteins,
+    /// Carbon-based constituents (cellulose, lignin, starch, sugars, …), g cm⁻²; PROSPECT-PRO's
+    /// other part of dry matter.
+    CarbonBased,
+    /// What a table of specific absorption describes
+    /// ([`Pigments::extra`](super::Pigments::extra)), µg cm⁻².
+    Extra,
 }
 
 /// What is known of a constituent.
@@ -43,7 +51,6 @@ struct Facts {
     if_left_out: Option<f64>,
     /// Whether there is more of it where a leaf is thicker; pigments keep to their cells.
     is_bulk: bool,
-    is_prospect_d: bool,
 }
 
 /// A pigment in µg cm⁻² that PROSPECT-D does not have. A leaf holds none unless a file says so.
@@ -58,7 +65,49 @@ const PIGMENT: Facts = Facts {
     range: [0.0, 1000.0],
     if_left_out: Some(0.0),
     is_bulk: false,
-    is_prospect_d: false,
+};
+
+/// Number of plates.
+const STRUCTURE: Facts = Facts {
+    name: "structure",
+    key: "structure",
+    words: "structure N",
+    meaning: "Number of plates that scatter as the mesophyll does, PROSPECT's N.",
+    symbol: "N",
+    unit: "",
+    counted_in: "plates",
+    range: [1.0, 10.0],
+    if_left_out: None,
+    is_bulk: true,
+};
+
+/// Water.
+const WATER: Facts = Facts {
+    name: "water",
+    key: "water_cm",
+    words: "water",
+    meaning: "Thickness of the water in the leaf.",
+    symbol: "Cw",
+    unit: "cm",
+    counted_in: "cm",
+    range: [0.0, 1.0],
+    if_left_out: None,
+    is_bulk: true,
+};
+
+/// Dry matter, of which a file may give the parts instead.
+const DRY_MATTER: Facts = Facts {
+    name: "dry_matter",
+    key: "dry_matter_g_per_cm2",
+    words: "dry matter",
+    meaning: "Cell walls, proteins and all else that is left when a leaf has dried; required, \
+        or its parts.",
+    symbol: "Cm",
+    unit: "g/cm²",
+    counted_in: "g/cm²",
+    range: [0.0, 1.0],
+    if_left_out: None,
+    is_bulk: true,
 };
 
 impl Constituent {
@@ -66,7 +115,7 @@ impl Constituent {
     pub const COUNT: usize = Self::ALL.len();
 
     /// All of them, in the order of the enum, of columns and of channels.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 12] = [
         Self::Structure,
         Self::Chlorophyll,
         Self::Carotenoids,
@@ -76,7 +125,13 @@ impl Constituent {
         Self::Brown,
         Self::Water,
         Self::DryMatter,
+        Self::Proteins,
+        Self::CarbonBased,
+        Self::Extra,
     ];
+
+    /// The parts into which PROSPECT-PRO divides dry matter; a leaf has the whole or its parts.
+    pub const DRY_MATTER_PARTS: [Self; 2] = [Self::Proteins, Self::CarbonBased];
 
     /// Those that absorb: all but the structure.
     pub const ABSORBING: [Self; Self::COUNT - 1] = {
@@ -88,19 +143,7 @@ impl Constituent {
 
     const fn facts(self) -> Facts {
         match self {
-            Self::Structure => Facts {
-                name: "structure",
-                key: "structure",
-                words: "structure N",
-                meaning: "Number of plates that scatter as the mesophyll does, PROSPECT's N.",
-                symbol: "N",
-                unit: "",
-                counted_in: "plates",
-                range: [1.0, 10.0],
-                if_left_out: None,
-                is_bulk: true,
-                is_prospect_d: true,
-            },
+            Self::Structure => STRUCTURE,
             Self::Chlorophyll => Facts {
                 name: "chlorophyll",
                 key: "chlorophyll_ug_per_cm2",
@@ -108,7 +151,6 @@ impl Constituent {
                 meaning: "The green pigments, chlorophyll a and b together.",
                 symbol: "Cab",
                 if_left_out: None,
-                is_prospect_d: true,
                 ..PIGMENT
             },
             Self::Carotenoids => Facts {
@@ -118,7 +160,6 @@ impl Constituent {
                 meaning: "Yellow and orange pigments of the chloroplasts.",
                 symbol: "Car",
                 if_left_out: None,
-                is_prospect_d: true,
                 ..PIGMENT
             },
             Self::Anthocyanins => Facts {
@@ -127,7 +168,6 @@ impl Constituent {
                 words: "anthocyanins",
                 meaning: "Red to blue pigments of vacuoles.",
                 symbol: "Ant",
-                is_prospect_d: true,
                 ..PIGMENT
             },
             Self::Betacyanins => Facts {
@@ -155,34 +195,36 @@ impl Constituent {
                 unit: "",
                 counted_in: "PROSPECT's unit",
                 range: [0.0, 100.0],
-                is_prospect_d: true,
                 ..PIGMENT
             },
-            Self::Water => Facts {
-                name: "water",
-                key: "water_cm",
-                words: "water",
-                meaning: "Thickness of the water in the leaf.",
-                symbol: "Cw",
-                unit: "cm",
-                counted_in: "cm",
-                range: [0.0, 1.0],
-                if_left_out: None,
-                is_bulk: true,
-                is_prospect_d: true,
+            Self::Water => WATER,
+            Self::DryMatter => DRY_MATTER,
+            Self::Proteins => Facts {
+                name: "proteins",
+                key: "proteins_g_per_cm2",
+                words: "proteins",
+                meaning: "Proteins, in place of dry matter; PROSPECT-PRO alone.",
+                symbol: "Prot",
+                if_left_out: Some(0.0),
+                ..DRY_MATTER
             },
-            Self::DryMatter => Facts {
-                name: "dry_matter",
-                key: "dry_matter_g_per_cm2",
-                words: "dry matter",
-                meaning: "Cell walls, proteins and all else that is left when a leaf has dried.",
-                symbol: "Cm",
-                unit: "g/cm²",
-                counted_in: "g/cm²",
-                range: [0.0, 1.0],
-                if_left_out: None,
-                is_bulk: true,
-                is_prospect_d: true,
+            Self::CarbonBased => Facts {
+                name: "carbon_based",
+                key: "carbon_based_g_per_cm2",
+                words: "carbon-based constituents",
+                meaning: "All dry matter but proteins: cell walls, starch, sugars; PROSPECT-PRO alone.",
+                symbol: "CBC",
+                if_left_out: Some(0.0),
+                ..DRY_MATTER
+            },
+            Self::Extra => Facts {
+                name: "extra",
+                key: "extra_ug_per_cm2",
+                words: "extra constituent",
+                meaning: "What the table of `pigments.extra` describes.",
+                symbol: "extra",
+                range: [0.0, 1e6],
+                ..PIGMENT
             },
         }
     }
@@ -243,11 +285,6 @@ impl Constituent {
         self.facts().if_left_out
     }
 
-    /// Whether it is one of PROSPECT-D's inputs. Maps may lack the channels of others.
-    pub const fn is_prospect_d(self) -> bool {
-        self.facts().is_prospect_d
-    }
-
     /// Whether it comes with a tissue's thickness, as structure, water and dry matter do. The
     /// others are pigments.
     pub const fn is_bulk(self) -> bool {
@@ -285,13 +322,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_left_out_is_in_range_and_only_pigments_are() {
+    fn what_is_left_out_is_in_range_and_only_pigments_and_parts_are() {
         for constituent in Constituent::ALL {
             let [least, most] = constituent.range();
             assert!(least < most, "{constituent:?}");
             if let Some(value) = constituent.if_left_out() {
                 assert!((least..=most).contains(&value), "{constituent:?}");
-                assert!(!constituent.is_bulk(), "{constituent:?}");
+                let is_part = Constituent::DRY_MATTER_PARTS.contains(&constituent);
+                assert_eq!(constituent.is_bulk(), is_part, "{constituent:?}");
             }
             assert!(!constituent.meaning().is_empty() && !constituent.words().is_empty());
         }

@@ -65,7 +65,7 @@ impl Contents {
         ])
     }
 
-    /// PROSPECT-D's inputs; no betalains.
+    /// PROSPECT-D's inputs, and nothing of what it does not have.
     ///
     /// # Errors
     ///
@@ -108,6 +108,12 @@ impl Contents {
             }
         }
         Ok(self)
+    }
+
+    /// All dry matter, g cm⁻²: the whole, or its parts.
+    pub fn all_dry_matter(&self) -> f64 {
+        let parts = Constituent::DRY_MATTER_PARTS.map(|part| self[part]);
+        self[Constituent::DryMatter] + parts.iter().sum::<f64>()
     }
 
     /// Where betalains occur, and what to do where they are beside anthocyanins.

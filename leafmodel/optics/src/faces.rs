@@ -15,8 +15,13 @@ pub const CONTRASTS: [f64; 2] = [-0.9, 1.8];
 /// adaxial face, 0 to 1: `1 + c A² (3 − 2 A)` with the contrast `c`. So the faces are alike where
 /// nothing is absorbed, and the abaxial one is `1 + c` times as bright where all is.
 pub fn abaxial_ratio(absorptance: f64, contrast: f64) -> f64 {
+    1.0 + contrast * weight_of_contrast(absorptance)
+}
+
+/// How much of the contrast there is where so much is absorbed: `A² (3 − 2 A)`, 0 to 1.
+pub fn weight_of_contrast(absorptance: f64) -> f64 {
     let a = absorptance.clamp(0.0, 1.0);
-    1.0 + contrast * a * a * (3.0 - 2.0 * a)
+    a * a * (3.0 - 2.0 * a)
 }
 
 #[cfg(test)]

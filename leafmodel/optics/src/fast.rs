@@ -28,8 +28,22 @@ const LEAST_T: f32 = 1e-15;
 /// Numbers that [`PileLanes`] holds for a wavelength.
 pub const CONSTANTS: usize = FACES + Constituent::ABSORBING.len();
 
-/// Those of them that tell of the faces of a plate.
+/// Those of them that describe the faces of a plate.
 const FACES: usize = 3;
+
+/// Absorbing constituents of which most leaves have some. The others, behind them, are left out where
+/// a leaf has none of them: the sum is the same to the bit.
+const USUAL: usize = Constituent::DryMatter as usize;
+
+/// Whether there is something of any of these.
+#[inline(always)]
+fn has_some(rare: &[f32]) -> bool {
+    let mut bits = 0;
+    for content in rare {
+        bits |= content.to_bits();
+    }
+    bits != 0
+}
 
 /// What the faces of a plate do at `L` wavelengths, and what the constituents absorb there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,12 +87,18 @@ impl<const L: usize> PileLanes<L> {
     #[inline(always)]
     pub fn absorption(&self, contents: &Texel) -> [f32; L] {
         let mut sum = [0.0; L];
-        for (row, content) in self.constants[FACES..]
-            .iter()
-            .zip(&contents.as_array()[1..])
-        {
+        let (usual, rare) = contents.as_array()[1..].split_at(USUAL);
+        let (usual_rows, rare_rows) = self.constants[FACES..].split_at(USUAL);
+        for (row, content) in usual_rows.iter().zip(usual) {
             for lane in 0..L {
                 sum[lane] += row[lane] * content;
+            }
+        }
+        if has_some(rare) {
+            for (row, content) in rare_rows.iter().zip(rare) {
+                for lane in 0..L {
+                    sum[lane] += row[lane] * content;
+                }
             }
         }
         sum
@@ -144,8 +164,15 @@ impl<const L: usize> PileLanes<L> {
         for lane in 0..L {
             let [plates, held @ ..] = contents[lane].as_array();
             structure[lane] = *plates;
-            for (row, content) in self.constants[FACES..].iter().zip(held) {
+            let (usual, rare) = held.split_at(USUAL);
+            let (usual_rows, rare_rows) = self.constants[FACES..].split_at(USUAL);
+            for (row, content) in usual_rows.iter().zip(usual) {
                 absorption[lane] += row[lane] * content;
+            }
+            if has_some(rare) {
+                for (row, content) in rare_rows.iter().zip(rare) {
+                    absorption[lane] += row[lane] * content;
+                }
             }
         }
         let mut layers = [(0.0, 0.0); L];
@@ -264,6 +291,38 @@ mod tests {
         for lane in 0..3 {
             let alone = lanes.reflectance_transmittance(&leaves[lane]).1[lane];
             assert!((each[lane] - alone).abs() < 1e-6, "{} {alone}", each[lane]);
+        }
+    }
+
+    #[test]
+    fn what_few_leaves_have_absorbs_too_alone_and_among_others() {
+        let at = [1500.0, 1700.0, 2300.0].map(|nm| {
+            let mut at = ProspectD::coefficients(nm).expect("in range");
+            at.absorption[Constituent::Extra] = 0.01;
+            at
+        });
+        let pro = Contents::of(&[
+            (Constituent::Structure, 1.5),
+            (Constituent::Water, 0.01),
+            (Constituent::Proteins, 0.001),
+            (Constituent::CarbonBased, 0.005),
+            (Constituent::Extra, 20.0),
+        ]);
+        let texel = pro.to_texel();
+        let ((r, t), each) = PileLanes::new(&at).with_each(&texel, &[&texel; 3]);
+        for (lane, at) in at.iter().enumerate() {
+            let exact = at.reflectance_transmittance(&pro);
+            assert!(
+                (f64::from(r[lane]) - exact.reflectance).abs() < 1e-6,
+                "{lane}"
+            );
+            assert!(
+                (f64::from(t[lane]) - exact.transmittance).abs() < 1e-6,
+                "{lane}"
+            );
+            assert!((each[lane] - t[lane]).abs() < 1e-6, "{lane}");
+            let bare = at.reflectance_transmittance(&pro.with(&[(Constituent::Extra, 0.0)]));
+            assert!(bare.reflectance > exact.reflectance + 0.01, "{lane}");
         }
     }
 

@@ -59,7 +59,7 @@ use super::prospect_d::{Coefficients, ProspectD};
 pub const EXCITED_NM: [f64; 2] = [400.0, 750.0];
 
 /// A leaf that fluoresces.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Leaf {
     /// What it holds.
     pub contents: Contents,

@@ -1,7 +1,7 @@
-//! What a leaf holds, from what it reflects and transmits: PROSPECT-D inverted.
+//! What a leaf holds, from what it reflects and transmits: PROSPECT inverted.
 //!
-//! - **In**: R of one face or of both, T, or any of them, at wavelengths within PROSPECT's table, and
-//!   which contents are free.
+//! - **In**: R of one face or of both, T, or any of them, at wavelengths within PROSPECT's tables,
+//!   which contents are free, and what is known of them beforehand.
 //! - **Out**: the contents of the least sum of squares, their standard errors, and what is left.
 //! - **Always true**: contents are in range; the same spectra give the same bits.
 //! - **Left out**: shifts by the model's own error. Errors are wider where residuals are correlated
@@ -11,12 +11,15 @@
 //! adaxial face times [`abaxial_ratio`], whose contrast is one more unknown: a rule, not a model of
 //! the tissue.
 //!
+//! A normal prior of a content is one more residual: its distance from the mean in deviations, times
+//! the noise of an independent value, which is that of the residuals without priors.
+//!
 //! [`least_squares`] finds a local minimum; it starts from leaves of several kinds on few
 //! wavelengths, and the best goes on with all of them.
 //!
 //! ```
 //! use optics::inversion::{Inversion, Spectra};
-//! use optics::{Constituent, Contents, ProspectD};
+//! use optics::{Constituent, Contents, Model, Pigments, ProspectD};
 //!
 //! let leaf = Contents::new(1.6, 42.0, 9.0, 1.0, 0.1, 0.012, 0.006)?;
 //! let nm: Vec<f64> = (0..211).map(|i| 400.0 + 10.0 * f64::from(i)).collect();
@@ -24,7 +27,8 @@
 //! for &nm in &nm {
 //!     reflectance.push(ProspectD::coefficients(nm)?.reflectance_transmittance(&leaf).reflectance);
 //! }
-//! let inversion = Inversion::new(&nm, &Inversion::PROSPECT_D, Contents::NOTHING)?;
+//! let free = Model::ProspectD.inputs();
+//! let inversion = Inversion::new(&Pigments::default(), &nm, free, Contents::NOTHING)?;
 //! let found = inversion.of(Spectra { reflectance: Some(&reflectance), ..Spectra::default() });
 //! assert!((found.contents[Constituent::Chlorophyll] - 42.0).abs() < 0.01);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -33,11 +37,13 @@
 pub mod correlated;
 pub mod least_squares;
 
-use super::faces::{CONTRASTS, USUAL_CONTRAST, abaxial_ratio};
+use super::faces::{CONTRASTS, USUAL_CONTRAST, weight_of_contrast};
+use super::pile::Slopes;
 use super::prospect_d::OutsideTable;
-use super::{Coefficients, Constituent, Contents, PerConstituent, ProspectD};
+use super::prospect_d::{FIRST_NM, LAST_NM};
+use super::{Coefficients, Constituent, Contents, PerConstituent, Pigments, ProspectD};
 use correlated::{Correlation, Fitted};
-use least_squares::{Minimum, Parameter, State, minimise};
+use least_squares::{EXACT, Fit, Minimum, Parameter, ROUGH, State, minimise};
 
 /// Greatest number of wavelengths on which starts compete.
 const FEW: usize = 64;
@@ -47,6 +53,9 @@ pub const INTERVAL: f64 = 1.96;
 
 /// Greatest structure that is looked for; measured leaves have 1 to 3.
 const MOST_STRUCTURE: f64 = 5.0;
+
+/// Least noise by which priors are weighed, where spectra are fitted exactly.
+const LEAST_NOISE: f64 = 1e-9;
 
 /// Leaves of which one is near any other: green, pale, red, dry; structure, chlorophyll,
 /// carotenoids, anthocyanins, brown, water, dry matter.
@@ -75,6 +84,21 @@ pub struct Inversion {
     coefficients: Vec<Coefficients>,
     free: Vec<Constituent>,
     fixed: Contents,
+    priors: PerConstituent<Option<Prior>>,
+}
+
+/// What is known of a content beforehand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Prior {
+    /// It is between these ends.
+    Within([f64; 2]),
+    /// It is distributed normally.
+    Normal {
+        /// Around this value,
+        mean: f64,
+        /// with this standard deviation, > 0.
+        deviation: f64,
+    },
 }
 
 /// What was found.
@@ -85,6 +109,8 @@ pub struct Found {
     pub contents: Contents,
     /// What is known of each content.
     pub known: PerConstituent<Determined>,
+    /// Least and greatest value of each content that was looked for.
+    pub bounds: PerConstituent<[f64; 2]>,
     /// Covariances of what is determined.
     pub covariance: Covariance,
     /// The correlation of residuals along the spectra, if there is one.
@@ -154,6 +180,15 @@ pub struct Covariance {
     pub rows: Vec<Vec<f64>>,
 }
 
+impl<'a> Spectra<'a> {
+    /// Those that there are, in their order.
+    fn all(&self) -> impl Iterator<Item = &'a [f64]> {
+        [self.reflectance, self.abaxial, self.transmittance]
+            .into_iter()
+            .flatten()
+    }
+}
+
 impl Found {
     fn all_left(&self) -> impl Iterator<Item = &f64> {
         let reflected = self.reflectance_left.iter().chain(&self.abaxial_left);
@@ -173,53 +208,76 @@ impl Found {
 }
 
 impl Inversion {
-    /// PROSPECT-D's inputs.
-    pub const PROSPECT_D: [Constituent; 7] = [
-        Constituent::Structure,
-        Constituent::Chlorophyll,
-        Constituent::Carotenoids,
-        Constituent::Anthocyanins,
-        Constituent::Brown,
-        Constituent::Water,
-        Constituent::DryMatter,
-    ];
-
-    /// Least and greatest value that is looked for.
-    pub fn bounds(of: Constituent) -> [f64; 2] {
-        parameter(of).bounds
-    }
-
-    /// An inversion at wavelengths in nm. What is not `free` is as in `fixed`.
+    /// An inversion at wavelengths in nm, with these absorptions. What is not `free` is as in `fixed`.
     ///
     /// # Errors
     ///
     /// [`OutsideTable`] for the first wavelength that is not in 400 to 2500 nm.
-    pub fn new(nm: &[f64], free: &[Constituent], fixed: Contents) -> Result<Self, OutsideTable> {
-        let coefficients = nm.iter().map(|&nm| ProspectD::coefficients(nm));
+    pub fn new(
+        pigments: &Pigments,
+        nm: &[f64],
+        free: &[Constituent],
+        fixed: Contents,
+    ) -> Result<Self, OutsideTable> {
+        let at = |&nm: &f64| {
+            let is_inside = (FIRST_NM..=LAST_NM).contains(&nm);
+            let coefficients = || ProspectD::coefficients_of(pigments, nm);
+            let outside = OutsideTable { wavelength_nm: nm };
+            is_inside.then(coefficients).ok_or(outside)
+        };
         Ok(Self {
             nm: nm.to_vec(),
-            coefficients: coefficients.collect::<Result<_, _>>()?,
+            coefficients: nm.iter().map(at).collect::<Result<_, _>>()?,
             free: free.to_vec(),
             fixed,
+            priors: PerConstituent::splat(None),
         })
+    }
+
+    /// The same with what is known beforehand of some contents.
+    #[must_use]
+    pub fn with_priors(self, priors: PerConstituent<Option<Prior>>) -> Self {
+        Self { priors, ..self }
+    }
+
+    /// Whether it is of these wavelengths.
+    pub fn is_at(&self, nm: &[f64]) -> bool {
+        self.nm == nm
     }
 
     /// The contents of a leaf with these spectra.
     pub fn of(&self, spectra: Spectra<'_>) -> Found {
-        let mut known: Vec<Parameter> = self.free.iter().map(|&of| parameter(of)).collect();
+        let mut known: Vec<Parameter> = self.free.iter().map(|&of| self.parameter(of)).collect();
         let contrast = spectra.abaxial.map(|_| USUAL_CONTRAST);
         known.extend(contrast.map(|_| CONTRAST));
         let step = self.coefficients.len().div_ceil(FEW).max(1);
         let tried = STARTS.iter().map(|start| {
             let start = Contents::prospect_d(*start);
-            let start = self.free.iter().map(|&of| start[of]);
-            let start: Vec<f64> = start.chain(contrast).collect();
-            minimise(&known, &start, |at| self.left(at, spectra, step))
+            // PROSPECT-PRO's parts of dry matter: a fifth of it are proteins.
+            let dry = start[Constituent::DryMatter];
+            let start = start.with(&[
+                (Constituent::Proteins, 0.2 * dry),
+                (Constituent::CarbonBased, 0.8 * dry),
+            ]);
+            let start = self.free.iter().map(|&of| start[of]).chain(contrast);
+            let within = start.zip(&known).map(|(start, known)| {
+                let [low, high] = known.bounds;
+                start.clamp(low, high)
+            });
+            let start: Vec<f64> = within.collect();
+            minimise(&known, &start, ROUGH, |at| self.fit(at, spectra, step, 0.0))
         });
         let best = tried.min_by(|a, b| a.sum.total_cmp(&b.sum));
         let start = best.map_or_else(Vec::new, |best| best.parameters);
-        let found = minimise(&known, &start, |at| self.left(at, spectra, 1));
-        let (states, covariance, correlation) = self.determined(&known, &found, spectra);
+        let mut found = minimise(&known, &start, EXACT, |at| self.fit(at, spectra, 1, 0.0));
+        let mut noise = 0.0;
+        if self.normal_priors().next().is_some() {
+            noise = self.noise_of_independent_values(&found, spectra);
+            found = minimise(&known, &found.parameters, EXACT, |at| {
+                self.fit(at, spectra, 1, noise)
+            });
+        }
+        let (states, covariance, correlation) = self.determined(&known, &found, spectra, noise);
         let mut of_contents = PerConstituent::splat(Determined::Given);
         for (&of, state) in self.free.iter().zip(&states) {
             of_contents[of] = *state;
@@ -232,6 +290,7 @@ impl Inversion {
         Found {
             contents: self.with(&found.parameters),
             known: of_contents,
+            bounds: PerConstituent::from_fn(|of| self.parameter(of).bounds),
             covariance,
             correlation,
             contrast: spectra.abaxial.map(|_| Contrast {
@@ -244,6 +303,29 @@ impl Inversion {
         }
     }
 
+    /// The number of measured values.
+    fn values(&self, spectra: Spectra<'_>) -> usize {
+        spectra.all().count() * self.coefficients.len()
+    }
+
+    /// Numbers of the unknowns that have normal priors, with mean and deviation.
+    fn normal_priors(&self) -> impl Iterator<Item = (usize, [f64; 2])> {
+        let free = self.free.iter().enumerate();
+        free.filter_map(|(number, &of)| match self.priors[of] {
+            Some(Prior::Normal { mean, deviation }) => Some((number, [mean, deviation])),
+            Some(Prior::Within(_)) | None => None,
+        })
+    }
+
+    /// The noise of as many values as count for one.
+    fn noise_of_independent_values(&self, found: &Minimum, spectra: Spectra<'_>) -> f64 {
+        let values = self.values(spectra);
+        let spare = values.saturating_sub(found.unknowns).max(1);
+        let correlation = self.correlated(found, spectra);
+        let as_one = correlation.map_or(1.0, |(_, correlation)| correlation.values_as_one);
+        (found.sum * as_one / spare as f64).sqrt().max(LEAST_NOISE)
+    }
+
     /// What is known of each unknown, the covariance of those that are determined, and the
     /// correlation of what is left.
     fn determined(
@@ -251,14 +333,23 @@ impl Inversion {
         known: &[Parameter],
         found: &Minimum,
         spectra: Spectra<'_>,
+        noise: f64,
     ) -> (Vec<Determined>, Covariance, Option<Correlation>) {
         let numbers: Vec<usize> = (0..known.len())
             .filter(|&i| found.states[i] == State::Determined)
             .collect();
-        let mut rows = found.covariance();
+        let values = self.values(spectra);
+        let mut rows = found.covariance(values);
         let correlated = self.correlated(found, spectra);
         if let Some((wider, _)) = &correlated {
             widen(&mut rows, wider);
+        }
+        // Priors err as they say: by one deviation, which is the noise of an independent value.
+        for (row, a) in rows.iter_mut().zip(&found.influence) {
+            for (value, b) in row.iter_mut().zip(&found.influence) {
+                let of_priors = a[values..].iter().zip(&b[values..]);
+                *value += noise * noise * of_priors.map(|(a, b)| a * b).sum::<f64>();
+            }
         }
         let mut states: Vec<Determined> = found
             .states
@@ -308,8 +399,7 @@ impl Inversion {
         if !self.nm.is_sorted() {
             return None;
         }
-        let measured = [spectra.reflectance, spectra.abaxial, spectra.transmittance];
-        let measured: Vec<&[f64]> = measured.into_iter().flatten().collect();
+        let measured: Vec<&[f64]> = spectra.all().collect();
         let count = self.nm.len();
         let left = found.left.chunks_exact(count.max(1));
         let values: Vec<Vec<f64>> = measured
@@ -337,31 +427,73 @@ impl Inversion {
         contents
     }
 
-    /// Model less measurement at every `step`th wavelength: of R, of the abaxial R, then of T. The
-    /// contrast of the faces stands behind the contents.
-    fn left(&self, values: &[f64], spectra: Spectra<'_>, step: usize) -> Vec<f64> {
-        let contents = self.with(values);
-        let contrast = values.get(self.free.len()).copied();
+    /// Model less measurement at every `step`th wavelength: of R, of the abaxial R, then of T; then
+    /// what priors lack where there is `noise`. The contrast of the faces follows the contents.
+    fn fit(&self, at: &[f64], spectra: Spectra<'_>, step: usize, noise: f64) -> Fit {
+        let contents = self.with(at);
+        let plates = contents[Constituent::Structure];
+        let contrast = at.get(self.free.len()).copied();
         let contrast = contrast.unwrap_or(USUAL_CONTRAST);
-        let every = self.coefficients.iter().enumerate().step_by(step);
-        let (mut of_r, mut of_abaxial, mut of_t) = (Vec::new(), Vec::new(), Vec::new());
-        for (i, coefficients) in every {
-            let leaf = coefficients.reflectance_transmittance(&contents);
-            if let Some(measured) = spectra.reflectance {
-                of_r.push(leaf.reflectance - measured[i]);
+        let rows = self.coefficients.len().div_ceil(step);
+        let measured = spectra.all().count();
+        let priors = if noise > 0.0 {
+            self.normal_priors().count()
+        } else {
+            0
+        };
+        let mut fit = Fit::of(at.len(), measured * rows + priors);
+        for (row, coefficients) in self.coefficients.iter().step_by(step).enumerate() {
+            let k = coefficients.absorption_per_plate(&contents);
+            let leaf = Slopes::of(&coefficients.interface, k, plates);
+            let [r, t] = leaf.values;
+            let absorbed = 1.0 - r - t;
+            let weight = weight_of_contrast(absorbed);
+            let ratio = 1.0 + contrast * weight;
+            let by_absorptance = contrast * 6.0 * absorbed * (1.0 - absorbed);
+            // Values, and what brings the slopes of R and T to theirs.
+            let of_r = (spectra.reflectance, r, [1.0, 0.0]);
+            let of_abaxial = (
+                spectra.abaxial,
+                ratio * r,
+                [ratio - by_absorptance * r, -by_absorptance * r],
+            );
+            let of_t = (spectra.transmittance, t, [0.0, 1.0]);
+            let there = [of_r, of_abaxial, of_t].into_iter();
+            let there = there.filter_map(|(values, value, by)| Some((values?, value, by)));
+            for (number, (values, value, by)) in there.enumerate() {
+                let place = number * rows + row;
+                let along = |[r, t]: [f64; 2]| by[0] * r + by[1] * t;
+                fit.left[place] = value - values[row * step];
+                let by_absorption = along(leaf.by_absorption) / plates;
+                for (slopes, &of) in fit.slopes.iter_mut().zip(&self.free) {
+                    slopes[place] = if of == Constituent::Structure {
+                        along(leaf.by_plates) - k * by_absorption
+                    } else {
+                        by_absorption * coefficients.absorption[of]
+                    };
+                }
             }
-            if let Some(measured) = spectra.abaxial {
-                let absorbed = 1.0 - leaf.reflectance - leaf.transmittance;
-                let ratio = abaxial_ratio(absorbed, contrast);
-                of_abaxial.push(ratio * leaf.reflectance - measured[i]);
-            }
-            if let Some(measured) = spectra.transmittance {
-                of_t.push(leaf.transmittance - measured[i]);
+            if let (Some(slopes), Some(_)) = (fit.slopes.get_mut(self.free.len()), spectra.abaxial)
+            {
+                let number = usize::from(spectra.reflectance.is_some());
+                slopes[number * rows + row] = r * weight;
             }
         }
-        of_r.append(&mut of_abaxial);
-        of_r.append(&mut of_t);
-        of_r
+        for (place, (number, [mean, deviation])) in self.normal_priors().take(priors).enumerate() {
+            let place = measured * rows + place;
+            fit.left[place] = noise * (at[number] - mean) / deviation;
+            fit.slopes[number][place] = noise / deviation;
+        }
+        fit
+    }
+
+    /// A content as an unknown.
+    fn parameter(&self, of: Constituent) -> Parameter {
+        let usual = parameter(of);
+        match self.priors[of] {
+            Some(Prior::Within(bounds)) => Parameter { bounds, ..usual },
+            Some(Prior::Normal { .. }) | None => usual,
+        }
     }
 }
 
@@ -395,7 +527,8 @@ fn parameter(of: Constituent) -> Parameter {
         | Constituent::Betaxanthins => (high, 5.0),
         Constituent::Brown => (high, 0.5),
         Constituent::Water => (high, 0.01),
-        Constituent::DryMatter => (high, 0.005),
+        Constituent::DryMatter | Constituent::Proteins | Constituent::CarbonBased => (high, 0.005),
+        Constituent::Extra => (high, 10.0),
     };
     Parameter {
         bounds: [low, high],

@@ -42,7 +42,7 @@ mod stack;
 
 pub use anatomy::{Anatomy, AnatomyError, Tissue};
 pub use bidirectional::{Bidirectional, Binned};
-pub use leaf::{Cells, Faces, LayeredLeaf, Scattering, Slice};
+pub use leaf::{Cells, DRY_BELOW, Faces, LayeredLeaf, Scattering, Slice};
 pub use monte_carlo::{Bins, Estimate, Spread, Tallies, follow, spread};
 pub use ordinates::{Fluxes, Leaving, Ordinates, Resolution};
 pub use phase::{Phase, mean_cosine_of_ball, wall};

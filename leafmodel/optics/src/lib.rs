@@ -1,8 +1,8 @@
-//! Leaf optics: from what a leaf contains to what it reflects and transmits (PROSPECT-D).
+//! Leaf optics: from what a leaf contains to what it reflects and transmits (PROSPECT-D, -PRO, -5, -4).
 //!
 //! The leaf is a pile of `N` identical absorbing plates with rough faces. [`constituent`] says what
-//! a leaf is made of, [`prospect_d`] what one unit of each constituent absorbs,
-//! [`absorption`] turns contents into the absorption
+//! a leaf is made of, [`prospect_d`] what one unit of each constituent absorbs in each version of
+//! PROSPECT ([`model`]), [`extra`] reads what one of the user's own absorbs, [`absorption`] turns contents into the absorption
 //! coefficient of one plate, [`interface`] averages Fresnel's formulae over directions, [`plate`]
 //! and [`pile`] follow the light between the faces. [`fast`] is the same model for inner loops;
 //! [`pigments`] says which substances the pigment columns consist of; [`inversion`] goes the way back,
@@ -31,12 +31,14 @@ pub mod constituent;
 pub mod contents;
 pub mod contents_keys;
 pub mod dust;
+pub mod extra;
 pub mod faces;
 pub mod fast;
 pub mod fluorescence;
 pub mod interface;
 pub mod inversion;
 pub mod layers;
+pub mod model;
 pub mod per_constituent;
 pub mod pigments;
 pub mod pile;
@@ -50,6 +52,7 @@ pub mod vein_factors;
 pub use constituent::Constituent;
 pub use contents::{Contents, ContentsError, Texel};
 pub use interface::Interface;
+pub use model::Model;
 pub use per_constituent::PerConstituent;
 pub use pigments::Pigments;
 pub use pile::ReflectanceTransmittance;

@@ -20,6 +20,10 @@ mod chlorophyll;
 mod figures;
 
 use super::betalains::Betalains;
+use super::constituent::Constituent;
+use super::contents::Contents;
+use super::extra::ExtraTable;
+use super::model::Model;
 use document::declared::{Declared, Words};
 use document::error::DocumentError;
 use document::keys::Keys;
@@ -32,10 +36,13 @@ pub use carotenoid::{Carotenoid, CarotenoidMix};
 pub use chlorophyll::{ChlorophyllBands, ChlorophyllMix};
 pub use figures::{Basis, Figure};
 
-/// What each pigment column consists of; the default is PROSPECT-D's columns, betanin and
-/// indicaxanthin.
-#[derive(Clone, Copy, Debug, Declared, Default, PartialEq)]
+/// What each column of specific absorption consists of; the default is PROSPECT-D's columns, betanin
+/// and indicaxanthin.
+#[derive(Clone, Debug, Declared, Default, PartialEq)]
 pub struct Pigments {
+    /// The version of PROSPECT, which determines refractive index and specific absorptions.
+    #[key("model", word)]
+    pub model: Model,
     /// Chlorophyll a and b apart.
     #[key("chlorophyll", block)]
     pub chlorophyll: Option<ChlorophyllMix>,
@@ -48,6 +55,17 @@ pub struct Pigments {
     /// Which betalains there are.
     #[key("betalains", block)]
     pub betalains: Betalains,
+    /// A constituent of your own.
+    #[key("extra", block)]
+    pub extra: Option<ExtraTable>,
+}
+
+impl Pigments {
+    /// What is wrong if a leaf holds an extra constituent of which nothing says what it absorbs.
+    pub fn lacks_extra(&self, contents: &Contents) -> Option<&'static str> {
+        let is_missing = self.extra.is_none() && contents[Constituent::Extra] > 0.0;
+        is_missing.then_some("nothing says what the extra constituent absorbs: give its table too")
+    }
 }
 
 /// Rounding that a sum of shares may show.

@@ -77,6 +77,72 @@ fn third_exponential_integral(k: f64) -> f64 {
     h * libm::exp(-k)
 }
 
+/// Terms of the series of `E₁` for [`Layer`].
+const TERMS: usize = 30;
+/// Up to this absorption that series is used. Its terms alternate, so that it loses digits above.
+const LAYER_SERIES_UP_TO: f64 = 2.5;
+
+/// What a layer absorbs and lets through, with the slope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Layer {
+    /// `1 − τ(K)`.
+    pub(super) absorbed: f64,
+    /// `τ(K)`.
+    pub(super) passed: f64,
+    /// `dτ/dK = −2 E₂(K)`.
+    pub(super) slope: f64,
+}
+
+impl Layer {
+    /// Of absorption `k > 0`, from `E₁` by the recurrence `n Eₙ₊₁ = e^−k − k Eₙ`; relative error below
+    /// 1e-12 up to `k = 10`.
+    ///
+    /// # Source
+    ///
+    /// NIST Digital Library of Mathematical Functions, 6.6.2 for the series, 8.19.12 for the
+    /// recurrence.
+    pub(super) fn of(k: f64) -> Self {
+        let fall = libm::exp(-k);
+        if k > LAYER_SERIES_UP_TO {
+            // Downwards the recurrence keeps its digits where e^−k and k E₂ nearly cancel.
+            let passed = 2.0 * third_exponential_integral(k);
+            let slope = -2.0 * (fall - passed) / k;
+            return Self {
+                absorbed: 1.0 - passed,
+                passed,
+                slope,
+            };
+        }
+        let e1 = -EULER_GAMMA - libm::log(k) + k * first_integral_series(k);
+        let e2 = fall - k * e1;
+        Self {
+            absorbed: k * e2 - libm::expm1(-k),
+            passed: fall - k * e2,
+            slope: -2.0 * e2,
+        }
+    }
+}
+
+/// `Σ_{m≥1} (−1)^(m+1) k^(m−1) / (m m!)`.
+fn first_integral_series(k: f64) -> f64 {
+    const COEFFICIENTS: [f64; TERMS] = {
+        let mut coefficients = [0.0; TERMS];
+        let (mut m, mut factorial) = (1, 1.0);
+        while m <= TERMS {
+            factorial *= m as f64;
+            let sign = if m % 2 == 1 { 1.0 } else { -1.0 };
+            coefficients[m - 1] = sign / (m as f64 * factorial);
+            m += 1;
+        }
+        coefficients
+    };
+    let mut sum = 0.0;
+    for coefficient in COEFFICIENTS.iter().rev() {
+        sum = sum * k + coefficient;
+    }
+    sum
+}
+
 /// What one plate does to light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plate {
@@ -177,6 +243,34 @@ mod tests {
         for k in [700.0, 745.0, 800.0, 1e6, 1e300] {
             let tau = layer_transmissivity(k);
             assert!((0.0..1e-300).contains(&tau), "K = {k}: {tau}");
+        }
+    }
+
+    #[test]
+    fn the_layer_with_its_slope_is_the_layer() {
+        for step in 0..600 {
+            let k = 10f64.powf(-9.0 + 0.018 * f64::from(step));
+            let layer = Layer::of(k);
+            let near = |value: f64, exact: f64| (value - exact).abs() < 1e-12 * exact;
+            assert!(
+                near(layer.absorbed, layer_absorptance(k)),
+                "K = {k}: {layer:?}"
+            );
+            assert!(
+                near(layer.passed, layer_transmissivity(k)),
+                "K = {k}: {layer:?}"
+            );
+            let h = 1e-5 * k;
+            let difference = if k < 1.0 {
+                layer_absorptance(k - h) - layer_absorptance(k + h)
+            } else {
+                layer_transmissivity(k + h) - layer_transmissivity(k - h)
+            };
+            let slope = difference / (2.0 * h);
+            assert!(
+                (layer.slope - slope).abs() < 1e-6 * slope.abs(),
+                "K = {k}: {layer:?}"
+            );
         }
     }
 

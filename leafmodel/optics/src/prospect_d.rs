@@ -1,8 +1,9 @@
-//! Specific absorption of each constituent, and the tissue's refractive index: PROSPECT-D's table.
+//! Specific absorption of each constituent, and the tissue's refractive index: PROSPECT's tables.
 //!
-//! 400 to 2500 nm by 1 nm, published with Féret et al. (2017), Remote Sens. Environ. 193:204. The
-//! head of `prospect_d.csv` says where each column comes from and under which licence; the brown
-//! column is Frédéric Baret's, used with his authorisation.
+//! 400 to 2500 nm by 1 nm. `prospect_d.csv` is PROSPECT-D's, published with Féret et al. (2017),
+//! Remote Sens. Environ. 193:204; `prospect_others.csv` has the columns by which the other
+//! [`Model`]s differ. The heads of both files say where each column comes from and under which
+//! licence; the brown column is Frédéric Baret's, used with his authorisation.
 
 use std::sync::OnceLock;
 
@@ -10,18 +11,18 @@ use thiserror::Error;
 
 use super::constituent::Constituent;
 use super::interface::Interface;
+use super::model::Model;
+pub use super::model::{FIRST_NM, LAST_NM};
 use super::per_constituent::PerConstituent;
 use super::pigments::Pigments;
 
-/// First wavelength of the table, nm.
-pub const FIRST_NM: f64 = 400.0;
-/// Last wavelength of the table, nm.
-pub const LAST_NM: f64 = 2500.0;
-
-const TABLE: &str = include_str!("prospect_d.csv");
+const PROSPECT_D: &str = include_str!("prospect_d.csv");
+const OTHERS: &str = include_str!("prospect_others.csv");
 const ROWS: usize = 2101;
+/// Columns of each table, beside the wavelength.
+const COLUMNS: usize = 7;
 
-/// PROSPECT-D's constants at one wavelength, and what betalains absorb.
+/// PROSPECT's constants at one wavelength, and what betalains absorb.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coefficients {
     /// The faces of a plate.
@@ -73,8 +74,11 @@ impl ProspectD {
         let place = wavelength_nm.clamp(FIRST_NM, LAST_NM) - FIRST_NM;
         let row = (place.floor() as usize).min(ROWS - 2);
         let fraction = place - row as f64;
-        let (low, high) = (table()[row], table()[row + 1]);
-        let between = |column: usize| low[column] + fraction * (high[column] - low[column]);
+        let between = |Column(table, column): Column| {
+            let (low, high) = (table[row][column], table[row + 1][column]);
+            low + fraction * (high - low)
+        };
+        let model = pigments.model;
         // As a column of the table would be: linear between whole nanometres, with end values
         // outside.
         let band = |absorption: &dyn Fn(f64) -> f64| {
@@ -83,21 +87,23 @@ impl ProspectD {
             low + fraction * (high - low)
         };
         let betalains = &pigments.betalains;
+        let own = |constituent| between(Column::of(model, constituent));
+        let along = |constituent| move |nm| Column::of(model, constituent).at(nm);
         Coefficients {
-            interface: Interface::of_index(between(0)),
+            interface: Interface::of_index(between(Column::of_index(model))),
             absorption: PerConstituent::from_fn(|constituent| match constituent {
                 Constituent::Structure => 0.0,
                 Constituent::Chlorophyll => match pigments.chlorophyll {
-                    Some(mix) => band(&|nm| mix.specific(nm, |nm| column(1, nm))),
-                    None => between(1),
+                    Some(mix) => band(&|nm| mix.specific(nm, along(constituent))),
+                    None => own(constituent),
                 },
                 Constituent::Carotenoids => match pigments.carotenoids {
                     Some(mix) => band(&|nm| mix.specific(nm)),
-                    None => between(2),
+                    None => own(constituent),
                 },
                 Constituent::Anthocyanins => match pigments.anthocyanins {
-                    Some(mix) => band(&|nm| mix.specific(nm, |nm| column(3, nm))),
-                    None => between(3),
+                    Some(mix) => band(&|nm| mix.specific(nm, along(constituent))),
+                    None => own(constituent),
                 },
                 Constituent::Betacyanins => {
                     band(&|nm| betalains.betacyanin.specific(nm, betalains.packaging))
@@ -105,45 +111,101 @@ impl ProspectD {
                 Constituent::Betaxanthins => {
                     band(&|nm| betalains.betaxanthin.specific(nm, betalains.packaging))
                 }
-                Constituent::Brown => between(4),
-                Constituent::Water => between(5),
-                Constituent::DryMatter => between(6),
+                Constituent::Brown
+                | Constituent::Water
+                | Constituent::DryMatter
+                | Constituent::Proteins
+                | Constituent::CarbonBased => own(constituent),
+                Constituent::Extra => match &pigments.extra {
+                    Some(table) => table.at(wavelength_nm),
+                    None => 0.0,
+                },
             }),
         }
     }
 
-    /// The notice that comes with the table: origin, licence, and remarks, one a line.
+    /// The notices that come with the tables: origin, licence, and remarks, one a line.
     pub fn notice() -> impl Iterator<Item = &'static str> {
-        TABLE
+        PROSPECT_D
             .lines()
+            .chain(OTHERS.lines())
             .filter_map(|line| line.strip_prefix('#'))
             .map(str::trim)
     }
 }
 
-/// A column of the table at a wavelength in nm, with the table's end values outside.
-fn column(column: usize, wavelength_nm: f64) -> f64 {
-    let place = wavelength_nm.clamp(FIRST_NM, LAST_NM) - FIRST_NM;
-    let row = (place.floor() as usize).min(ROWS - 2);
-    let (low, high) = (table()[row][column], table()[row + 1][column]);
-    low + (place - row as f64) * (high - low)
+/// A column of a table: rows by whole nanometre, and its number in them.
+#[derive(Clone, Copy)]
+struct Column(&'static [[f64; COLUMNS]], usize);
+
+impl Column {
+    /// A model's refractive index.
+    fn of_index(model: Model) -> Self {
+        match model {
+            Model::ProspectD | Model::ProspectPro => Self(prospect_d(), 0),
+            Model::Prospect5 | Model::Prospect4 => Self(others(), 0),
+        }
+    }
+
+    /// What a model has for a constituent. Where it does not have the constituent, the column is
+    /// that of the model which does.
+    fn of(model: Model, constituent: Constituent) -> Self {
+        match (constituent, model) {
+            (Constituent::Chlorophyll, Model::Prospect5) => Self(others(), 1),
+            (Constituent::Carotenoids, Model::Prospect5) => Self(others(), 2),
+            (Constituent::Chlorophyll, Model::Prospect4) => Self(others(), 3),
+            (Constituent::DryMatter, Model::Prospect5 | Model::Prospect4) => Self(others(), 4),
+            (Constituent::Proteins, _) => Self(others(), 5),
+            (Constituent::CarbonBased, _) => Self(others(), 6),
+            (Constituent::Chlorophyll, _) => Self(prospect_d(), 1),
+            (Constituent::Carotenoids, _) => Self(prospect_d(), 2),
+            (Constituent::Anthocyanins, _) => Self(prospect_d(), 3),
+            (Constituent::Brown, _) => Self(prospect_d(), 4),
+            (Constituent::Water, _) => Self(prospect_d(), 5),
+            (Constituent::DryMatter, _) => Self(prospect_d(), 6),
+            (
+                Constituent::Structure
+                | Constituent::Betacyanins
+                | Constituent::Betaxanthins
+                | Constituent::Extra,
+                _,
+            ) => unreachable!("no version of PROSPECT has a column for {constituent:?}"),
+        }
+    }
+
+    /// Its value at a wavelength in nm, with the table's end values outside.
+    fn at(self, wavelength_nm: f64) -> f64 {
+        let Self(table, column) = self;
+        let place = wavelength_nm.clamp(FIRST_NM, LAST_NM) - FIRST_NM;
+        let row = (place.floor() as usize).min(ROWS - 2);
+        let (low, high) = (table[row][column], table[row + 1][column]);
+        low + (place - row as f64) * (high - low)
+    }
 }
 
-/// Rows by whole nanometre: n, then the six specific absorptions.
-fn table() -> &'static [[f64; 7]] {
-    static PARSED: OnceLock<Vec<[f64; 7]>> = OnceLock::new();
-    PARSED.get_or_init(|| {
-        let rows: Vec<[f64; 7]> = TABLE
-            .lines()
-            .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
-            .map(parse_row)
-            .collect();
-        assert_eq!(rows.len(), ROWS, "the table that is built in is whole");
-        rows
-    })
+/// n, then PROSPECT-D's six specific absorptions.
+fn prospect_d() -> &'static [[f64; COLUMNS]] {
+    static PARSED: OnceLock<Vec<[f64; COLUMNS]>> = OnceLock::new();
+    PARSED.get_or_init(|| parse(PROSPECT_D))
 }
 
-fn parse_row(line: &str) -> [f64; 7] {
+/// What the other models have of their own.
+fn others() -> &'static [[f64; COLUMNS]] {
+    static PARSED: OnceLock<Vec<[f64; COLUMNS]>> = OnceLock::new();
+    PARSED.get_or_init(|| parse(OTHERS))
+}
+
+fn parse(text: &str) -> Vec<[f64; COLUMNS]> {
+    let rows: Vec<_> = text
+        .lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
+        .map(parse_row)
+        .collect();
+    assert_eq!(rows.len(), ROWS, "a table that is built in is whole");
+    rows
+}
+
+fn parse_row(line: &str) -> [f64; COLUMNS] {
     let mut columns = line.split(',').skip(1).map(|figure| {
         figure
             .trim()
@@ -160,6 +222,7 @@ fn parse_row(line: &str) -> [f64; 7] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::presets;
 
     #[test]
     fn whole_nanometres_give_the_figures_of_the_table() {
@@ -167,7 +230,11 @@ mod tests {
         assert_eq!(at.interface.refractive_index, 1.5115);
         assert_eq!(at.absorption[Constituent::Chlorophyll], 0.0648815);
         assert_eq!(at.absorption[Constituent::DryMatter], 109.7);
-        let last = TABLE.trim_end().lines().next_back().expect("has lines");
+        let last = PROSPECT_D
+            .trim_end()
+            .lines()
+            .next_back()
+            .expect("has lines");
         let at = ProspectD::coefficients(2500.0).expect("in range");
         let figures: Vec<f64> = last
             .split(',')
@@ -180,12 +247,14 @@ mod tests {
 
     #[test]
     fn the_rows_are_the_whole_nanometres_in_order() {
-        for (index, line) in TABLE
-            .lines()
-            .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
-            .enumerate()
-        {
-            assert!(line.starts_with(&format!("{},", 400 + index)), "{line}");
+        for table in [PROSPECT_D, OTHERS] {
+            for (index, line) in table
+                .lines()
+                .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
+                .enumerate()
+            {
+                assert!(line.starts_with(&format!("{},", 400 + index)), "{line}");
+            }
         }
     }
 
@@ -208,6 +277,30 @@ mod tests {
         }
         let end = ProspectD::coefficients(400.0).expect("in range");
         assert_eq!(ProspectD::coefficients_extrapolated(360.0), end);
+    }
+
+    #[test]
+    fn models_share_what_they_do_not_change() {
+        let leaf = presets::ALL[0].contents;
+        let of = |model| {
+            let pigments = Pigments {
+                model,
+                ..Pigments::default()
+            };
+            move |nm| ProspectD::coefficients_of(&pigments, nm)
+        };
+        let (own, pro, five) = (
+            of(Model::ProspectD),
+            of(Model::ProspectPro),
+            of(Model::Prospect5),
+        );
+        assert_ne!(own(550.0).interface, five(550.0).interface);
+        for nm in [400.0, 550.5, 1000.0, 1700.0, 2500.0] {
+            assert_eq!(own(nm), pro(nm));
+            let [d, five] = [own(nm), five(nm)].map(|at| at.reflectance_transmittance(&leaf));
+            let change = (d.reflectance - five.reflectance).abs();
+            assert!(change < 0.05, "{nm} nm: {d:?} {five:?}");
+        }
     }
 
     #[test]

@@ -31,6 +31,8 @@ impl Default for VeinFactors {
             (Constituent::Carotenoids, 0.12),
             (Constituent::Water, 2.0),
             (Constituent::DryMatter, 2.5),
+            (Constituent::Proteins, 2.5),
+            (Constituent::CarbonBased, 2.5),
         ]);
         USUAL
     }

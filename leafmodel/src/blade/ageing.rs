@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::frame::UvFrame;
 use super::weathering::Weathering;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::optics::{Constituent, Contents};
 use crate::plane::distances::Distances;
 use crate::venation::network::VeinSegment;
@@ -187,6 +187,8 @@ impl Course {
             (Constituent::Structure, self.structure_factor),
             (Constituent::Water, self.water_factor),
             (Constituent::DryMatter, self.dry_matter_factor),
+            (Constituent::Proteins, self.dry_matter_factor),
+            (Constituent::CarbonBased, self.dry_matter_factor),
         ] {
             aged[constituent] *= 1.0 + (factor - 1.0) * (1.0 - left);
         }
@@ -270,9 +272,7 @@ impl Along {
     }
 }
 
-mod leaf;
-
-pub(super) use self::leaf::AgeingLeaf;
+pub(super) mod leaf;
 
 #[cfg(test)]
 mod tests;

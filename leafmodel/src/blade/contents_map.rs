@@ -12,7 +12,7 @@ use super::senescence::Withering;
 use super::tissue::Tissue;
 use super::vein_field::VeinField;
 use super::vein_light::VeinLight;
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 use crate::memory;
 use crate::mosaic::pattern::LaminaPattern;
 use crate::optics::{Constituent, Texel};

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 
 /// Why there is no blade.
 #[derive(Clone, Debug, Error, PartialEq)]

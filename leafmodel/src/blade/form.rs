@@ -8,7 +8,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::BladeForm;
+use super::plan::BladeForm;
 use super::pleats::Pleats;
 use crate::numeric::spline_weights;
 use crate::plane::polygon;

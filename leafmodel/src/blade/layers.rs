@@ -11,12 +11,10 @@ use glam::DVec2;
 use super::ageing::Place;
 use super::frame::UvFrame;
 use super::masks::{MEND_PICTURE, Mask, MaskField, Picture};
-use crate::document::declared::{Declared, Kinds, Words};
-use crate::document::keys::{Keys, NamedList};
-use crate::document::limits::Limits;
 use crate::document::named_asset::decoded;
-use crate::document::ranges::RangeError;
-use crate::document::value_kind::{Number, Text, Word};
+use crate::document::{
+    Declared, Keys, Kinds, Limits, NamedList, Number, RangeError, Text, Word, Words,
+};
 use crate::optics::contents_keys::limits;
 use crate::optics::{Constituent, Contents, PerConstituent};
 use crate::random::{self, Use};

@@ -11,12 +11,8 @@ use super::ageing::{Along, Place};
 use super::frame::UvFrame;
 use super::mottle::Mottle;
 use crate::document::assets::Raster;
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
 use crate::document::named_asset::decoded;
-use crate::document::ranges::RangeError;
-use crate::document::value_kind::{Integer, Number, Text};
+use crate::document::{Declared, Integer, Keys, Limits, Number, RangeError, Text};
 use crate::numeric::smooth_step;
 use crate::plane::distances::Distances;
 

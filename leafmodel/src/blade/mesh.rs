@@ -4,12 +4,13 @@ mod smoothing;
 #[cfg(test)]
 mod testing;
 
-pub use super::error::BladeError;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::BladeForm;
+pub use super::error::BladeError;
+
 use super::frame::UvFrame;
+use super::plan::BladeForm;
 use super::relief::Relief;
 use super::size_field::SizeField;
 use super::skeleton::Skeleton;

@@ -16,12 +16,12 @@ mod section;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::BladeForm;
 use super::error::BladeError;
+use super::plan::BladeForm;
 use super::relief::Relief;
 use super::stalk::StalkMesh;
 use super::stance::{Posture, Settled};
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::numeric::smooth_step;
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};

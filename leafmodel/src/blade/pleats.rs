@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::BladeForm;
+use super::plan::BladeForm;
 use crate::numeric::spline_weights;
 use crate::shape::outline::Outline;
 use crate::venation::network::VeinSegment;

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
-use super::BladeForm;
+use super::plan::BladeForm;
 use super::vein_grid::VeinGrid;
 use crate::numeric::smooth_step;
 use crate::venation::network::VeinSegment;

@@ -2,12 +2,10 @@
 
 use glam::DVec2;
 
-use super::ageing::{AgeingLeaf, Course, Place};
+use super::ageing::leaf::AgeingLeaf;
+use super::ageing::{Course, Place};
 use super::ageing_courses::{COURSES, LITTER, YELLOW};
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
-use crate::document::value_kind::{Number, Word};
+use crate::document::{Declared, Keys, Limits, Number, Word};
 use crate::numeric::smooth_step;
 use crate::optics::Contents;
 use crate::optics::contents_keys::contents;

@@ -3,10 +3,11 @@
 use glam::DVec2;
 
 use super::error::BladeError;
+use super::mesh::MOST_TRIANGLES;
+use super::plan::BladeForm;
 use super::size_field::SizeField;
 use super::skeleton::Skeleton;
 use super::triangulate::triangulate;
-use super::{BladeForm, mesh::MOST_TRIANGLES};
 use crate::shape::outline::Outline;
 
 /// Points (mm, the outline's frame) and counter-clockwise triangles, no edge longer than

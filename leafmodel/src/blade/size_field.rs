@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::BladeForm;
+use super::plan::BladeForm;
 use super::vein_grid::{OrderedVeinGrid, VeinGrid};
 use crate::venation::network::VeinSegment;
 

@@ -34,16 +34,12 @@ pub(crate) use self::bulge::{Bulge, HeldSheet};
 use self::carried::{Carried, PLACES};
 use self::dust::{Gathering, optical_thicknesses};
 use self::mounds::Mounds;
+pub use self::mounds::SurfaceOf;
 pub use self::plan::SurfacePlan;
 use super::coverage::Coverage;
-use super::frame::UvFrame;
-use super::mesh::BladeMesh;
-use super::senescence::Withering;
-use super::tissue::Tissue;
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 use crate::memory;
 use crate::plane::distances::Distances;
-use crate::venation::network::VeinSegment;
 
 /// Moments of the slopes of one face over a texel: `[mean ∂z/∂x, mean ∂z/∂y, mean (∂z/∂x)², mean
 /// (∂z/∂y)²]`, z towards the adaxial side.
@@ -70,25 +66,6 @@ pub struct SurfaceMap {
     pub cover: Vec<Cover>,
     /// Sides of the frame, mm.
     pub size_mm: [f32; 2],
-}
-
-/// What the relief of a blade is made from.
-#[derive(Clone, Copy, Debug)]
-pub struct SurfaceOf<'a> {
-    /// Where the map lies.
-    pub frame: &'a UvFrame,
-    /// The margin, mm; without one the whole frame is covered.
-    pub margin: &'a [DVec2],
-    /// The veins.
-    pub veins: &'a [VeinSegment],
-    /// The tissue, for the radius of a fully developed vein.
-    pub tissue: &'a Tissue,
-    /// The blade's mesh, whose relief is not repeated; without one the map has all of it.
-    pub mesh: Option<&'a BladeMesh>,
-    /// How the tissue has aged.
-    pub withering: Option<&'a Withering>,
-    /// Decides where dust lies.
-    pub seed: u64,
 }
 
 impl SurfaceMap {

@@ -2,15 +2,9 @@
 
 use super::vein_body::VeinBody;
 use super::vein_cover::VeinCover;
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
-use crate::document::ranges::RangeError;
-use crate::document::value_kind::Number;
+use crate::document::{Keys, Limits, Number, RangeError};
 use crate::optics::contents_keys::contents;
 use crate::optics::{Constituent, Contents, VeinFactors};
-
-/// Most that tissue may hold of anything, in the unit of its constituent.
-pub(crate) const MOST_HELD: f64 = 1000.0;
 
 /// Contents between veins, and factors on them in veins.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -246,7 +240,7 @@ pub(super) mod tests {
             }
         }
         for constituent in Constituent::ALL {
-            for bad in [-0.001, 1001.0, f64::NAN, f64::INFINITY] {
+            for bad in [-0.001, 1e7, f64::NAN, f64::INFINITY] {
                 let mut tissue = GREEN;
                 tissue.lamina[constituent] = bad;
                 broken.push((tissue, format!("contents.{}", constituent.key())));

@@ -19,12 +19,12 @@ mod grid;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use self::grid::Grid;
+use self::grid::{Grid, NOISE_DEVIATION};
 use super::contents_map::ContentsMap;
 use super::coverage::{Coverage, extend};
 use super::frame::UvFrame;
 use super::mottle::Mottle;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::optics::Constituent;
 use crate::plane::distances::Distances;
 use crate::shape::outline::Outline;
@@ -64,8 +64,6 @@ impl Default for Unevenness {
     }
 }
 
-/// Standard deviation of the noise of [`Mottle`] (measured).
-const NOISE_DEVIATION: f64 = 0.36;
 /// What the seed is changed by, so that patches and fields do not follow the mottle.
 const OTHER: [u64; 2] = [0x9a7c_5e11, 0x51e1_d5aa];
 
@@ -141,6 +139,7 @@ impl Unevenness {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grow_options::GrowOptions;
     use std::sync::LazyLock;
 
     use crate::leaf::{Lamina, LeafPlan};
@@ -159,7 +158,7 @@ mod tests {
     fn ratios(unevenness: Unevenness) -> (Vec<(DVec2, f64)>, [f64; 2]) {
         let lamina = &*LAMINA;
         let [even, own] = [None, Some(unevenness)].map(|unevenness| {
-            let map = plan(unevenness).paint(lamina, &|| false);
+            let map = GrowOptions::default().contents(&plan(unevenness), lamina);
             map.expect("a good plan")
         });
         let frame = frame();

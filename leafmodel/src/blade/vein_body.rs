@@ -38,6 +38,8 @@ impl VeinBody {
             (Constituent::Brown, 0.3),
             (Constituent::Water, 1.3),
             (Constituent::DryMatter, 0.8),
+            (Constituent::Proteins, 0.8),
+            (Constituent::CarbonBased, 0.8),
         ]),
     };
 

@@ -6,7 +6,7 @@ use super::tissue::Tissue;
 use super::vein_cover::{Covers, Moments, VeinCover};
 use super::vein_profile::{Profile, Surplus, strength};
 use crate::buckets::Buckets;
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 use crate::plane::{Lattice, bounds};
 use crate::venation::network::VeinSegment;
 

@@ -6,7 +6,7 @@
 use glam::DVec2;
 
 use super::mottle::Mottle;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::optics::{Constituent, Contents};
 use crate::random::{self, Use};
 

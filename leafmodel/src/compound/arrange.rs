@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
+use super::arranged::{CompoundLeaf, PlacedLeaflet, Stalk, StalkKind, direction};
+use super::form::CompoundForm;
 use super::stray::{Part, Stray, Strayed};
-use super::{
-    Arrangement, CompoundForm, CompoundLeaf, Feather, PlacedLeaflet, Stalk, StalkKind, direction,
-};
+use super::{Arrangement, Feather};
 
 /// Widest angle from its axis of what strays, radians.
 const WIDEST: f64 = 3.0;

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::{CompoundLeaf, PlacedLeaflet, StalkKind, joined_stalks};
+use super::arranged::{CompoundLeaf, PlacedLeaflet, StalkKind};
+use super::whole::joined_stalks;
 use crate::leaf::{Lamina, LeafPlan};
 use crate::shape::outline::Outline;
 use crate::venation::network::{Ending, VeinEdge, VeinNode, VenationNetwork};

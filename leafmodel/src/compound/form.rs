@@ -1,9 +1,6 @@
 //! The arrangement of a compound leaf's leaflets, as given by a plan.
 
-use crate::document::declared::Declared;
-use crate::document::keys::{Keys, Variant};
-use crate::document::limits::Limits;
-use crate::document::value_kind::{Degrees, Integer, Number, Numbers};
+use crate::document::{Declared, Degrees, Integer, Keys, Limits, Number, Numbers, Variant};
 /// Leaflets, or pinnae, in two rows along a rachis.
 #[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Feather {

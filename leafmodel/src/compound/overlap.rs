@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{CompoundError, CompoundLeaf, StalkKind};
+use super::arranged::{CompoundError, CompoundLeaf, StalkKind};
 use crate::shape::outline::Outline;
 
 /// How far a leaflet may overlap an axis, in lengths of the leaflet: a tolerance for rounding at a

@@ -1,6 +1,6 @@
 //! Contents of stalks.
 
-use super::WholeLeaf;
+use super::whole::WholeLeaf;
 use crate::blade::vein_cover::VeinCover;
 use crate::leaf::{Leaf, LeafError, LeafPlan};
 use crate::optics::{Contents, PerConstituent};

@@ -3,7 +3,9 @@
 //! Each strays by four random numbers of its own, times its plan's irregularity. Those that come into
 //! each other's way stray half as far, again and again, until they do not: [`Stray::calm`].
 
-use super::{Arrangement, CompoundError, CompoundForm};
+use super::Arrangement;
+use super::arranged::CompoundError;
+use super::form::CompoundForm;
 use crate::random::{Use, uniform};
 
 /// Random numbers for strays come after those for seeds and tilts; those for pinnae after those for

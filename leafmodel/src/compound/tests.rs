@@ -1,5 +1,7 @@
 //! Ash, horse chestnut, mimosa: leaves with leaflets of the growth algorithm.
 
+use glam::DVec2;
+
 use super::*;
 use crate::species;
 

@@ -4,7 +4,8 @@ mod ground;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-use super::{CompoundError, CompoundForm, CompoundLeaf, PlacedLeaflet, StalkKind, direction};
+use super::arranged::{CompoundError, CompoundLeaf, PlacedLeaflet, StalkKind, direction};
+use super::form::CompoundForm;
 use crate::blade::petiole::{Course, PetiolePlan};
 use crate::blade::stalk::StalkMesh;
 use crate::leaf::{Leaf, LeafError, LeafPlan};

@@ -1,7 +1,7 @@
 //! What a plan may ask for.
 
 use super::plan::{DevelopmentPlan, Wave};
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::not_grown::{NotGrown, not_grown};
 
 /// An error of a wave, at one of its keys or at all waves.

@@ -3,7 +3,7 @@
 use super::network::MainVeinStyle;
 use super::plan::DevelopmentPlan;
 use super::steps::Developing;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::not_grown::NotGrown;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;

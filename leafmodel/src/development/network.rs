@@ -2,7 +2,7 @@
 
 use super::skeleton::NO_NODE;
 use super::steps::Developing;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::venation::network::{VeinEdge, VeinNode, VenationNetwork};
 use crate::venation::topology::Topology;
 use crate::venation::width;

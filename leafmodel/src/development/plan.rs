@@ -1,6 +1,6 @@
 //! What a development is told. Lengths are those of the primordium, whose midrib is 1.
 
-use crate::document::declared::{Declared, Words};
+use crate::document::{Declared, Words};
 /// The margin of the primordium, symmetric about its midrib.
 #[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct Primordium {

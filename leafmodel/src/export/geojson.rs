@@ -1,10 +1,11 @@
 //! Margin, veins and areoles as shapes with attributes.
 
 use glam::DVec2;
+
 use serde_json::{Value, json};
 
 use super::runs::Runs;
-use super::{SOFTWARE, rounded};
+use super::text::{SOFTWARE, rounded};
 use crate::shape::outline::Outline;
 use crate::venation::areole::areoles;
 use crate::venation::network::VenationNetwork;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::SOFTWARE;
+use super::text::SOFTWARE;
 use crate::venation::network::VenationNetwork;
 
 /// Name, element and type of every attribute.

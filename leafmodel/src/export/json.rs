@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 
 use glam::DVec2;
+
 use serde_json::{Value, json};
 
-use super::SOFTWARE;
+use super::text::SOFTWARE;
 use crate::shape::outline::Outline;
 use crate::venation::areole::{Areole, areoles};
 use crate::venation::network::{Ending, VeinEdge, VeinNode, VenationNetwork};

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use glam::DVec2;
 
 use super::runs::Runs;
-use super::{SOFTWARE, order_colour, rounded};
+use super::text::{SOFTWARE, rounded};
 use crate::shape::outline::Outline;
 use crate::venation::areole::areoles;
 use crate::venation::network::{VeinEdge, VenationNetwork};
@@ -169,4 +169,22 @@ fn taper(text: &mut String, from: DVec2, to: DVec2, radii: [f64; 2]) {
         rounded(last.x),
         rounded(last.y)
     );
+}
+
+/// Colours (sRGB) that tell vein orders apart on white, also for most colour-blind eyes (after
+/// Okabe and Ito); finer orders than there are colours share the last.
+pub const ORDER_COLOURS: [[u8; 3]; 7] = [
+    [0, 0, 0],
+    [213, 94, 0],
+    [0, 114, 178],
+    [0, 158, 115],
+    [204, 121, 167],
+    [86, 180, 233],
+    [160, 150, 120],
+];
+
+/// Colour of a vein order, 1 or more.
+pub fn order_colour(order: u8) -> [u8; 3] {
+    let last = ORDER_COLOURS.len() - 1;
+    ORDER_COLOURS[usize::from(order.max(1) - 1).min(last)]
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::SOFTWARE;
+use super::text::SOFTWARE;
 use crate::venation::network::VenationNetwork;
 
 /// The edges as CSV, every number in full, in the columns `from`, `to`, `from_x_mm`, `from_y_mm`,

@@ -23,7 +23,7 @@ pub(crate) use self::dieback::Front;
 use self::places::Places;
 pub(crate) use self::stains::Stain;
 use self::tears::Tear;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::plane::polygon;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;

@@ -2,8 +2,10 @@
 
 use glam::DVec2;
 
-use super::{Lamina, LeafError, LeafPlan};
-use crate::leaf::venation_plan::VenationPlan;
+use super::error::LeafError;
+use super::lamina::Lamina;
+use super::plan::LeafPlan;
+use crate::not_grown::NotGrown;
 use crate::transport::DeathField;
 use crate::venation::arcuate::ArcuateVeins;
 
@@ -25,19 +27,20 @@ impl LeafPlan {
     ///
     /// As [`LeafPlan::grow_lamina`].
     pub fn fields(&self, lamina: &Lamina) -> Result<Option<Fields>, LeafError> {
-        match &self.venation {
-            VenationPlan::Arcuate(plan) => {
-                let veins = match self.outline.plain_cubic() {
-                    Some(margin) => plan.veins_within(margin, self.length_mm)?,
-                    None => plan.veins_on(lamina.intact())?,
-                };
-                Ok(Some(Fields::Arcuate(veins)))
-            }
-            VenationPlan::Auxin(_)
-            | VenationPlan::Cells(_)
-            | VenationPlan::Transport(_)
-            | VenationPlan::Development(_) => Ok(self.death_field(lamina)?.map(Fields::Deaths)),
-        }
+        let Some(veins) = self.venation.arcuate() else {
+            return Ok(self.death_field(lamina)?.map(Fields::Deaths));
+        };
+        let veins = match self.outline.plain_cubic() {
+            Some(margin) => veins.veins_within(margin, self.length_mm),
+            None => veins.veins_on(lamina.intact()),
+        };
+        let veins = veins.map_err(|error| LeafError::Venation(NotGrown::because(error)))?;
+        Ok(Some(Fields::Arcuate(veins)))
+    }
+
+    /// Whether its laminas have fields, as far as can be known before they grow.
+    pub fn has_fields(&self) -> bool {
+        self.venation.arcuate().is_some() || self.has_cells()
     }
 
     /// Where the cells of a lamina die first, if it has any; those that its veins supply come
@@ -45,7 +48,10 @@ impl LeafPlan {
     pub(super) fn death_field(&self, lamina: &Lamina) -> Result<Option<DeathField>, LeafError> {
         Ok(match (&lamina.filled, &lamina.cells) {
             (Some(blade), _) => Some(blade.death_field()),
-            (None, Some(leaf)) => Some(leaf.death_field(self.length_mm).map_err(LeafError::Cells)?),
+            (None, Some(leaf)) => Some(
+                leaf.death_field(self.length_mm)
+                    .map_err(LeafError::Venation)?,
+            ),
             (None, None) => None,
         })
     }

@@ -1,6 +1,6 @@
 //! Which part of a plan contributes which contents.
 
-use super::LeafPlan;
+use super::plan::LeafPlan;
 use crate::blade::layers::{Change, Layer, Mode};
 use crate::blade::masks::Mask;
 use crate::blade::senescence::AgeSource;

@@ -1,7 +1,7 @@
 //! Memory that a leaf takes, estimated from its plan.
 
-use super::venation_plan::VenationPlan;
-use super::{LeafError, LeafPlan};
+use super::error::LeafError;
+use super::plan::LeafPlan;
 use crate::blade::surface::SlopeMoments;
 use crate::optics::Texel;
 use crate::venation::plan::AuxinPlan;
@@ -49,14 +49,8 @@ impl LeafPlan {
     pub fn memory(&self) -> Result<LeafMemory, LeafError> {
         let variants = self.compound.as_ref().map_or(1, |form| form.variants);
         let count = f64::from(variants);
-        let nodes = match &self.venation {
-            VenationPlan::Auxin(plan) => nodes(plan),
-            // Their sizes have limits of their own, at which they take tens of megabytes.
-            VenationPlan::Arcuate(_)
-            | VenationPlan::Cells(_)
-            | VenationPlan::Transport(_)
-            | VenationPlan::Development(_) => 0.0,
-        };
+        // Veins of other kinds have limits of their own, at which they take tens of megabytes.
+        let nodes = self.venation.auxin().map_or(0.0, nodes);
         let texels = f64::from(self.map_size) * f64::from(self.map_size);
         let surface = self
             .surface
@@ -87,6 +81,7 @@ fn nodes(plan: &AuxinPlan) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::leaf::venation_plan::VenationPlan;
     use crate::species::find;
 
     #[test]

@@ -1,8 +1,7 @@
 //! What an outline is made from: one of several kinds of contour, and teeth on it.
 
 use crate::development::{DevelopedLeaf, DevelopmentPlan};
-use crate::document::declared::{Declared, Kinds};
-use crate::document::keys::{Keys, Variant};
+use crate::document::{Declared, Keys, Kinds, Variant};
 use crate::not_grown::{NotGrown, not_grown};
 use crate::shape::contour_curve::ContourCurve;
 use crate::shape::cubic_margin::CubicMargin;
@@ -71,22 +70,10 @@ pub(super) enum Origin {
     Developed(DevelopedLeaf),
 }
 
-impl Origin {
-    /// The transport leaf, if it is one.
-    pub(super) fn cells(self) -> Option<TransportLeaf> {
-        match self {
-            Self::Cells(leaf) => Some(leaf),
-            Self::Curve | Self::Developed(_) => None,
-        }
-    }
-
-    /// The developed leaf, if it is one.
-    pub(super) fn developed(&self) -> Option<&DevelopedLeaf> {
-        match self {
-            Self::Developed(leaf) => Some(leaf),
-            Self::Curve | Self::Cells(_) => None,
-        }
-    }
+/// An outline that has grown, and what else its contour has brought forth.
+pub(super) struct GrownOutline {
+    pub(super) outline: Outline,
+    pub(super) origin: Origin,
 }
 
 impl From<Contour> for OutlinePlan {
@@ -178,7 +165,7 @@ impl OutlinePlan {
     ///
     /// [`NotGrown`], naming what is out of range or why the curve is no margin.
     pub fn grow(&self, length_mm: f64, seed: u64) -> Result<Outline, NotGrown> {
-        Ok(self.grow_with_origin(length_mm, seed)?.0)
+        Ok(self.grow_with_origin(length_mm, seed)?.outline)
     }
 
     /// The outline, and the leaf whose margin it is if that is more than a curve.
@@ -186,7 +173,7 @@ impl OutlinePlan {
         &self,
         length_mm: f64,
         seed: u64,
-    ) -> Result<(Outline, Origin), NotGrown> {
+    ) -> Result<GrownOutline, NotGrown> {
         if !(1e-3..=1e5).contains(&length_mm) {
             let error =
                 not_grown!("length_mm is {length_mm}, outside 0.001 to 100000 (millimetres)");
@@ -227,7 +214,7 @@ impl OutlinePlan {
         let bent = self.specimen.applied(smooth, seed);
         let bent = bent.map_err(|error| error.within("outline"))?;
         let tips = self.specimen.tips();
-        let toothed = toothed(&bent, &self.teeth, tips, seed).map_err(|error| {
+        let outline = toothed(&bent, &self.teeth, tips, seed).map_err(|error| {
             let help = match error {
                 TeethError::NotNested { .. } => {
                     "let per_side be a multiple of that of the wave before, or leave `nested` out"
@@ -239,7 +226,7 @@ impl OutlinePlan {
             };
             NotGrown::because(error).mend("outline.teeth", help)
         })?;
-        Ok((toothed, origin))
+        Ok(GrownOutline { outline, origin })
     }
 }
 

@@ -2,7 +2,9 @@
 
 use glam::DVec2;
 
-use super::{Lamina, LeafError, LeafPlan};
+use super::error::LeafError;
+use super::lamina::Lamina;
+use super::plan::LeafPlan;
 use crate::blade::ageing::Place;
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
@@ -10,8 +12,8 @@ use crate::blade::hairs::HairMesh;
 use crate::blade::mesh::BladeMesh;
 use crate::blade::senescence::Withering;
 use crate::blade::surface::{Bulge, HeldSheet, SurfaceMap, SurfaceOf};
-use crate::document::declared::Declared;
-use crate::document::ranges::RangeError;
+use crate::document::{Declared, RangeError};
+use crate::grow_options::GrowOptions;
 use crate::mosaic::pattern::LaminaPattern;
 use crate::optics::Contents;
 use crate::shape::tips::Knob;
@@ -20,21 +22,17 @@ use crate::venation::network::VeinSegment;
 /// Spacing of the heights that displace a mesh, over its longest edge: that of the edges themselves.
 const MESHED_WAVE: f64 = 0.75;
 
-impl LeafPlan {
+impl GrowOptions<'_> {
     /// What the tissue of a lamina that the plan has brought forth holds, over the [`UvFrame`]
     /// around its margin.
     ///
     /// # Errors
     ///
-    /// [`LeafError::Tissue`], [`LeafError::NoRevenue`], [`LeafError::Mosaic`], the last when `is_stopped` says so too.
-    pub fn paint(
-        &self,
-        lamina: &Lamina,
-        is_stopped: &dyn Fn() -> bool,
-    ) -> Result<ContentsMap, LeafError> {
-        self.check_senescence()?;
-        let pattern = self.grow_pattern(lamina, is_stopped)?;
-        self.paint_with(lamina, pattern.as_ref())
+    /// [`LeafError::Tissue`], [`LeafError::NoRevenue`], [`LeafError::Mosaic`].
+    pub fn contents(self, plan: &LeafPlan, lamina: &Lamina) -> Result<ContentsMap, LeafError> {
+        plan.check_senescence()?;
+        let pattern = self.pattern(plan, lamina)?;
+        plan.paint(lamina, pattern.as_ref())
     }
 
     /// The mosaic of the plan on a lamina that the plan has brought forth, if it has one: the same
@@ -42,25 +40,26 @@ impl LeafPlan {
     ///
     /// # Errors
     ///
-    /// [`LeafError::Mosaic`], also when `is_stopped` says so.
-    pub fn grow_pattern(
-        &self,
+    /// [`LeafError::Mosaic`].
+    pub fn pattern(
+        self,
+        plan: &LeafPlan,
         lamina: &Lamina,
-        is_stopped: &dyn Fn() -> bool,
     ) -> Result<Option<LaminaPattern>, LeafError> {
-        let pattern = self.mosaic.as_ref();
-        let pattern =
-            pattern.map(|pattern| pattern.on_lamina(lamina.intact(), self.seed, is_stopped));
+        let pattern = plan.mosaic.as_ref();
+        let pattern = pattern.map(|pattern| pattern.on_lamina(lamina.intact(), plan.seed, self));
         pattern.transpose().map_err(LeafError::Mosaic)
     }
+}
 
-    /// As [`LeafPlan::paint`], with the mosaic that [`LeafPlan::grow_pattern`] gave for this
-    /// lamina.
+impl LeafPlan {
+    /// What the tissue of a lamina that the plan has brought forth holds, with the mosaic that
+    /// [`GrowOptions::pattern`] gave for this lamina.
     ///
     /// # Errors
     ///
     /// [`LeafError::Tissue`], [`LeafError::NoRevenue`].
-    pub fn paint_with(
+    pub fn paint(
         &self,
         lamina: &Lamina,
         pattern: Option<&LaminaPattern>,
@@ -237,7 +236,9 @@ mod tests {
         plan.venation = find("arcuate").expect("a preset").plan().venation;
         plan.map_size = 1000;
         let lamina = plan.grow_lamina().expect("a good plan");
-        let map = plan.paint(&lamina, &|| false).expect("a good plan");
+        let map = GrowOptions::default()
+            .contents(&plan, &lamina)
+            .expect("a good plan");
         let frame = UvFrame::around(lamina.intact().points());
         let at = |p: DVec2| {
             let uv = frame.uv(p);
@@ -264,7 +265,9 @@ mod tests {
         plan.venation = find("arcuate").expect("a preset").plan().venation;
         plan.map_size = 40;
         let lamina = plan.grow_lamina().expect("a good plan");
-        let plain = plan.paint(&lamina, &|| false).expect("a good plan");
+        let plain = GrowOptions::default()
+            .contents(&plan, &lamina)
+            .expect("a good plan");
         let tissue = plan.tissue.lamina;
         plan.mosaic = Some(MosaicPattern {
             plan: MosaicPlan {
@@ -277,7 +280,9 @@ mod tests {
             blend_mm: 0.5,
             faces: LeafFaces::Through,
         });
-        let pattern = plan.grow_pattern(&lamina, &|| false).expect("a good plan");
+        let pattern = GrowOptions::default()
+            .pattern(&plan, &lamina)
+            .expect("a good plan");
         let senescence = plan.senescence.expect("it ages");
         for (day, map_size) in [(0.0, 40), (0.0, 30), (24.0, 40)] {
             let plan = LeafPlan {
@@ -285,12 +290,12 @@ mod tests {
                 map_size,
                 ..plan.clone()
             };
-            let map = plan
-                .paint_with(&lamina, pattern.as_ref())
-                .expect("a good plan");
+            let map = plan.paint(&lamina, pattern.as_ref()).expect("a good plan");
             assert_eq!(
                 map,
-                plan.paint(&lamina, &|| false).expect("a good plan"),
+                GrowOptions::default()
+                    .contents(&plan, &lamina)
+                    .expect("a good plan"),
                 "day {day}, {map_size} texels"
             );
             assert_ne!(map.texels, plain.texels);

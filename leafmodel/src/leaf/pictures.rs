@@ -1,6 +1,6 @@
 //! The pictures that a leaf's plan names.
 
-use super::LeafPlan;
+use super::plan::LeafPlan;
 use crate::blade::layers::Change;
 use crate::blade::masks::Mask;
 use crate::mosaic::control::{ControlImage, Pixels};

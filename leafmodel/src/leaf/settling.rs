@@ -1,6 +1,7 @@
 //! Where the blade of a leaf has come to lie.
 
-use super::{Lamina, LeafPlan};
+use super::lamina::Lamina;
+use super::plan::LeafPlan;
 use crate::blade::mesh::BladeMesh;
 use crate::blade::stalk::StalkMesh;
 use crate::blade::stance::Settled;
@@ -19,7 +20,7 @@ impl LeafPlan {
             &self.stance,
             &self.form,
             (outline, network),
-            [held[Constituent::Water], held[Constituent::DryMatter]],
+            [held[Constituent::Water], held.all_dry_matter()],
             stalk,
             self.seed,
         )

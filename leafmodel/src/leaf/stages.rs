@@ -2,15 +2,16 @@
 
 use glam::DVec2;
 
-use super::{LeafError, LeafPlan};
+use super::error::LeafError;
+use super::lamina::Lamina;
+use super::plan::LeafPlan;
+use super::venation_plan::Growing;
 use crate::development::{DevelopedLeaf, MainVeinStyle};
-use crate::leaf::lamina::Lamina;
-use crate::leaf::venation_plan::VenationPlan;
 use crate::shape::outline::Outline;
-use crate::transport::{FilledBlade, Ladder, TransportLeaf, VeinStyle};
+use crate::transport::{Ladder, TransportLeaf};
 use crate::venation::network::VenationNetwork;
 use crate::venation::plan::{AuxinPlan, Growth};
-use crate::venation::{Stage, grow_stages};
+use crate::venation::{Stage, VeinGrowth, VenationError};
 
 /// Margin and veins at one time of growth, true to the size they have then, mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,12 +35,13 @@ impl LeafPlan {
     ///
     /// [`LeafError::NoStages`] if it comes to be all at once.
     pub fn last_step(&self, lamina: &Lamina) -> Result<u32, LeafError> {
-        Ok(match self.growing(lamina)? {
+        let developed = || part(lamina.developed.as_ref());
+        Ok(match self.growing()? {
             Growing::Auxin(_) => lamina.network.steps(),
-            Growing::DevelopedThenAuxin(leaf, _) => leaf.step() + lamina.network.steps(),
-            Growing::Cells(leaf, _) => leaf.last_step(),
-            Growing::Filled(blade, _) => blade.leaf().last_step(),
-            Growing::Developed(leaf, _) => leaf.step(),
+            Growing::DevelopedThenAuxin(_) => developed()?.step() + lamina.network.steps(),
+            Growing::Cells(_) => part(lamina.cells.as_ref())?.last_step(),
+            Growing::Filled(_) => part(lamina.filled.as_ref())?.leaf().last_step(),
+            Growing::Developed(_) => developed()?.step(),
         })
     }
 
@@ -58,10 +60,11 @@ impl LeafPlan {
                 sources: Vec::new(),
             })
         };
-        Ok(match self.growing(lamina)? {
+        let developed = || part(lamina.developed.as_ref());
+        Ok(match self.growing()? {
             Growing::Auxin(plan) => {
-                let stages = grow_stages(outline, plan, None, self.seed, steps)?;
-                let stages = stages.into_iter();
+                let stages = VeinGrowth::new(outline, plan, self.seed).stages(steps);
+                let stages = stages.map_err(not_grown)?.into_iter();
                 let stage = |stage: Stage| LeafStage {
                     outline: stage.outline,
                     network: stage.network,
@@ -69,25 +72,23 @@ impl LeafPlan {
                 };
                 stages.map(stage).collect()
             }
-            Growing::DevelopedThenAuxin(leaf, plan) => {
-                self.main_then_finer(lamina, leaf, plan, steps)?
+            Growing::DevelopedThenAuxin(plan) => {
+                self.main_then_finer(lamina, developed()?, plan, steps)?
             }
-            Growing::Cells(leaf, style) => {
+            Growing::Cells(style) => {
+                let leaf = part(lamina.cells.as_ref())?;
                 let stages: Vec<usize> = steps.iter().map(|&step| leaf.stage_of(step)).collect();
-                all(leaf
-                    .at_scale(self.length_mm, style, &stages)
-                    .map_err(LeafError::Cells)?)
-                .collect()
+                let stages = leaf.at_scale(self.length_mm, style, &stages);
+                all(stages.map_err(LeafError::Venation)?).collect()
             }
-            Growing::Filled(blade, style) => {
+            Growing::Filled(style) => {
+                let blade = part(lamina.filled.as_ref())?;
                 let stages: Vec<usize> = steps.iter().map(|&step| step as usize).collect();
-                let networks = blade
-                    .networks_at(outline, style, &stages)
-                    .map_err(LeafError::Cells)?;
-                let stages = networks.into_iter();
+                let networks = blade.networks_at(outline, style, &stages);
+                let stages = networks.map_err(LeafError::Venation)?.into_iter();
                 all(stages.map(|network| (outline.clone(), network)).collect()).collect()
             }
-            Growing::Developed(leaf, style) => leaf.stages(self.length_mm, style, steps)?,
+            Growing::Developed(style) => developed()?.stages(self.length_mm, style, steps)?,
         })
     }
 
@@ -100,15 +101,17 @@ impl LeafPlan {
         steps: &[u32],
     ) -> Result<Vec<LeafStage>, LeafError> {
         let outline = &lamina.outline;
-        let main = leaf
-            .network(self.length_mm, MainVeinStyle::default())
-            .map_err(LeafError::Cells)?;
+        let main = leaf.network(self.length_mm, MainVeinStyle::default());
+        let main = main.map_err(LeafError::Venation)?;
         let later = steps
             .iter()
             .filter_map(|&step| step.checked_sub(leaf.step()));
         let later: Vec<u32> = std::iter::once(0).chain(later).collect();
-        let finer = grow_stages(outline, plan, Some(&main), self.seed, &later)?;
-        let mut finer = finer.into_iter();
+        let finer = VeinGrowth {
+            main: Some(&main),
+            ..VeinGrowth::new(outline, plan, self.seed)
+        };
+        let mut finer = finer.stages(&later).map_err(not_grown)?.into_iter();
         // Main veins are as wide at the end of the development as at the start of the net.
         let first = finer
             .next()
@@ -154,51 +157,32 @@ impl LeafPlan {
         Ok(steps.iter().filter_map(next).collect())
     }
 
-    fn growing<'a>(&'a self, lamina: &'a Lamina) -> Result<Growing<'a>, LeafError> {
+    /// Whether it grows in stages, as far as can be known before it grows.
+    ///
+    /// # Errors
+    ///
+    /// [`LeafError::NoStages`].
+    pub fn check_stages(&self) -> Result<(), LeafError> {
+        self.growing().map(drop)
+    }
+
+    fn growing(&self) -> Result<Growing<'_>, LeafError> {
         if self.damage.is_some() {
             return Err(LeafError::NoStages(
                 "damage comes to a full-grown leaf; take the block `damage` out of the plan",
             ));
         }
-        match &self.venation {
-            VenationPlan::Auxin(plan) => Ok(match &lamina.developed {
-                Some(leaf) if self.outline.is_contour() => Growing::DevelopedThenAuxin(leaf, plan),
-                Some(_) | None => Growing::Auxin(plan),
-            }),
-            VenationPlan::Arcuate(_) => {
-                Err(LeafError::NoStages("arcuate veins are there all at once"))
-            }
-            VenationPlan::Cells(_) if !self.outline.is_contour() => Err(LeafError::NoStages(
-                "teeth belong to the full-grown margin of a transport leaf",
-            )),
-            VenationPlan::Cells(style) => {
-                let leaf = lamina.cells.as_ref().ok_or(LeafError::NoCells)?;
-                Ok(Growing::Cells(leaf, *style))
-            }
-            VenationPlan::Transport(plan) => {
-                let blade = lamina.filled.as_ref().ok_or(LeafError::NoCells)?;
-                Ok(Growing::Filled(blade, plan.style))
-            }
-            VenationPlan::Development(_) if !self.outline.is_contour() => Err(LeafError::NoStages(
-                "teeth belong to the full-grown margin of a leaf that develops",
-            )),
-            VenationPlan::Development(style) => {
-                let leaf = lamina.developed.as_ref().ok_or(LeafError::NotDeveloped)?;
-                Ok(Growing::Developed(leaf, *style))
-            }
-        }
+        self.venation.growing(&self.outline)
     }
 }
 
-/// What a lamina grows by.
-enum Growing<'a> {
-    Auxin(&'a AuxinPlan),
-    Cells(&'a TransportLeaf, VeinStyle),
-    Developed(&'a DevelopedLeaf, MainVeinStyle),
-    /// Main veins with the margin, then finer ones on the blade that has developed.
-    DevelopedThenAuxin(&'a DevelopedLeaf, &'a AuxinPlan),
-    /// On a margin that is there from the start.
-    Filled(&'a FilledBlade, VeinStyle),
+/// A part that the lamina of this plan has.
+fn part<T>(part: Option<&T>) -> Result<&T, LeafError> {
+    part.ok_or(LeafError::NoStages("the lamina is that of another plan"))
+}
+
+fn not_grown(error: VenationError) -> LeafError {
+    LeafError::Venation(error.into())
 }
 
 impl DevelopedLeaf {
@@ -210,17 +194,19 @@ impl DevelopedLeaf {
         steps: &[u32],
     ) -> Result<Vec<LeafStage>, LeafError> {
         let stage = |&step: &u32| {
-            let young = self.at_step(step).map_err(LeafError::Cells)?;
+            let young = self.at_step(step).map_err(LeafError::Venation)?;
             let share = young.length() / self.length();
             let style = MainVeinStyle {
                 base_radius_mm: (style.base_radius_mm * share).max(1e-4),
                 ..style
             };
             Ok(LeafStage {
-                outline: young.outline(length_mm * share).map_err(LeafError::Cells)?,
+                outline: young
+                    .outline(length_mm * share)
+                    .map_err(LeafError::Venation)?,
                 network: young
                     .network(length_mm * share, style)
-                    .map_err(LeafError::Cells)?,
+                    .map_err(LeafError::Venation)?,
                 sources: Vec::new(),
             })
         };
@@ -253,6 +239,7 @@ impl TransportLeaf {
 mod tests {
     use super::*;
     use crate::leaf::outline_plan::Contour;
+    use crate::leaf::venation_plan::VenationPlan;
     use crate::shape::teeth::ToothWave;
     use crate::species;
     use crate::transport::{FilledPlan, TransportPlan};

@@ -4,8 +4,15 @@ mod combinations;
 
 use proptest::prelude::*;
 
+use crate::blade::BladeForm;
+use crate::blade::stance::Stance;
+use crate::blade::tissue::Tissue;
+use crate::leaf::outline_plan::OutlinePlan;
+use crate::leaf::venation_plan::VenationPlan;
+
 use super::*;
 use crate::leaf::outline_plan::Contour;
+use crate::optics::Pigments;
 use crate::optics::{Constituent, Contents, VeinFactors};
 use crate::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
 use crate::transport::VeinStyle;

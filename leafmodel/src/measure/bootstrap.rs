@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::Subject;
 use super::statistics::{mean, median, quantile, variation};
+use super::subject::Subject;
 use crate::random::{Use, below, bits};
 use crate::venation::areole::Areole;
 

@@ -30,6 +30,7 @@
 mod corrected;
 mod cumulative;
 mod dominance;
+mod effect;
 mod leaves;
 mod noncentral;
 mod ranks;
@@ -38,20 +39,8 @@ mod student;
 pub use self::corrected::{benjamini_hochberg, holm};
 pub use self::cumulative::{Steps, kolmogorov_smirnov};
 pub use self::dominance::cliffs_delta;
+pub use self::effect::Effect;
 pub use self::leaves::{Permuted, permuted_leaves};
 pub use self::noncentral::hedges_g;
 pub use self::ranks::{Ranks, mann_whitney, smallest_p};
 pub use self::student::{Among, Summary, Welch, one_among, summary, welch};
-
-/// Share of all samples whose interval does not hold the truth.
-const OUTSIDE: f64 = 0.05;
-
-/// The size of a difference.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Effect {
-    /// The estimate; positive if the second group has the larger values.
-    pub value: f64,
-    /// Ends of its 95 % interval.
-    #[serde(rename = "interval_95")]
-    pub interval: [f64; 2],
-}

@@ -16,6 +16,7 @@ mod laterals;
 mod marginal;
 mod net;
 mod percurrent;
+mod rules;
 mod text;
 mod tracing;
 
@@ -33,12 +34,6 @@ use crate::venation::architecture::{
 use crate::venation::areole::areoles;
 use crate::venation::network::{self, VenationNetwork};
 
-/// A vein that ends so near to the margin ends there, share of the leaf's length.
-const AT_MARGIN: f64 = 0.025;
-
-/// A vein that ends so near to the tip of a tooth or lobe ends in it, likewise.
-const IN_TOOTH: f64 = 0.014;
-
 /// A vein that strays less from its chord is straight, share of the chord.
 const STRAIGHT: f64 = 0.05;
 
@@ -47,9 +42,6 @@ const WINDING: f64 = 0.12;
 
 /// A lateral primary is at least so long, share of the midrib.
 const STUB: f64 = 0.12;
-
-/// A vein so much longer than its chord goes round.
-const ROUND: f64 = 1.25;
 
 /// So many lateral primaries are many.
 const MANY: usize = 6;

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::definitions::unit;
 use super::skeleton::{Skeleton, angle_deg};
-use super::{Known, Subject};
+use super::subject::{Known, Subject};
 use crate::venation::network;
 
 /// One value of one kind.

@@ -17,23 +17,12 @@ mod tests;
 
 use glam::DVec2;
 
+pub(super) use self::dissection::Pipe;
 use self::dissection::order;
 use crate::buckets::Buckets;
 
 /// Marks what is not there.
 const NONE: u32 = u32::MAX;
-
-/// A pipe between two unknowns, or between one and a node at pressure 0 ([`Pipe::GROUND`]).
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pipe {
-    pub(super) ends: [u32; 2],
-    pub(super) conductance: f64,
-}
-
-impl Pipe {
-    /// Stands for a node at pressure 0.
-    pub(super) const GROUND: u32 = NONE;
-}
 
 /// A factored Laplacian.
 pub(super) struct Factored {

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::Subject;
+use super::subject::Subject;
 use super::window;
 use crate::numeric::bisect;
 

@@ -3,18 +3,11 @@
 use glam::DVec2;
 
 use super::cost::{self, OrderRow};
-use super::forks::Forks;
-use super::hierarchy::Hierarchy;
-use super::junctions::Junctions;
 use super::nesting::{self, Merge};
-use super::skeleton::Skeleton;
-use super::structure::Structure;
-use super::supply::Supply;
-use super::{List, Measures, spanning};
 use crate::random::{Use, uniform};
 use crate::shape::outline::Outline;
 use crate::venation::areole::{Areoles, areoles};
-use crate::venation::network::{self, VenationNetwork};
+use crate::venation::network::VenationNetwork;
 
 /// Number of points of the blade at which the distance to the nearest vein is measured.
 pub(super) const PROBES: usize = 1 << 14;
@@ -47,7 +40,7 @@ impl<'a> Blade<'a> {
         }
     }
 
-    fn area(self) -> Option<f64> {
+    pub(super) fn area(self) -> Option<f64> {
         match self {
             Self::Margin(outline) => Some(outline.area()),
             Self::Area(area) => Some(area),
@@ -97,73 +90,6 @@ impl<'a> Subject<'a> {
     /// Its areoles.
     pub fn areoles(&self) -> &Areoles {
         &self.found
-    }
-
-    /// All measures; those that need what is not known are missing.
-    pub fn measures(&self, murray_exponent: f64) -> Measures {
-        let (found, known, outline) = (&self.found, self.known, self.blade.outline());
-        let edges = network::ends(found.graph().edges());
-        let skeleton = Skeleton::new(found.graph(), &edges, self.network.segment_mm());
-        let mut list = List::new(self.blade.area());
-        list.shape(outline);
-        list.count("crossing_count", found.graph().crossings());
-        list.number("blade_area_mm2", self.blade.area());
-        list.veins(&skeleton, known);
-        list.number("spanning_tree_ratio", spanning::ratio(found.chains()));
-        let distances: Vec<f64> = self.distances().into_iter().map(|probe| probe.1).collect();
-        list.distances(&distances);
-        list.areoles(found);
-        list.free_endings(outline, self.network, found);
-        list.forks(&Forks::new(&skeleton, murray_exponent), known);
-        list.junctions(Junctions::new(&skeleton), known);
-        list.nesting(known.radii.then(|| nesting::nesting(found)));
-        let hierarchy = outline.filter(|_| known.orders && known.radii);
-        list.hierarchy(hierarchy.map(|outline| Hierarchy::new(&skeleton, outline.base())));
-        list.measures()
-    }
-
-    /// Measures beyond those: what veins cost, how areoles lie, how loops are nested, and how water
-    /// comes to them.
-    ///
-    /// `structure` and `supply` are those of [`Subject::structure`] and [`Subject::supply`], which
-    /// take longer; without them their measures are missing.
-    pub fn more_measures(
-        &self,
-        structure: Option<&Structure>,
-        supply: Option<&Supply>,
-    ) -> Measures {
-        let mut list = List::new(self.blade.area());
-        let rows = self.by_order();
-        let sum = |value: fn(&OrderRow) -> f64| {
-            let sum: f64 = rows.iter().map(value).sum();
-            self.known.radii.then_some(sum)
-        };
-        let volume = sum(|row| row.volume_mm3);
-        list.number("vein_surface_mm2", sum(|row| row.surface_mm2));
-        list.number("vein_volume_mm3", volume);
-        let per_area = volume
-            .zip(self.blade.area())
-            .map(|(volume, area)| volume / area);
-        list.number("vein_volume_per_area_mm", per_area);
-        let tree = self.known.radii.then(|| nesting::nesting(&self.found));
-        list.number(
-            "loop_tree_asymmetry",
-            tree.as_ref().and_then(|tree| tree.asymmetry),
-        );
-        list.count_or_none("loop_tree_depth", tree.map(|tree| tree.depth as usize));
-        list.count_or_none("centroid_count", structure.map(|found| found.count));
-        list.number(
-            "structure_factor_low",
-            structure.and_then(|found| found.low),
-        );
-        let exponent = structure.and_then(|found| found.exponent);
-        list.number("hyperuniformity_exponent", exponent.map(|pair| pair.0));
-        list.number(
-            "hyperuniformity_exponent_error",
-            exponent.map(|pair| pair.1),
-        );
-        list.supply(supply);
-        list.measures()
     }
 
     /// What the veins of each order cost; without known orders all stand in one row of order 0.

@@ -24,9 +24,9 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use self::condensed::{Stretches, System};
-use super::Subject;
 use super::bridges;
 use super::laplacian::{Factored, Pipe};
+use super::subject::Subject;
 
 /// Viscosity of water at 20 °C, 1.0016 mPa s (\[huber2009\]), in megapascal seconds: lengths in mm then give
 /// conductances in mm³ s⁻¹ MPa⁻¹.

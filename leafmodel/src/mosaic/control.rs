@@ -9,13 +9,9 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 pub use self::image::{ControlImage, Pixels};
-use crate::document::declared::{Declared, Words};
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
-use crate::document::ranges::RangeError;
 use crate::document::sections::Names;
-use crate::document::value_kind::{Number, Text, Word};
 use crate::document::values::text_at;
+use crate::document::{Declared, Keys, Limits, Number, RangeError, Text, Word, Words};
 use crate::not_grown::{NotGrown, not_grown};
 
 const FACTOR: Number = Number(Limits::closed(0.0, 1000.0));

@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
+use crate::document::{Declared, Keys};
 
 /// How the surface grows.
 ///

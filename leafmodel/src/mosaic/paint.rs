@@ -12,7 +12,7 @@
 //! - **Left out**: any mixing other than linear in contents per area. Linear mixing holds for
 //!   pigments of neighbouring cells in one light path.
 
-mod sheet;
+pub mod sheet;
 #[cfg(test)]
 mod tests;
 
@@ -22,7 +22,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::DVec2;
 use rayon::prelude::*;
 
-pub use self::sheet::SheetField;
 use super::control::{Controls, CylinderControl};
 use super::patch::PatchFinder;
 use super::simulation::Mosaic;

@@ -2,17 +2,19 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use super::control::Controls;
-use super::paint::{SheetField, TypeField};
+use super::paint::TypeField;
+use super::paint::sheet::SheetField;
 use super::shapes::sheet;
 use super::types::types;
 use super::{CylinderControl, Mosaic, MosaicPlan, Surface};
-use crate::document::declared::{Declared, Words};
-use crate::document::keys::{Keys, NamedList};
+use crate::document::{Declared, Keys, NamedList, Words};
+use crate::grow_options::GrowOptions;
 use crate::not_grown::{NotGrown, not_grown};
 use crate::optics::Contents;
 use crate::shape::outline::Outline;
-use glam::DVec2;
 
 /// Edge of a mosaic's triangles over the distance between cells at the start.
 const EDGE_OVER_SPACING: f64 = 1.0;
@@ -145,18 +147,18 @@ impl MosaicPattern {
     ///
     /// # Errors
     ///
-    /// [`NotGrown`]; [`NotGrown`] when `is_stopped` returns true.
+    /// [`NotGrown`], also where growth is stopped.
     pub fn grow(
         &self,
         surface: &Surface,
         seed: u64,
-        is_stopped: &dyn Fn() -> bool,
+        options: GrowOptions<'_>,
     ) -> Result<(Mosaic, TypeField), NotGrown> {
         self.validate()?;
         let days = [self.plan.days];
         let faces = surface.faces().len();
         check_fineness(faces, self.plan.most_cells())?;
-        let mosaic = Mosaic::grow_until(surface, &self.plan, seed, &days, is_stopped)?.remove(0);
+        let mosaic = options.mosaics(surface, &self.plan, seed, &days)?.remove(0);
         check_fineness(faces, mosaic.cells.len())?;
         let field = self.field(&mosaic, self.blend_mm)?;
         Ok((mosaic, field))
@@ -181,7 +183,7 @@ impl MosaicPattern {
         &self,
         outline: &Outline,
         seed: u64,
-        is_stopped: &dyn Fn() -> bool,
+        options: GrowOptions<'_>,
     ) -> Result<LaminaPattern, NotGrown> {
         self.validate()?;
         let both = self.faces == LeafFaces::Both;
@@ -193,7 +195,7 @@ impl MosaicPattern {
         } else {
             one
         };
-        let (mosaic, field) = self.grow(&surface, seed, is_stopped)?;
+        let (mosaic, field) = self.grow(&surface, seed, options)?;
         Ok(LaminaPattern {
             sheet: SheetField::new(&mosaic.surface, field, both),
             contents: self.contents.clone(),
@@ -246,7 +248,7 @@ mod tests {
             blend_mm: 0.0,
             faces: LeafFaces::Both,
         };
-        let grown = pattern.on_lamina(&outline, 3, &|| false);
+        let grown = pattern.on_lamina(&outline, 3, GrowOptions::default());
         let lamina = grown.expect("a good plan");
         let mut weights = Vec::new();
         let mut seen = [0.0_f64; 3];

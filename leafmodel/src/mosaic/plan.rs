@@ -1,16 +1,15 @@
 //! The plan of a clonal mosaic.
 
 use super::control::{CylinderControl, Steered};
+use crate::grow_options::MOST_CELLS;
 use crate::not_grown::{NotGrown, not_grown};
 
 use super::growth::SurfaceGrowth;
-use crate::document::declared::{Declared, Words};
-use crate::document::ranges::RangeError;
+use crate::document::{Declared, RangeError, Words};
 
 /// Tolerance on sums of probabilities.
 const TOLERANCE: f64 = 1e-6;
 /// Greatest number of cells.
-pub(super) const MOST_CELLS: usize = 4_000_000;
 /// Expected number of cells over the greatest one at which a plan is refused beforehand, since the
 /// actual number may be smaller.
 const OVERCROWDED: f64 = 4.0;

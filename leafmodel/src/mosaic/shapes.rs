@@ -7,16 +7,15 @@
 //!   everywhere, without crowding at poles.
 //! - **Left out**: whether a profile given by the user crosses itself.
 
-mod lathe;
+pub mod lathe;
 
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
-use crate::blade::{BladeError, even_sheet};
-use crate::document::ranges::RangeError;
+use crate::blade::error::BladeError;
+use crate::blade::sheet::even_sheet;
+use crate::document::RangeError;
 use crate::shape::outline::Outline;
-
-pub use lathe::lathe;
 
 /// Most triangles of one shape.
 const MOST_TRIANGLES: f64 = 4e6;

@@ -12,10 +12,12 @@ use self::regions::Regions;
 use super::control::Controls;
 use super::division::{child_id, chosen, days_to_division, kind_of_child, place_of_child};
 use super::live::Live;
-use super::plan::{MOST_CELLS, MosaicPlan, RadiusRule};
+use super::plan::{MosaicPlan, RadiusRule};
 use super::relaxation::{Bonds, Relaxation, free_walk};
-use super::surface::{Ancestry, Surface, SurfacePoint};
-use crate::document::ranges::RangeError;
+use super::surface::subdivide::Ancestry;
+use super::surface::{Surface, SurfacePoint};
+use crate::document::RangeError;
+use crate::grow_options::GrowOptions;
 use crate::not_grown::{NotGrown, not_grown};
 use crate::random::{Use, bits, uniform};
 
@@ -65,60 +67,8 @@ impl Mosaic {
     ///
     /// [`NotGrown`], if the plan is not valid or there are too many cells.
     pub fn grow(surface: &Surface, plan: &MosaicPlan, seed: u64) -> Result<Self, NotGrown> {
-        let mut mosaics = Self::grow_until(surface, plan, seed, &[plan.days], &|| false)?;
+        let mut mosaics = GrowOptions::default().mosaics(surface, plan, seed, &[plan.days])?;
         Ok(mosaics.remove(0))
-    }
-
-    /// The same mosaic at several times of one run, in the order of `days` (each from 0 to the
-    /// plan's days); stops when `is_stopped`, which is called at each relaxation event, returns
-    /// true.
-    ///
-    /// The same surface, plan and seed give the same bits, on any number of threads and whatever
-    /// other days are asked for.
-    ///
-    /// # Errors
-    ///
-    /// As [`Mosaic::grow`]; [`NotGrown`] for a day outside the plan's;
-    /// [`NotGrown`].
-    pub fn grow_until(
-        surface: &Surface,
-        plan: &MosaicPlan,
-        seed: u64,
-        days: &[f64],
-        is_stopped: &dyn Fn() -> bool,
-    ) -> Result<Vec<Self>, NotGrown> {
-        Self::grow_to(surface, plan, seed, days, MOST_CELLS, is_stopped)
-    }
-
-    /// [`Mosaic::grow_until`] with another limit to the number of cells.
-    fn grow_to(
-        surface: &Surface,
-        plan: &MosaicPlan,
-        seed: u64,
-        days: &[f64],
-        most_cells: usize,
-        is_stopped: &dyn Fn() -> bool,
-    ) -> Result<Vec<Self>, NotGrown> {
-        plan.validate()?;
-        for &day in days {
-            let good = (0.0..=plan.days).contains(&day);
-            RangeError::unless(good, "day of a stage", day, "0 to the days of the plan")?;
-        }
-        let event = |day: f64| (day * f64::from(plan.relaxations_per_day)).round() as u64;
-        let mut order: Vec<usize> = (0..days.len()).collect();
-        order.sort_by(|&a, &b| days[a].total_cmp(&days[b]));
-        let mut run = Run::start(surface, plan, seed, is_stopped)?;
-        let mut grown: Vec<Option<Self>> = days.iter().map(|_| None).collect();
-        for stage in order {
-            while run.event < event(days[stage]) {
-                if is_stopped() {
-                    return Err(NotGrown::because("stopped"));
-                }
-                run.next_event(most_cells)?;
-            }
-            grown[stage] = Some(run.mosaic(days[stage])?);
-        }
-        Ok(grown.into_iter().flatten().collect())
     }
 
     /// Places of the cells in space, mm.
@@ -128,6 +78,46 @@ impl Mosaic {
             .iter()
             .map(|cell| self.surface.position(&cell.at));
         places.collect()
+    }
+}
+
+impl GrowOptions<'_> {
+    /// A mosaic at several times of one run, in the order of `days` (each from 0 to the plan's
+    /// days).
+    ///
+    /// The same surface, plan and seed give the same bits, on any number of threads and whatever
+    /// other days are asked for.
+    ///
+    /// # Errors
+    ///
+    /// As [`Mosaic::grow`]; [`NotGrown`] for a day outside the plan's, and where growth is stopped.
+    pub fn mosaics(
+        self,
+        surface: &Surface,
+        plan: &MosaicPlan,
+        seed: u64,
+        days: &[f64],
+    ) -> Result<Vec<Mosaic>, NotGrown> {
+        plan.validate()?;
+        for &day in days {
+            let good = (0.0..=plan.days).contains(&day);
+            RangeError::unless(good, "day of a stage", day, "0 to the days of the plan")?;
+        }
+        let event = |day: f64| (day * f64::from(plan.relaxations_per_day)).round() as u64;
+        let mut order: Vec<usize> = (0..days.len()).collect();
+        order.sort_by(|&a, &b| days[a].total_cmp(&days[b]));
+        let mut run = Run::start(surface, plan, seed, self.is_stopped)?;
+        let mut grown: Vec<Option<Mosaic>> = days.iter().map(|_| None).collect();
+        for stage in order {
+            while run.event < event(days[stage]) {
+                if (self.is_stopped)() {
+                    return Err(NotGrown::stopped("stopped"));
+                }
+                run.next_event(self.most_cells)?;
+            }
+            grown[stage] = Some(run.mosaic(days[stage])?);
+        }
+        Ok(grown.into_iter().flatten().collect())
     }
 }
 
@@ -189,7 +179,7 @@ impl<'a> Run<'a> {
         let uniform = vec![vec![0.0; plan.types.len()]; plan.types.len()];
         for _ in 0..plan.initial_relaxations {
             if is_stopped() {
-                return Err(NotGrown::because("stopped"));
+                return Err(NotGrown::stopped("stopped"));
             }
             // Without adhesion its controls have no effect, but blocked areas stay blocked.
             run.relax(&uniform, plan.initial_step);

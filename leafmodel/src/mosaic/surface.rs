@@ -9,18 +9,16 @@
 
 mod adjacency;
 mod doubled;
-mod subdivide;
+pub mod subdivide;
 #[cfg(test)]
 mod tests;
 
-use crate::not_grown::{NotGrown, not_grown};
-use crate::random::{Use, uniform};
 use glam::{DVec2, DVec3};
 
-pub use self::subdivide::Ancestry;
+use crate::not_grown::{NotGrown, not_grown};
+use crate::random::{Use, uniform};
 
-/// Marks the missing neighbour at a margin.
-const NONE: u32 = u32::MAX;
+use self::adjacency::NONE;
 
 /// Least area of a face as a share of the square of its longest edge; smaller faces have no
 /// well-defined plane.

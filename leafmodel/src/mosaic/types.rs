@@ -1,13 +1,9 @@
 //! `mosaic.types`: types of cells as a file says them, by name.
 
 use super::plan::CellType;
-use crate::document::declared::Declared;
-use crate::document::error::DocumentError;
-use crate::document::keys::{Keys, NamedList};
-use crate::document::limits::Limits;
 use crate::document::sections::Names;
-use crate::document::value_kind::{MapOf, Number};
 use crate::document::values::rounded;
+use crate::document::{Declared, DocumentError, Keys, Limits, MapOf, NamedList, Number};
 use crate::optics::Contents;
 use crate::optics::contents_keys::changed_contents;
 

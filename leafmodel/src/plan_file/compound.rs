@@ -1,7 +1,7 @@
 //! How to mend leaflets that are in each other's way.
 
 use crate::compound::{Arrangement, CompoundError};
-use crate::document::keys::Keys;
+use crate::document::Keys;
 use crate::leaf::LeafPlan;
 
 /// Reports leaflets that are in each other's way, at the key to change; `keys` are the leaf's.

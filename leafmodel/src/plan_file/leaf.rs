@@ -1,14 +1,12 @@
 //! A leaf: the keys of a plan, and what belongs together in them.
 
-use super::{compound, venation};
+use super::compound;
 use crate::blade::senescence::AgeSource;
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
+use crate::document::{Declared, Keys};
 use crate::leaf::LeafPlan;
-use crate::leaf::outline_plan::Contour;
-use crate::leaf::venation_plan::VenationPlan;
 use crate::optics::Contents;
-use crate::optics::contents_keys::NEVER_TOGETHER;
+use crate::optics::contents_keys::{NEVER_TOGETHER, refuse_unknown_absorption};
+use crate::shape::outline::Outline;
 
 /// The keys of a leaf, and what belongs together in them.
 pub fn leaf(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
@@ -18,7 +16,7 @@ pub fn leaf(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
         .then(|| plan.outline.grow(1.0, plan.seed));
     let tried = tried.and_then(|tried| tried.map_err(|error| error.report(keys)).ok());
     if keys.is_whole("venation") {
-        venation::check(plan, tried.as_ref(), keys);
+        check_veins(plan, tried.as_ref(), keys);
     }
     check(plan, keys);
 }
@@ -27,7 +25,7 @@ pub fn leaf(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
 pub(super) fn leaf_of_preset(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
     plan.declare(keys);
     if keys.is_whole("venation") {
-        venation::check(plan, None, keys);
+        check_veins(plan, None, keys);
     }
     check(plan, keys);
 }
@@ -40,16 +38,21 @@ pub(super) fn veins_alone(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
     leaf(plan, keys);
 }
 
+/// Checks veins that each of their numbers allows; `outline` is what the plan's has grown to, if it was tried.
+fn check_veins(plan: &LeafPlan, outline: Option<&Outline>, keys: &Keys<'_>) {
+    if let Err(error) = plan.venation.check(&plan.outline, outline) {
+        error.report(keys);
+    }
+}
+
 /// Reports what is allowed one by one and not together.
 fn check(plan: &LeafPlan, keys: &Keys<'_>) {
     if !keys.is_sound() {
         return;
     }
-    let earns = matches!(plan.outline.contour, Contour::Transport(_))
-        || matches!(plan.venation, VenationPlan::Transport(_));
     if let Some(senescence) = &plan.senescence
         && senescence.needs_cells()
-        && !earns
+        && !plan.has_cells()
     {
         let path: &[&str] = match senescence.source {
             AgeSource::Revenue { .. } => &["senescence", "revenue_share"],
@@ -60,6 +63,7 @@ fn check(plan: &LeafPlan, keys: &Keys<'_>) {
         keys.refuse(path, problem.to_owned(), help);
     }
     compound::check(plan, keys);
+    refuse_unknown_absorption(&plan.pigments, &plan.tissue.lamina, keys);
     let lamina = &plan.tissue.lamina;
     let dead = plan
         .senescence

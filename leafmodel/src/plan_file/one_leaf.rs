@@ -7,16 +7,14 @@ use thiserror::Error;
 use super::{leaf_to_toml, plans, plans_of_veins, schema, whole_leaf};
 use crate::document::assets::Assets;
 use crate::document::context::{Context, KnownKey, QUOTED};
-use crate::document::keys::Keys;
 use crate::document::names::Named;
 use crate::document::nearest::nearest;
-use crate::document::opened::Opened;
 use crate::document::overrides;
 use crate::document::reader::Block;
 use crate::document::report::{DocumentErrors, Warning};
 use crate::document::source::{Place, Sources, escaped};
-use crate::document::tree::Table;
 use crate::document::written::Extent;
+use crate::document::{Keys, Opened, Table};
 use crate::leaf::LeafPlan;
 use crate::species;
 

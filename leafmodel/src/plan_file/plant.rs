@@ -1,8 +1,7 @@
 //! The keys of a plant, and its presets.
 
 use super::presets::Chosen;
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
+use crate::document::{Declared, Keys};
 use crate::plant::presets::PRESETS;
 use crate::plant::{PlantError, PlantPlan};
 

@@ -2,14 +2,11 @@
 
 use super::leaf::leaf_of_preset;
 use crate::document::context::{Context, QUOTED};
-use crate::document::error::DocumentError;
-use crate::document::keys::Keys;
 use crate::document::nearest::meant;
 use crate::document::schema::Type;
 use crate::document::source::escaped;
-use crate::document::tree::{Node, Value};
-use crate::document::value_kind::{Integer, Kind};
 use crate::document::values::{listed, text_at};
+use crate::document::{DocumentError, Integer, Keys, Kind, Node, Value};
 use crate::leaf::LeafPlan;
 use crate::optics::{Contents, presets};
 use crate::species::{self, BLOCKS, Preset};

@@ -6,8 +6,9 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::plan::PlantPlan;
 use super::posture::LEAST_AWAY;
-use super::{BorneLeaf, Foot, PlantPlan};
+use super::{BorneLeaf, Foot};
 use crate::random::{Use, bell};
 use crate::rotation::about;
 use crate::shell::{Extent, cross, each_near, sweep};
@@ -249,7 +250,7 @@ mod tests {
         let leaf = species::find(leaf).expect("a preset").plan();
         let feet = (0..4_u64).map(|number| Foot::of(&leaf.individual(None, number)));
         let feet: Vec<Foot> = feet.collect::<Result<_, _>>().expect("it is borne");
-        let plant = Plant::grow(&plan, std::slice::from_ref(&feet)).expect("a good plan");
+        let plant = Plant::grow(&plan, std::slice::from_ref(&feet), None).expect("a good plan");
         let bodies: Vec<Body> = plant
             .leaves
             .iter()
@@ -336,7 +337,7 @@ mod tests {
         let foot = Foot::of(&leaf).expect("it is borne");
         let [turned, stayed] = [24, 0].map(|evasions| {
             plan.evasions = evasions;
-            let plant = Plant::grow(&plan, &[vec![foot.clone()]]);
+            let plant = Plant::grow(&plan, &[vec![foot.clone()]], None);
             plant.expect("a good plan").leaves
         });
         assert_eq!((turned.len(), stayed.len()), (12_000, 12_000));

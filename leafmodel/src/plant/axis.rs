@@ -2,8 +2,11 @@
 
 use glam::{DQuat, DVec3};
 
+use crate::plant::turned::level;
+
 use super::climbing::Wall;
-use super::{AxisPlan, PlantError};
+use super::error::PlantError;
+use super::plan::AxisPlan;
 use crate::plane::polyline;
 use crate::random::{Use, bell};
 use crate::rotation::about;
@@ -254,15 +257,6 @@ fn on(ways: &[f64], points: &[DVec3], way: f64) -> DVec3 {
         0.0
     };
     points[after - 1].lerp(points[after], share)
-}
-
-/// A level direction at right angles to another; of an upright one, +x.
-pub(super) fn level(along: DVec3) -> DVec3 {
-    let level = along.cross(DVec3::Z);
-    if level.length() < 1e-6 {
-        return (DVec3::X - along * along.x).normalize();
-    }
-    level.normalize()
 }
 
 /// A direction at right angles to `from`, carried along as that turns to `to`.

@@ -11,8 +11,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
+use crate::document::{Declared, Keys};
 use crate::numeric::{between, smooth_step};
 use crate::random::{Use, uniform};
 

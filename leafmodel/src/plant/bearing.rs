@@ -6,12 +6,11 @@ use super::apart::{Standing, Wood, keep_apart};
 use super::axis::{Axis, Node, Start};
 use super::bark::AxisRelief;
 use super::climbing::Wall;
+use super::error::{MOST_LEAVES, MOST_VERTICES, PlantError};
+use super::plan::{AxisPlan, Branching, Buds, Phyllotaxis, PlantPlan};
 use super::posture::Stand;
 use super::stems::stem_of;
-use super::{
-    AxisPlan, BorneLeaf, Branching, Buds, FlowerPlan, Foot, MOST_LEAVES, MOST_VERTICES, Organ,
-    Phyllotaxis, Plant, PlantError, PlantPlan,
-};
+use super::{BorneLeaf, FlowerPlan, Foot, Organ, Plant};
 use crate::blade::stalk::StalkMesh;
 use crate::plane::polyline;
 use crate::random::{Use, uniform};
@@ -319,7 +318,7 @@ impl Builder<'_> {
             &[node.at, node.at.lerp(end, 0.5), end],
             &[radius, 0.9 * radius, radius],
         )?;
-        let reference = super::axis::level(along);
+        let reference = super::turned::level(along);
         let count = posture.cluster;
         for number in 0..count {
             let share = f64::from(number) / f64::from(count - 1).max(1.0);

@@ -2,8 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
+use crate::document::{Declared, Keys};
 use crate::plane::bounds;
 use crate::rotation::about;
 

@@ -7,11 +7,11 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-use super::StalkError;
-use super::axis::level;
+use super::turned::level;
 use super::turned::ribbed;
+use crate::blade::stalk::StalkError;
 use crate::blade::stalk::StalkMesh;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::random::{Use, bell};
 use crate::rotation::about;
 

@@ -2,7 +2,8 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{Foot, Posture};
+use super::Foot;
+use super::plan::Posture;
 use crate::random::{Use, bell};
 use crate::rotation::about;
 

@@ -9,7 +9,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::turned::turned;
 use crate::blade::stalk::StalkMesh;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::random::{Use, bell, uniform};
 
 /// The numbers of a pot.

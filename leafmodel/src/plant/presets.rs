@@ -9,7 +9,7 @@ mod whole;
 
 use glam::DVec3;
 
-use super::{AxisPlan, Branching, Phyllotaxis, PlantPlan, Posture, Stems};
+use super::plan::{AxisPlan, Branching, Phyllotaxis, PlantPlan, Posture, Stems};
 
 /// A bough by name.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::climbing::Wall;
-use super::{AxisPlan, Phyllotaxis, PlantPlan};
+use super::plan::{AxisPlan, Phyllotaxis, PlantPlan};
 use crate::random::{Use, uniform};
 use crate::rotation::about;
 

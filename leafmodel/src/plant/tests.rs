@@ -31,7 +31,7 @@ fn shoot(phyllotaxis: Phyllotaxis) -> PlantPlan {
 
 fn grown(plan: &PlantPlan) -> Plant {
     let feet = vec![vec![SESSILE; plan.individuals as usize]];
-    Plant::grow(plan, &feet).expect("a good plan")
+    Plant::grow(plan, &feet, None).expect("a good plan")
 }
 
 /// The angle about the axis at which a leaf stands.
@@ -97,7 +97,7 @@ fn feet_of_petioles_stand_within_the_axis_whatever_the_leaf() {
             let feet: Vec<Foot> = feet.collect::<Result<_, _>>().expect("they are borne");
             // A flower has sepals and petals besides.
             let kinds = if plan.flower.is_some() { 3 } else { 1 };
-            let plant = Plant::grow(&plan, &vec![feet.clone(); kinds]).expect("a good plan");
+            let plant = Plant::grow(&plan, &vec![feet.clone(); kinds], None).expect("a good plan");
             assert_eq!(plant.axes.validate(), Ok(()), "{}", preset.name);
             assert!(plant.leaves.len() >= 9, "{}", preset.name);
             for leaf in &plant.leaves {
@@ -126,7 +126,7 @@ fn blades_turn_to_the_light_as_far_as_they_may() {
         plan.evasions = 0;
         let leaf = species::find("maple").expect("a preset").plan();
         let feet = vec![Foot::of(&leaf).expect("it is borne"); 2];
-        let plant = Plant::grow(&plan, &[feet]).expect("a good plan");
+        let plant = Plant::grow(&plan, &[feet], None).expect("a good plan");
         let cosines = plant
             .leaves
             .iter()
@@ -195,7 +195,7 @@ fn short_shoots_bear_clusters() {
 fn neighbours_are_different_individuals_and_kinds_go_from_foot_to_tip() {
     let plan = shoot(Phyllotaxis::SPIRAL);
     let feet = vec![vec![SESSILE; 6]; 3];
-    let plant = Plant::grow(&plan, &feet).expect("a good plan");
+    let plant = Plant::grow(&plan, &feet, None).expect("a good plan");
     for pair in plant.leaves.windows(2) {
         assert!(pair[0].individual != pair[1].individual || pair[0].kind != pair[1].kind);
         assert!(pair[0].kind <= pair[1].kind);
@@ -245,6 +245,7 @@ fn an_axis_that_bends_too_sharply_is_reported() {
                 ..plan.clone()
             },
             &feet,
+            None,
         );
         assert!(matches!(grown, Ok(_) | Err(PlantError::Bent(_))));
         bent += u32::from(grown.is_err());
@@ -289,8 +290,8 @@ fn what_no_plant_bears_and_what_has_no_room_is_refused() {
         ..Branching::USUAL
     });
     let feet = vec![vec![SESSILE]];
-    assert_eq!(Plant::grow(&plan, &feet), Err(PlantError::TooLarge));
-    assert_eq!(Plant::grow(&plan, &[]), Err(PlantError::NoLeaf));
+    assert_eq!(Plant::grow(&plan, &feet, None), Err(PlantError::TooLarge));
+    assert_eq!(Plant::grow(&plan, &[], None), Err(PlantError::NoLeaf));
 }
 
 #[test]

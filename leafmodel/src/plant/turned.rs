@@ -122,3 +122,12 @@ pub(super) fn ribbed(
     }
     body
 }
+
+/// A level direction at right angles to another; of an upright one, +x.
+pub(crate) fn level(along: DVec3) -> DVec3 {
+    let level = along.cross(DVec3::Z);
+    if level.length() < 1e-6 {
+        return (DVec3::X - along * along.x).normalize();
+    }
+    level.normalize()
+}

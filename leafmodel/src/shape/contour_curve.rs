@@ -15,16 +15,11 @@ use thiserror::Error;
 use super::cubic::{Cubic, FLATNESS};
 use super::outline::{Outline, OutlineError};
 use crate::document::context::{Context, QUOTED};
-use crate::document::declared::Declared;
-use crate::document::error::DocumentError;
-use crate::document::limits::Limits;
 use crate::document::nearest::nearest;
-use crate::document::ranges::RangeError;
 use crate::document::schema::Type;
 use crate::document::source::escaped;
-use crate::document::tree::{Node, Value};
-use crate::document::value_kind::{Kind, ListOf};
 use crate::document::values::{list, number, number_at, text_at, wrong_length, wrong_type};
+use crate::document::{Declared, DocumentError, Kind, Limits, ListOf, Node, RangeError, Value};
 
 /// A point that the contour passes through.
 #[derive(Clone, Copy, Debug, PartialEq)]

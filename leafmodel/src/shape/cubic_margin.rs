@@ -12,8 +12,7 @@ use thiserror::Error;
 
 use super::cubic::{Cubic, FLATNESS};
 use super::outline::{Outline, OutlineError};
-use crate::document::declared::Declared;
-use crate::document::ranges::RangeError;
+use crate::document::{Declared, RangeError};
 
 /// One side as a cubic Bézier spline from base to tip; the other is its mirror image. Lengths are
 /// in units of the leaf's length; the letters are the article's.

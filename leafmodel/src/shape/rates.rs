@@ -1,12 +1,8 @@
 //! Growth functions: `[[place, rate], …]`.
 
-use crate::document::context::Context;
-use crate::document::error::DocumentError;
-use crate::document::limits::Limits;
 use crate::document::schema::Type;
-use crate::document::tree::{Node, Value};
-use crate::document::value_kind::Kind;
 use crate::document::values::{list, number, number_at, wrong_length, wrong_type};
+use crate::document::{Context, DocumentError, Kind, Limits, Node, Value};
 use crate::shape::growth::RateCurve;
 
 /// A rate over a place from 0 to 1.

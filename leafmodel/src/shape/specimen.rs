@@ -20,7 +20,7 @@ pub use self::ends::{ApexShape, BaseShape};
 use super::outline::Outline;
 use super::teeth::LobeTips;
 use super::tips::Tip;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::not_grown::{NotGrown, not_grown};
 use crate::plane::polygon;
 

@@ -18,15 +18,12 @@ use super::cubic::FLATNESS;
 use super::drawing::{self, BadAttribute, Drawing, Shape};
 use super::outline::{Outline, OutlineError};
 use crate::document::context::{Context, QUOTED};
-use crate::document::declared::Declared;
 use crate::document::encoding::decoded;
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
 use crate::document::named_asset::bad_file;
 use crate::document::path::{Wanted, resolve};
 use crate::document::source::{Place, escaped};
-use crate::document::value_kind::{Numbers, Text};
 use crate::document::values::text_at;
+use crate::document::{Declared, Keys, Limits, Numbers, Text};
 use crate::not_grown::{NotGrown, not_grown};
 
 /// Greatest number of corners of a polygon.

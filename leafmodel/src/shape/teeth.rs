@@ -21,8 +21,7 @@ use self::layout::Layout;
 pub use self::wave::{ToothForm, ToothWave};
 use super::outline::{Outline, OutlineError};
 use super::tips::{Tip, lobe_corners, with_tips};
-use crate::document::declared::Declared;
-use crate::document::ranges::RangeError;
+use crate::document::{Declared, RangeError};
 use crate::plane::polygon::{self, Place};
 use crate::plane::polyline;
 

@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::optics::contents_keys::changed_contents;
 use crate::optics::{Constituent, Contents};
 

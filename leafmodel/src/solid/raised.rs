@@ -8,10 +8,7 @@
 
 use glam::DVec3;
 
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
-use crate::document::value_kind::{MapOf, Number};
+use crate::document::{Declared, Keys, Limits, MapOf, Number};
 use crate::mosaic::paint::TypeField;
 use crate::mosaic::{Ancestry, Surface, SurfacePoint};
 use crate::not_grown::{NotGrown, not_grown};

@@ -2,19 +2,16 @@
 
 use std::sync::Arc;
 
+use crate::mosaic::shapes::lathe::lathe;
+
 use glam::{DVec2, DVec3};
 
 use crate::buckets::Buckets;
 use crate::document::assets::Triangles;
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
 use crate::document::named_asset::decoded;
-use crate::document::value_kind::{ListOf, Number, Numbers, Text};
+use crate::document::{Declared, Keys, Limits, ListOf, Number, Numbers, Text};
 use crate::mosaic::Surface;
-use crate::mosaic::shapes::{
-    Shape, ShapeError, ellipsoid, ellipsoid_triangles, lathe, rounded_cube,
-};
+use crate::mosaic::shapes::{Shape, ShapeError, ellipsoid, ellipsoid_triangles, rounded_cube};
 
 /// The shape of a body.
 #[derive(Clone, Debug, Declared, PartialEq)]

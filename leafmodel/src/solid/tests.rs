@@ -2,6 +2,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::*;
+use crate::grow_options::GrowOptions;
 use crate::mosaic::plan::{CellType, MosaicPlan};
 use crate::mosaic::shapes::ellipsoid;
 use crate::mosaic::shapes::rounded_cube;
@@ -84,7 +85,7 @@ fn bodies() -> Vec<Solid> {
 }
 
 fn grow(plan: &SolidPlan) -> Solid {
-    Solid::grow(plan, &|| false).expect("a good plan")
+    Solid::grow(plan).expect("a good plan")
 }
 
 /// The chlorophyll at texture coordinates: bilinear between texel centres, clamped.
@@ -302,16 +303,17 @@ fn a_body_has_the_same_bits_on_any_number_of_threads() {
 #[test]
 fn growth_stops_when_asked_and_says_so() {
     let plan = plan(closed_shapes().remove(0), Some(pattern(1.0)));
-    let stopped = Solid::grow(&plan, &|| true).expect_err("it was stopped");
+    let stopped = GrowOptions::stopped_by(&|| true)
+        .solid(&plan)
+        .expect_err("it was stopped");
+    assert!(stopped.is_stop());
     assert_eq!(stopped.to_string(), "mosaic: stopped");
 }
 
 #[test]
 fn what_is_too_slender_for_triangles_is_refused_in_words_of_the_plan() {
     let semi_axes_mm = DVec3::new(1e5, 0.01, 0.01);
-    let refused = Solid::grow(&plan(SolidShape::Ellipsoid { semi_axes_mm }, None), &|| {
-        false
-    });
+    let refused = Solid::grow(&plan(SolidShape::Ellipsoid { semi_axes_mm }, None));
     let refused = refused.expect_err("it is refused");
     assert!(refused.to_string().contains("less slender"), "{refused}");
 }
@@ -343,7 +345,7 @@ fn a_body_so_slender_that_its_cells_are_searched_for_minutes_is_refused_before()
     };
     grow(&needle(1e3));
     // What it takes to refuse it is to cut it: no cell has been placed.
-    let refused = Solid::grow(&needle(1e5), &|| panic!("cells grow already"));
+    let refused = GrowOptions::stopped_by(&|| panic!("cells grow already")).solid(&needle(1e5));
     let error = refused.expect_err("it takes minutes").to_string();
     let expected = "mosaic: the surface has 177148 triangles for ";
     assert!(error.starts_with(expected), "{error}");
@@ -380,7 +382,7 @@ fn a_profile_too_crumpled_to_be_measured_is_refused_in_words_of_the_plan() {
         DVec2::new(radius, 0.01 * f64::from(i))
     });
     let profile_mm = points.collect();
-    let refused = Solid::grow(&plan(SolidShape::Lathe { profile_mm }, None), &|| false);
+    let refused = Solid::grow(&plan(SolidShape::Lathe { profile_mm }, None));
     let refused = refused.expect_err("it is refused");
     assert!(refused.to_string().contains("less slender"), "{refused}");
 }

@@ -8,7 +8,7 @@ use crate::measure::{Measures, measure};
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 use crate::venation::plan::{AuxinPlan, Pattern};
-use crate::venation::{Stage, grow_stages};
+use crate::venation::{Stage, VeinGrowth};
 
 mod architecture;
 mod beyond;
@@ -89,7 +89,9 @@ impl Grown {
     }
 
     fn stages(&self, steps: &[u32]) -> Vec<Stage> {
-        grow_stages(&self.outline, self.auxin(), None, self.plan.seed, steps).expect("a good plan")
+        VeinGrowth::new(&self.outline, self.auxin(), self.plan.seed)
+            .stages(steps)
+            .expect("a good plan")
     }
 }
 

@@ -3,14 +3,10 @@
 use std::path::Path;
 
 use super::{BASES, PRESETS, Preset};
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
-use crate::document::opened::Opened;
 use crate::document::reader::Block;
 use crate::document::schema::BlockSchema;
 use crate::document::source::Place;
-use crate::document::tree::Table;
-use crate::document::value_kind::{ListOf, Number, Text};
+use crate::document::{Keys, Limits, ListOf, Number, Opened, Table, Text};
 
 /// The blocks of a file.
 pub(crate) const BLOCKS: [&str; 6] = ["sources", "traits", "tissues", "age", "counts", "leaf"];

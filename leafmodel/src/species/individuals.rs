@@ -10,7 +10,6 @@
 use super::traits::Traits;
 use super::{Preset, find};
 use crate::blade::senescence::AgeSource;
-use crate::blade::tissue::MOST_HELD;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::Contour;
 use crate::leaf::venation_plan::VenationPlan;
@@ -120,10 +119,14 @@ impl LeafPlan {
                     Constituent::Anthocyanins
                     | Constituent::Betacyanins
                     | Constituent::Betaxanthins => anthocyanins,
-                    Constituent::Water | Constituent::DryMatter => water,
-                    Constituent::Structure | Constituent::Brown => 1.0,
+                    Constituent::Water
+                    | Constituent::DryMatter
+                    | Constituent::Proteins
+                    | Constituent::CarbonBased => water,
+                    Constituent::Structure | Constituent::Brown | Constituent::Extra => 1.0,
                 };
-                *value = value.min(MOST_HELD);
+                let [_, most] = constituent.range();
+                *value = value.min(most);
             }
         };
         vary(&mut leaf.tissue.lamina);
@@ -270,7 +273,8 @@ mod tests {
     #[test]
     fn no_individual_holds_more_than_tissue_may() {
         let mut plan = find("birch").expect("a preset").plan();
-        plan.tissue.lamina[Constituent::Chlorophyll] = MOST_HELD;
+        let [_, most] = Constituent::Chlorophyll.range();
+        plan.tissue.lamina[Constituent::Chlorophyll] = most;
         for number in 1..=20 {
             let leaf = plan.individual(None, number);
             assert_eq!(leaf.tissue.validate(), Ok(()), "{number}");

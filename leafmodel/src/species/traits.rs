@@ -7,11 +7,9 @@
 //! - **Left out**: the form of the blade (fold, curl, ruffle, relief), which is all by eye.
 
 use super::file::{self, BLOCKS};
-use crate::document::keys::{Keys, NamedList};
-use crate::document::limits::Limits;
-use crate::document::opened::Opened;
-use crate::document::tree::{Table, Value};
-use crate::document::value_kind::{MapOf, Number, Numbers, Text};
+use crate::document::{
+    Keys, Limits, MapOf, NamedList, Number, Numbers, Opened, Table, Text, Value,
+};
 use crate::optics::Constituent;
 
 /// Where a number comes from.

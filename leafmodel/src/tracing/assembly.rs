@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec2;
 
-use super::Frame;
+use super::traced::Frame;
 use crate::buckets::Buckets;
 use crate::plane::polyline;
 use crate::venation::network::{self, NetworkError, VeinEdge, VeinNode, VenationNetwork};

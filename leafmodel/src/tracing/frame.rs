@@ -2,12 +2,16 @@
 
 use glam::DVec2;
 
+use crate::tracing::Frame;
+
 use super::assembly::{Vein, Veins, network, parts};
+use super::error::TraceError;
 use super::findings::{Finding, FindingKind};
 use super::grid::Mask;
 use super::lines::{BOUND, Lines};
 use super::margin::{boundary, simplified};
-use super::{Blade, Settings, TraceError, Traced};
+use super::settings::{Blade, Settings};
+use super::traced::Traced;
 use crate::plane::{polygon, polyline, segment};
 use crate::shape::outline::{Outline, OutlineError};
 
@@ -36,32 +40,6 @@ const FAR_OFF: f64 = 0.02;
 
 /// So many of the widest points of veins are looked at for the one that reaches the margin.
 const MOST_WIDE: usize = 10_000;
-
-/// How places of a picture become places of a leaf.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
-    /// The base, pixels from the upper left corner.
-    pub base_px: DVec2,
-    /// The direction from base to apex in the picture, y down; its length is 1.
-    pub axis: DVec2,
-    /// Side of a pixel, mm.
-    pub mm_per_pixel: f64,
-}
-
-impl Frame {
-    /// A place of the picture as a place of the leaf, mm.
-    pub fn to_mm(&self, place_px: DVec2) -> DVec2 {
-        let off = place_px - self.base_px;
-        // The picture's y points down: to the right of the axis is where the perpendicular leads.
-        DVec2::new(off.dot(self.axis.perp()), off.dot(self.axis)) * self.mm_per_pixel
-    }
-
-    /// A place of the leaf, mm, as a place of the picture.
-    pub fn to_px(&self, place_mm: DVec2) -> DVec2 {
-        let off = place_mm / self.mm_per_pixel;
-        self.base_px + self.axis.perp() * off.x + self.axis * off.y
-    }
-}
 
 /// Places margin and veins in the frame of the leaf. `joint` is the cell of the blade at which the
 /// petiole was.

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::TraceError;
+use super::error::TraceError;
 
 /// Grey values of a picture, by row from the top; 0 is black and 1 white.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
+use super::error::TraceError;
 use super::grid::{Mask, Raster};
-use super::{Ink, Settings, Threshold, TraceError};
+use super::settings::{Ink, Settings, Threshold};
 
 /// Number of bins of a histogram.
 const BINS: usize = 1024;

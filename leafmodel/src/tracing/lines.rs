@@ -4,13 +4,14 @@ use glam::DVec2;
 
 use super::assembly::{Vein, Veins};
 use super::curves::{cut, smooth};
+use super::error::TraceError;
 use super::findings::{Finding, FindingKind};
 use super::graph::Graph;
 use super::grid::Raster;
 use super::pruning::Pruning;
 use super::radii::measured;
+use super::settings::Settings;
 use super::through::straightened;
-use super::{Settings, TraceError};
 
 /// Greatest distance of a smooth line from the pieces that stand for it, pixels.
 pub(super) const BOUND: f64 = 0.25;

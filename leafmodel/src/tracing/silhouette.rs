@@ -4,9 +4,9 @@
 //! is a plane fitted to the frame, as light falls off to one side; pixels that lie off it by more
 //! than the frame's noise (a leaf that touches the frame) are left out of the fit.
 
-use super::TraceError;
 use super::components::{Joined, each_component, keep_largest};
 use super::distance::squared_distances;
+use super::error::TraceError;
 use super::grid::{Mask, Raster, beside};
 
 /// Number of robust standard deviations of the frame that are still background.

@@ -17,7 +17,7 @@ use super::leaf::TransportLeaf;
 use super::plan::{Ladder, TransportPlan};
 use super::vein_style::VeinStyle;
 use super::walls::Walls;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::not_grown::{NotGrown, not_grown};
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;

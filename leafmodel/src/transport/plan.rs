@@ -1,9 +1,6 @@
 //! The parameters of a transport leaf and their ranges.
 
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
-use crate::document::ranges::RangeError;
-use crate::document::value_kind::{Flag, Integer};
+use crate::document::{Declared, Flag, Integer, Keys, RangeError};
 use crate::not_grown::{NotGrown, not_grown};
 
 /// The steps in which the revenue `ε` rises (Definition 3.5 leaves them open).

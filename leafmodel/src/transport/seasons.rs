@@ -2,7 +2,7 @@
 //! \[xia2007\]).
 
 use super::leaf::TransportLeaf;
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 use crate::not_grown::NotGrown;
 
 impl TransportLeaf {

@@ -6,7 +6,7 @@ use super::blade::Frame;
 use super::contour::place;
 use super::leaf::TransportLeaf;
 use super::vein_style::VeinStyle;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::not_grown::NotGrown;
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinEdge, VeinNode, VenationNetwork};

@@ -1,6 +1,6 @@
 //! How the veins of a transport leaf are drawn.
 
-use crate::document::declared::Declared;
+use crate::document::Declared;
 /// How the veins are drawn from the numbers of cells that they supply.
 #[derive(Clone, Copy, Debug, Declared, PartialEq)]
 pub struct VeinStyle {

@@ -33,9 +33,7 @@ pub(crate) mod tertiaries;
 mod tests;
 
 pub use self::error::ArchitectureError;
-use crate::document::declared::{Declared, Words};
-use crate::document::limits::Limits;
-use crate::document::value_kind::{ListOf, Number};
+use crate::document::{Declared, Limits, ListOf, Number, Words};
 use crate::random::{Use, uniform};
 
 /// How primary veins run.

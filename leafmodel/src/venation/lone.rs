@@ -28,6 +28,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use self::cell::{Basin, Cell, UNNUMBERED};
+pub(crate) use self::view::Lone;
 use self::view::{Nearest, Node, sees_no_other};
 use super::fresh_nodes::FreshNodes;
 use super::point_tree::PointTree;
@@ -40,15 +41,6 @@ const REFINEMENT: f64 = 0.6;
 
 /// Number of cells from which several threads are used.
 const MANY: usize = 64;
-
-/// A lone source.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Lone {
-    /// Its place.
-    pub(crate) place: DVec2,
-    /// Its place in the list of all sources.
-    pub(crate) slot: u32,
-}
 
 /// All lone sources, in square cells.
 pub(crate) struct LoneSources {

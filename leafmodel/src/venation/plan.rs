@@ -1,17 +1,16 @@
 //! Parameters of a venation simulation. Lengths are in vein segments, `D = 1`.
 
 mod check;
+mod error;
 
 use glam::DVec2;
 
-pub use self::check::PlanError;
+pub use self::error::PlanError;
 use super::architecture::Architecture;
 use super::width::WidthLaw;
-use crate::document::declared::{Declared, Words};
-use crate::document::error::DocumentError;
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
-use crate::document::value_kind::{ListOf, Number, Numbers, Word};
+use crate::document::{
+    Declared, DocumentError, Keys, Limits, ListOf, Number, Numbers, Word, Words,
+};
 use crate::shape::growth::RateCurve;
 use crate::shape::rates::Rates;
 
@@ -378,6 +377,17 @@ impl Default for AuxinPlan {
             architecture: None,
             margin_clearance: None,
             gaussian_curvature: 0.0,
+        }
+    }
+}
+
+/// The size of the leaf when its veins are laid out, over its full size.
+pub(crate) fn young_size(growth: &Growth, final_length: f64) -> f64 {
+    match growth {
+        Growth::None | Growth::Marginal { .. } => 1.0,
+        // The frame of anisotropic growth has one unit, and the leaf starts short in it.
+        Growth::Isogonic { initial_length, .. } | Growth::Anisotropic { initial_length, .. } => {
+            (initial_length / final_length).min(1.0)
         }
     }
 }

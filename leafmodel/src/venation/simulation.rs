@@ -10,13 +10,9 @@ mod rounds;
 
 use glam::DVec2;
 
-use self::growth::Outcome;
-pub(crate) use self::growth::turned;
-#[cfg(test)]
-pub(crate) use self::growth::{NO_DIRECTION, TURNING};
-use super::Grown;
 use super::auxin::Darts;
 use super::fresh_nodes::FreshNodes;
+use super::grown::Grown;
 use super::influence::{Influence, Surroundings};
 use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
@@ -325,4 +321,30 @@ impl<'a, I: Influence> Simulation<'a, I> {
             Some(_) | None => 0.0,
         }
     }
+}
+
+/// The outcome of a driven node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Outcome {
+    /// It grew this child.
+    Child(u32),
+    /// No child: it would coincide with an existing node, or the pulls cancel.
+    Blocked,
+    /// No child: the new edge would leave the blade. Another vein may still reach the source, so it
+    /// is not given up for this.
+    OffBlade,
+}
+
+/// Below this length the sum of unit vectors is taken to cancel.
+pub(crate) const NO_DIRECTION: f64 = 1e-9;
+
+/// Distance from an origin, in segments, within which veins turn aside at the margin.
+pub(crate) const TURNING: f64 = 12.0;
+
+/// Directions beside one that leaves the blade, the smallest turns first, up to a right angle.
+pub(crate) fn turned(straight: DVec2) -> impl Iterator<Item = DVec2> {
+    (1..=6).flat_map(move |k| {
+        let (sin, cos) = libm::sincos(f64::from(k) * 15.0_f64.to_radians());
+        [sin, -sin].map(|sin| DVec2::new(cos, sin).rotate(straight))
+    })
 }

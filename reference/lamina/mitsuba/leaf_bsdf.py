@@ -33,7 +33,7 @@ import OpenImageIO as oiio
 from lamina.mitsuba import facet
 from lamina.mitsuba.coat import COUNT_AZIMUTH, COUNT_MU, Coat, Through, through
 from lamina.mitsuba.lookup import Table, bits, cell, nearest
-from lamina.mitsuba.prospect import BETALAINS, CONTENTS, Prospect
+from lamina.mitsuba.prospect import CONTENTS, OPTIONAL, Prospect
 
 Double = dr.float64_array_t(mi.UnpolarizedSpectrum)
 FACES = ("adaxial", "abaxial")
@@ -54,8 +54,8 @@ class ContentsMap:
         # Two texels at least each way, so that there is a cell to interpolate in.
         self.tables = {}
         for name in CONTENTS:
-            # Maps of PROSPECT-D's inputs alone have no betalains.
-            if name in BETALAINS and name not in names:
+            # Maps may lack what PROSPECT-D does not have.
+            if name in OPTIONAL and name not in names:
                 plane = np.zeros((self.height, self.width), dtype=np.float32)
             else:
                 plane = np.asarray(pixels)[:, :, names.index(name)]
@@ -236,7 +236,7 @@ class LeafBSDF(mi.BSDF):
                 self.map = ContentsMap(Path(str(mi.file_resolver().resolve(str(props.get("map"))))))
             elif self.kind == "contents":
                 self.contents = {
-                    name: float(props.get(name, 0.0) if name in BETALAINS else props.get(name))
+                    name: float(props.get(name, 0.0) if name in OPTIONAL else props.get(name))
                     for name in CONTENTS
                 }
             else:

@@ -23,9 +23,10 @@ from lamina.mitsuba.lookup import Table, cell
 # PROSPECT-D's own absorbers, in the order of the published table's columns after the refractive
 # index.
 PROSPECT_D = ("chlorophyll", "carotenoids", "anthocyanins", "brown", "water", "dry_matter")
-# Those of exported tables, which have betalains besides.
-BETALAINS = ("betacyanins", "betaxanthins")
-ABSORBERS = (*PROSPECT_D[:3], *BETALAINS, *PROSPECT_D[3:])
+# Those of exported tables, which have betalains, PROSPECT-PRO's parts of dry matter and a
+# constituent of the scene's own besides.
+OPTIONAL = ("betacyanins", "betaxanthins", "proteins", "carbon_based", "extra")
+ABSORBERS = (*PROSPECT_D[:3], *OPTIONAL[:2], *PROSPECT_D[3:], *OPTIONAL[2:])
 CONTENTS = ("structure", *ABSORBERS)
 # Refractive indices for which t_av is tabulated; linear between is good to 1e-9 at this count.
 INDEX_RANGE = (1.2, 1.7)

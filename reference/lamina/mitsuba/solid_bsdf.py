@@ -27,7 +27,7 @@ from lamina.mitsuba import half_space, leaf_bsdf
 from lamina.mitsuba.coat import Coat
 from lamina.mitsuba.leaf_bsdf import ContentsMap, Double, LeafBSDF
 from lamina.mitsuba.lookup import Table, cell
-from lamina.mitsuba.prospect import BETALAINS, CONTENTS, Prospect
+from lamina.mitsuba.prospect import CONTENTS, OPTIONAL, Prospect
 
 
 class SolidBSDF(LeafBSDF):
@@ -54,7 +54,7 @@ class SolidBSDF(LeafBSDF):
             self.map = ContentsMap(Path(str(resolve(str(props.get("map"))))))
         elif self.kind == "contents":
             self.contents = {
-                name: float(props.get(name, 0.0) if name in BETALAINS else props.get(name))
+                name: float(props.get(name, 0.0) if name in OPTIONAL else props.get(name))
                 for name in CONTENTS
             }
         else:

@@ -9,11 +9,10 @@ use crate::cli::needs;
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
 use crate::cli::terminal::{Failure, note, say, warn};
-use crate::scene::assets;
 use crate::scene::description::{Description, Held, Mesh, Named, Shape};
-use crate::scene::load;
 use crate::scene::world::meshes::build_mesh;
 use crate::scene::world::on_mesh;
+use crate::scene::{assets, load};
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let CheckArguments {

@@ -2,12 +2,13 @@
 
 mod input;
 
-use leafmodel::optics::inversion::{self, Inversion};
+use leafmodel::optics::inversion::{self, Inversion, Prior};
 use leafmodel::optics::prospect_d::{FIRST_NM, LAST_NM};
-use leafmodel::optics::{Constituent, Contents};
+use leafmodel::optics::{Constituent, Contents, PerConstituent, Pigments};
 use rayon::prelude::*;
 
 use crate::cli::arguments::FitArguments;
+use crate::cli::model;
 use crate::cli::places::{check_outputs, is_json_not_csv, require_ending, write_and_say};
 use crate::cli::progress::Patience;
 use crate::cli::terminal::{Failure, say};
@@ -42,7 +43,8 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
     let outputs = others.into_iter().filter_map(|(file, ..)| file.as_ref());
     let outputs = arguments.out.iter().chain(outputs);
     check_outputs(outputs, &input::files(arguments), "the command")?;
-    let (free, fixed) = wanted(arguments)?;
+    let question = Question::of(arguments)?;
+    let free = &question.free;
     let range = arguments
         .range
         .as_deref()
@@ -67,15 +69,12 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
         eprintln!("note: {left_out} values outside of {low} to {high} nm are left out");
     }
     let _patience = Patience::about("fitting");
-    let fitted: Vec<Fitted<'_>> = leaves
-        .par_iter()
-        .map(|leaf| fit(leaf, &free, fixed))
-        .collect::<Result<_, _>>()?;
+    let fitted = question.answers(&leaves)?;
     if let Some(file) = out {
         let text = if is_json {
-            report(&fitted, &free)
+            report(&fitted, free, question.pigments.model)
         } else {
-            contents(&fitted, &free)
+            contents(&fitted, free)
         };
         write_and_say(file, text)?;
     }
@@ -89,59 +88,145 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
         say_correlation(fitted);
     }
     if out.is_none() {
-        say(human(&fitted, &free));
+        say(human(&fitted, free));
     }
     Ok(())
 }
 
-/// The contents that are looked for, and all others as they are known.
-fn wanted(arguments: &FitArguments) -> Result<(Vec<Constituent>, Contents), Failure> {
-    let named = |name: &str| {
-        let found = Constituent::ALL.into_iter().find(|of| of.name() == name);
-        found.ok_or_else(|| {
-            let names = Constituent::ALL.map(Constituent::name).join(", ");
-            let name = name.escape_debug();
-            bad!("there is no content `{name}`; allowed are {names}")
-        })
-    };
-    let mut free = if arguments.free.is_empty() {
-        Inversion::PROSPECT_D.to_vec()
-    } else {
-        let free = arguments.free.iter().map(|name| named(name.trim()));
-        free.collect::<Result<Vec<_>, _>>()?
-    };
-    let (mut fixed, mut known) = (Contents::NOTHING, Vec::new());
-    for written in &arguments.fix {
-        let (name, value) = written.split_once('=').unwrap_or((written, ""));
-        let of = named(name.trim())?;
-        let [low, high] = of.range();
-        let value = value.trim().parse::<f64>().ok();
-        let value = value
-            .filter(|value| (low..=high).contains(value))
-            .ok_or_else(|| bad!("--fix {written}: a number from {low} to {high} is needed"))?;
-        if arguments.free.iter().any(|name| name.trim() == of.name()) {
-            bail!("{} is both free and fixed", of.name());
+/// What is looked for, and what is known.
+struct Question {
+    pigments: Pigments,
+    free: Vec<Constituent>,
+    fixed: Contents,
+    priors: PerConstituent<Option<Prior>>,
+}
+
+impl Question {
+    fn of(arguments: &FitArguments) -> Result<Self, Failure> {
+        let pigments = model::pigments(&arguments.model)?;
+        let inputs = pigments.model.inputs();
+        let mut free = if arguments.free.is_empty() {
+            inputs.to_vec()
+        } else {
+            let free = arguments.free.iter().map(|name| named(name.trim()));
+            free.collect::<Result<Vec<_>, _>>()?
+        };
+        let (mut fixed, mut known) = (Contents::NOTHING, Vec::new());
+        for written in &arguments.fix {
+            let (of, value) = assigned(written)?;
+            let [low, high] = of.range();
+            let value = value.parse::<f64>().ok();
+            let value = value
+                .filter(|value| (low..=high).contains(value))
+                .ok_or_else(|| bad!("--fix {written}: a number from {low} to {high} is needed"))?;
+            if arguments.free.iter().any(|name| name.trim() == of.name()) {
+                bail!("{} is both free and fixed", of.name());
+            }
+            fixed[of] = value;
+            free.retain(|other| *other != of);
+            known.push(of);
         }
-        fixed[of] = value;
-        free.retain(|other| *other != of);
-        known.push(of);
+        if let Some(twice) = (1..free.len()).find(|&i| free[..i].contains(&free[i])) {
+            bail!("{} is free twice", free[twice].name());
+        }
+        let unknown = inputs.iter();
+        let unknown = unknown.filter(|of| !free.contains(of) && !known.contains(of));
+        let unknown: Vec<&str> = unknown.map(|of| of.name()).collect();
+        if !unknown.is_empty() {
+            bail!(
+                "neither free nor known: {}; name each by --free, or give it by --fix NAME=VALUE",
+                unknown.join(", ")
+            );
+        }
+        if free.is_empty() {
+            bail!("every content is fixed: there is nothing to be found");
+        }
+        let looked_for = free.iter().map(|&of| (of, 1.0));
+        let held = fixed.with(&looked_for.collect::<Vec<_>>());
+        if let Some(problem) = model::refusal(&pigments, &held) {
+            bail!("{problem}");
+        }
+        let priors = priors(&arguments.prior, &free)?;
+        Ok(Self {
+            pigments,
+            free,
+            fixed,
+            priors,
+        })
     }
-    if let Some(twice) = (1..free.len()).find(|&i| free[..i].contains(&free[i])) {
-        bail!("{} is free twice", free[twice].name());
+
+    /// What each leaf holds. Leaves at the same wavelengths share what depends on them alone.
+    fn answers<'a>(&self, leaves: &'a [Leaf]) -> Result<Vec<Fitted<'a>>, Failure> {
+        let mut inversions: Vec<Inversion> = Vec::new();
+        let mut own = Vec::with_capacity(leaves.len());
+        for leaf in leaves {
+            let known = inversions.iter().rposition(|known| known.is_at(&leaf.nm));
+            own.push(known.unwrap_or(inversions.len()));
+            if known.is_none() {
+                let new = Inversion::new(&self.pigments, &leaf.nm, &self.free, self.fixed);
+                inversions.push(new.map_err(Failure::bad)?.with_priors(self.priors));
+            }
+        }
+        let leaves = leaves.par_iter().zip(&own);
+        let fitted = leaves.map(|(leaf, &own)| Fitted {
+            leaf,
+            found: inversions[own].of(spectra(leaf)),
+        });
+        Ok(fitted.collect())
     }
-    let unknown = Inversion::PROSPECT_D.into_iter();
-    let unknown = unknown.filter(|of| !free.contains(of) && !known.contains(of));
-    let unknown: Vec<&str> = unknown.map(Constituent::name).collect();
-    if !unknown.is_empty() {
-        bail!(
-            "neither free nor known: {}; name each by --free, or give it by --fix NAME=VALUE",
-            unknown.join(", ")
-        );
+}
+
+/// The content of a name.
+fn named(name: &str) -> Result<Constituent, Failure> {
+    let found = Constituent::ALL.into_iter().find(|of| of.name() == name);
+    found.ok_or_else(|| {
+        let names = Constituent::ALL.map(Constituent::name).join(", ");
+        let name = name.escape_debug();
+        bad!("there is no content `{name}`; allowed are {names}")
+    })
+}
+
+/// A content, and what is written behind its `=`.
+fn assigned(written: &str) -> Result<(Constituent, &str), Failure> {
+    let (name, value) = written.split_once('=').unwrap_or((written, ""));
+    Ok((named(name.trim())?, value.trim()))
+}
+
+/// What is known beforehand of contents that are looked for.
+fn priors(
+    written: &[String],
+    free: &[Constituent],
+) -> Result<PerConstituent<Option<Prior>>, Failure> {
+    let mut priors = PerConstituent::splat(None);
+    for written in written {
+        let (of, value) = assigned(written)?;
+        if !free.contains(&of) {
+            bail!("--prior {written}: {} is not looked for", of.name());
+        }
+        if priors[of].is_some() {
+            bail!("--prior {written}: {} has a prior already", of.name());
+        }
+        let pair = |by: &str| {
+            let (first, second) = value.split_once(by)?;
+            Some([first.trim().parse().ok()?, second.trim().parse().ok()?])
+        };
+        let [low, high] = of.range();
+        let is_there = |value: f64| (low..=high).contains(&value);
+        priors[of] = match (pair(".."), pair("+-").or_else(|| pair("±"))) {
+            (Some([least, most]), _) if is_there(least) && is_there(most) && least < most => {
+                Some(Prior::Within([least, most]))
+            }
+            (_, Some([mean, deviation])) if is_there(mean) && deviation > 0.0 => {
+                Some(Prior::Normal { mean, deviation })
+            }
+            _ => bail!(
+                "--prior {written}: write a mean and a standard deviation, {name}=MEAN+-SD, or a \
+                 range, {name}=LEAST..MOST, from {low} to {high}",
+                name = of.name()
+            ),
+        };
     }
-    if free.is_empty() {
-        bail!("every content is fixed: there is nothing to be found");
-    }
-    Ok((free, fixed))
+    Ok(priors)
 }
 
 fn parse_range(written: &str) -> Result<[f64; 2], Failure> {
@@ -178,14 +263,6 @@ fn spectra(leaf: &Leaf) -> inversion::Spectra<'_> {
         abaxial: there(&leaf.abaxial).then_some(&leaf.abaxial),
         transmittance: there(&leaf.transmittance).then_some(&leaf.transmittance),
     }
-}
-
-fn fit<'a>(leaf: &'a Leaf, free: &[Constituent], fixed: Contents) -> Result<Fitted<'a>, Failure> {
-    let inversion = Inversion::new(&leaf.nm, free, fixed).map_err(Failure::bad)?;
-    Ok(Fitted {
-        leaf,
-        found: inversion.of(spectra(leaf)),
-    })
 }
 
 /// Says that errors are wider because what is left is correlated.

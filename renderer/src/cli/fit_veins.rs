@@ -13,10 +13,8 @@ use self::simulations::Simulations;
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::FitVeinsArguments;
 use crate::cli::needs::on_threads;
-use crate::cli::places::check_writable;
-use crate::cli::places::{Lock, write_whole};
+use crate::cli::places::{Lock, check_writable, write_json, write_whole};
 use crate::cli::signals::Signals;
-use crate::cli::stats;
 use crate::cli::terminal::{Failure, note, say};
 use crate::report::vein_fit;
 use crate::scene::fingerprint::fnv1a;
@@ -78,7 +76,7 @@ pub(super) fn run(arguments: &FitVeinsArguments) -> Result<(), Failure> {
     report["measures"] = arguments.measures.display().to_string().into();
     let settings = arguments.set.iter().chain(&arguments.overrides);
     report["settings"] = settings.map(String::as_str).collect();
-    stats::write(&json, &report)?;
+    write_json(&json, &report)?;
     write_whole(&picture, vein_fit::marginals(&problem, &found))?;
     eprint!("{}", vein_fit::table(&found));
     for path in [&json, &sample, &picture, &table] {

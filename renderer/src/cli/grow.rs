@@ -12,7 +12,6 @@ mod individuals;
 mod maps;
 mod outputs;
 
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -31,15 +30,15 @@ pub(super) use self::choice::{NotChosen, Wish, is_word, unknown_preset};
 use self::drawings::{Look, without_sources};
 use self::films::Films;
 use self::grown::Grown;
-use self::outputs::{Kind, Outputs};
+use self::outputs::{Kind, Outputs, finish};
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::GrowArguments;
+use crate::cli::needs;
 use crate::cli::needs::on_threads;
-use crate::cli::places::write_and_say;
+use crate::cli::places::write_json;
 use crate::cli::progress::Patience;
-use crate::cli::signals::{self, Signals};
+use crate::cli::signals::Signals;
 use crate::cli::terminal::{Failure, say};
-use crate::cli::{needs, stats};
 use crate::export::blade::{self, Parts};
 
 pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
@@ -208,7 +207,7 @@ fn carry_out(
             "loops": all_veins.loops(),
             "triangles": grown.triangles(),
         });
-        stats::write(path, &report)?;
+        write_json(path, &report)?;
     }
     let triangles = grown
         .triangles()
@@ -299,10 +298,4 @@ fn compound_measures(leaf: &CompoundLeaf) -> serde_json::Value {
         "pinnae_length_mm": length(StalkKind::Pinna),
         "petiolules_length_mm": length(StalkKind::Petiolule),
     })
-}
-
-/// Writes a file and prints its name, unless the run was interrupted.
-fn finish(path: &Path, bytes: &[u8], stop: &AtomicBool) -> Result<(), Failure> {
-    signals::check(stop)?;
-    write_and_say(path, bytes)
 }

@@ -50,12 +50,12 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
         error: arguments.error,
         seed: arguments.seed,
     };
-    let Measured { rows, cuts, ended } = on_threads(arguments.threads, || {
+    let MeasuredRows { rows, cuts, ended } = on_threads(arguments.threads, || {
         measure(arguments, &scene, &chosen, &budget, &signals)
     })?;
     let ended = match ended {
         // Nothing was measured: what older runs wrote stays.
-        Some(Ended::Failed(failure)) if rows.is_empty() => return Err(failure),
+        Some(ReadOutEnd::Failed(failure)) if rows.is_empty() => return Err(failure),
         ended => ended,
     };
     for path in &arguments.out {
@@ -77,23 +77,23 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
         write_and_say(path, drawing)?;
     }
     match ended {
-        Some(Ended::Failed(failure)) => Err(failure),
-        Some(Ended::Late) | None => Ok(()),
+        Some(ReadOutEnd::Failed(failure)) => Err(failure),
+        Some(ReadOutEnd::Late) | None => Ok(()),
     }
 }
 
 /// What was measured.
 #[derive(Default)]
-struct Measured {
+struct MeasuredRows {
     rows: Vec<Row>,
     /// Paths that the limit of events cut, of each instrument.
-    cuts: Cuts,
+    cuts: CutsByName,
     /// Why not all of it was, or not with all rays.
-    ended: Option<Ended>,
+    ended: Option<ReadOutEnd>,
 }
 
 /// Why a measurement ended early.
-enum Ended {
+enum ReadOutEnd {
     /// The time was over.
     Late,
     /// One of the instruments cannot measure, or somebody interrupted it.
@@ -125,7 +125,7 @@ fn choose(arguments: &InstrumentsArguments, scene: &Description) -> Result<Vec<u
 }
 
 /// The paths that were cut in the measurement of each instrument.
-type Cuts = Vec<(String, CutPaths)>;
+type CutsByName = Vec<(String, CutPaths)>;
 
 /// Builds the scene and reads the instruments out.
 fn measure(
@@ -134,9 +134,9 @@ fn measure(
     chosen: &[usize],
     budget: &Budget,
     signals: &Signals,
-) -> Result<Measured, Failure> {
+) -> Result<MeasuredRows, Failure> {
     needs::check_geometry(scene, "measurement", arguments.memory)?;
-    let mut measured = Measured::default();
+    let mut measured = MeasuredRows::default();
     let Some((sampler, first)) = sets_of(scene) else {
         return Ok(measured);
     };
@@ -168,7 +168,7 @@ fn measure(
         let found = match read_out_watched(&world, scene, number, first[number], &effort) {
             Ok(found) => found,
             Err(error) => {
-                measured.ended = Some(Ended::Failed(Failure::bad(error)));
+                measured.ended = Some(ReadOutEnd::Failed(Failure::bad(error)));
                 break;
             }
         };
@@ -208,9 +208,9 @@ fn measure(
             };
             eprintln!("note: {by} ended the measurement after {rays} rays of `{name}`{rest}");
             measured.ended = Some(if is_stopped {
-                Ended::Failed(Failure::Interrupted)
+                ReadOutEnd::Failed(Failure::Interrupted)
             } else {
-                Ended::Late
+                ReadOutEnd::Late
             });
             break;
         }

@@ -14,8 +14,8 @@ use crate::cli::places::{
 };
 use crate::cli::progress::Patience;
 use crate::cli::terminal::Failure;
-use crate::cli::trace;
 use crate::report::measures::{Report, measured};
+use crate::report::tracing::implausible_density;
 
 /// Most areoles that the bootstrap draws, which takes up to a minute of a processor.
 const MOST_DRAWN: u64 = 2_000_000_000;
@@ -48,7 +48,7 @@ pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
     };
     let density = report.measures.number("vein_density_mm_per_mm2");
     let scale = "--mm-per-unit, --mm-per-pixel, --area or --outline";
-    if let Some(warning) = trace::implausible_density(density, scale) {
+    if let Some(warning) = implausible_density(density, scale) {
         eprintln!("{warning}");
     }
     let seconds = measuring.elapsed().as_secs_f64();

@@ -1,4 +1,4 @@
-//! `lamina optics`: R and T of a leaf by PROSPECT-D as a table, and their colours; both faces of the
+//! `lamina optics`: R and T of a leaf by PROSPECT as a table, and their colours; both faces of the
 //! leaf as layers.
 
 mod leaf;
@@ -7,12 +7,13 @@ mod table;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use leafmodel::optics::{Contents, ProspectD, presets};
+use leafmodel::optics::{Contents, presets};
 use serde_json::json;
 
 use self::leaf::Chosen;
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::OpticsArguments;
+use crate::cli::model;
 use crate::cli::places::check_writable;
 use crate::cli::places::{require_ending, write_and_say};
 use crate::cli::progress::Patience;
@@ -68,13 +69,13 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     for file in files.into_iter().flatten().filter(|file| !is_stdout(file)) {
         check_writable(file)?;
     }
-    let Chosen { contents, .. } = chosen;
+    let contents = chosen.contents;
     warn_of_mixtures(&[contents]);
     if arguments.about {
         say(chosen.about());
     }
     if let Some(file) = &arguments.out {
-        hand_over(file, &spectrum(&contents, &chosen.line()))?;
+        hand_over(file, &spectrum(&chosen))?;
     }
     match &arguments.layers {
         Some(Some(file)) => hand_over(file, &layers::table(&contents, &chosen.line()))?,
@@ -91,7 +92,7 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
         hand_over(file, &table)?;
     }
     if let Some(file) = &arguments.colour {
-        let colours = colour::Colours::of(&contents);
+        let colours = colour::Colours::of(|nm| chosen.at(nm).reflectance_transmittance(&contents));
         match file {
             Some(file) => {
                 let report = json!({
@@ -105,7 +106,8 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
         }
     }
     eprintln!(
-        "PROSPECT-D, table of Feret, Gitelson, Noble and Jacquemoud (2017): {}",
+        "{}: {}",
+        model::source(chosen.pigments.model),
         chosen.line()
     );
     Ok(())
@@ -144,12 +146,13 @@ fn is_stdout(file: &Path) -> bool {
     file.as_os_str() == "-"
 }
 
-/// R and T at every nanometre of PROSPECT-D's table; a comment says what wrote it, of which leaf.
-fn spectrum(contents: &Contents, leaf: &str) -> String {
-    let mut table = format!("# Lamina {PROGRAM}, PROSPECT-D: {leaf}\nwavelength_nm,R,T\n");
+/// R and T at every nanometre of PROSPECT's tables; a comment says what wrote it, of which leaf.
+fn spectrum(chosen: &Chosen) -> String {
+    let (model, leaf) = (chosen.pigments.model.title(), chosen.line());
+    let mut table = format!("# Lamina {PROGRAM}, {model}: {leaf}\nwavelength_nm,R,T\n");
     for nm in 400..=2500 {
-        let at = ProspectD::coefficients_extrapolated(f64::from(nm));
-        let optics = at.reflectance_transmittance(contents);
+        let at = chosen.at(f64::from(nm));
+        let optics = at.reflectance_transmittance(&chosen.contents);
         // As many digits as give back the number. Writing to a String cannot fail.
         let _ = writeln!(
             table,

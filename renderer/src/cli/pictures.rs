@@ -1,18 +1,21 @@
-//! `lamina compare` and `lamina info`: the contents of EXR files.
+//! `lamina compare`, `lamina info` and `lamina tonemap`: the contents of EXR files.
 
 use std::path::Path;
 
-use crate::cli::arguments::{CompareArguments, InfoArguments};
+use crate::cli::arguments::{CompareArguments, InfoArguments, TonemapArguments};
 use crate::cli::needs;
+use crate::cli::places::check_writable;
 use crate::cli::terminal::{Failure, say};
 use crate::image::colours::in_rec709;
-use crate::image::{Attribute, Picture, compare as numbers, openexr};
+use crate::image::display::FileKind;
+use crate::image::{Attribute, ImageError, Picture, compare as numbers, openexr};
+use crate::scene::load::parse_picture;
 
 /// Times that the pixels of a picture are in memory while they are converted or compared.
 const COPIES: f64 = 3.0;
 
 /// The picture in a file, if the machine has memory for it.
-pub(super) fn read(path: &Path) -> Result<Picture, Failure> {
+fn read(path: &Path) -> Result<Picture, Failure> {
     let most = needs::most_bytes(None).map_or(u64::MAX, |most| (most / COPIES) as u64);
     openexr::read_within(path, most).map_err(Failure::bad)
 }
@@ -86,5 +89,29 @@ pub(super) fn info(arguments: &InfoArguments) -> Result<(), Failure> {
             | Attribute::Chromaticities(_) => say(format!("{name} = {attribute:?}")),
         }
     }
+    Ok(())
+}
+
+/// A picture to look at from an EXR, without rendering again.
+pub(super) fn tonemap(arguments: &TonemapArguments) -> Result<(), Failure> {
+    let out = &arguments.out;
+    let kind = FileKind::of(out)
+        .ok_or_else(|| bad_at!(out, "the ending tells what is written: png or jpg"))?;
+    let picture = read(&arguments.picture)?;
+    // What the scene said when it was rendered; other programs' pictures say nothing.
+    let scene = picture.text("lamina:scene").unwrap_or_default();
+    let shown = format!("{} (lamina:scene)", arguments.picture.display());
+    let display = parse_picture(scene, &shown, &arguments.overrides())?;
+    display.check(kind).map_err(Failure::bad)?;
+    check_writable(out)?;
+    display.write(&picture, kind, out).map_err(|error| {
+        if matches!(error, ImageError::File { .. }) {
+            // The disk's fault, not the picture's: the error names the file that is written.
+            return Failure::system(error);
+        }
+        let place = arguments.picture.display();
+        bad!("{place}: {error}")
+    })?;
+    say(out.display());
     Ok(())
 }

@@ -6,6 +6,9 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use serde_json::Value;
+
+use crate::checkpoint::PROGRAM;
 use crate::cli::signals::Signals;
 use crate::cli::terminal::{Failure, say};
 use crate::image::atomic::{self, Destination, destination, folder_of};
@@ -222,6 +225,15 @@ fn is_same(file: &File, path: &Path) -> bool {
         let _ = file;
         path.exists()
     }
+}
+
+/// Writes a JSON object atomically, with the version of the program as `program`.
+pub(super) fn write_json(path: &Path, report: &Value) -> Result<(), Failure> {
+    let mut report = report.clone();
+    if let Some(members) = report.as_object_mut() {
+        members.insert("program".to_owned(), PROGRAM.into());
+    }
+    write_whole(path, format!("{report:#}\n"))
 }
 
 #[cfg(test)]

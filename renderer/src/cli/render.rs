@@ -21,6 +21,7 @@ use crate::cli::arguments::{RenderArguments, SceneArguments};
 use crate::cli::building::{Building, load_scene};
 use crate::cli::needs::{self, on_threads};
 use crate::cli::picture_files;
+use crate::cli::places::write_json;
 use crate::cli::progress::Reporter;
 use crate::cli::signals::Signals;
 use crate::cli::terminal::{Failure, note, say};
@@ -36,7 +37,7 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
     let signals = Signals::listen()?;
     let loaded = load_scene(&sized(arguments))?;
     let files = Files::of(arguments, &loaded, &signals)?;
-    let command = Command {
+    let command = RenderCommand {
         arguments,
         line,
         files: &files,
@@ -47,7 +48,7 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
 }
 
 /// What a render was asked for.
-struct Command<'a> {
+struct RenderCommand<'a> {
     arguments: &'a RenderArguments,
     /// The command line.
     line: &'a [OsString],
@@ -65,7 +66,7 @@ struct Traced<'a> {
     times: Times,
 }
 
-impl Command<'_> {
+impl RenderCommand<'_> {
     fn carry_out(&self, loaded: Loaded) -> Result<(), Failure> {
         let (arguments, files, signals) = (self.arguments, self.files, self.signals);
         // As many leaves grow at a time as there are threads.
@@ -186,7 +187,7 @@ impl Command<'_> {
         });
         written.map_err(|error| self.failed(&error, keeping, &begun, is_interrupted))?;
         if let Some(path) = &self.arguments.stats {
-            crate::cli::stats::write(path, &stats)?;
+            write_json(path, &stats)?;
         }
         if is_interrupted {
             kept.map_err(|error| Failure::system(format_args!("no checkpoint: {error}")))?;

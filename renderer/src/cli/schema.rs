@@ -5,8 +5,7 @@ use std::fs;
 use leafmodel::document::schema::filled;
 
 use crate::cli::arguments::SchemaArguments;
-use crate::cli::places::check_writable;
-use crate::cli::places::write_and_say;
+use crate::cli::places::{check_writable, write_and_say};
 use crate::cli::terminal::{Failure, say};
 use crate::scene::load;
 

@@ -1,4 +1,4 @@
-//! `lamina completions` and `lamina man`: what shells and `man` want to know of the command line.
+//! `lamina completions`, `lamina man` and `lamina licenses`: what shells, `man` and lawyers want to know.
 
 use std::fs;
 
@@ -8,6 +8,14 @@ use clap_mangen::Man;
 use crate::cli::arguments::{Arguments, CompletionsArguments, ManArguments};
 use crate::cli::places::write_and_say;
 use crate::cli::terminal::{Failure, say};
+
+/// Lamina's own licences, the notices of its data, and those of the crates that it is built from:
+/// written by `renderer/program/packaging/licenses`.
+const LICENSES: &str = include_str!("licenses.txt");
+
+pub(super) fn licenses() {
+    say(LICENSES.trim_end());
+}
 
 pub(super) fn completions(arguments: &CompletionsArguments) {
     let mut script = Vec::new();

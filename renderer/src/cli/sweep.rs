@@ -26,11 +26,11 @@ use self::record::Record;
 use self::table::{Row, State};
 use self::tasks::{hexadecimal, words_of};
 use crate::cli::arguments::{SweepArguments, file_and_leaf};
-use crate::cli::places::check_writable;
+use crate::cli::grow;
+use crate::cli::places::{check_writable, write_json};
 use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
 use crate::cli::terminal::{Failure, say};
-use crate::cli::{grow, stats};
 use crate::sweep::{Sweep, Target, Words, is_sweep_file};
 
 pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
@@ -85,7 +85,7 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     // Whatever has happened, the table tells what there is.
     let rows = work.rows(&result.failed)?;
     table::write(&table, &sweep, &rows)?;
-    stats::write(&folder.join("sweep.json"), &work.about())?;
+    write_json(&folder.join("sweep.json"), &work.about())?;
     say(table.display());
     result.report(&work)
 }

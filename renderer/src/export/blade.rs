@@ -13,7 +13,7 @@ use crate::checkpoint::PROGRAM;
 const LINES: usize = 4096;
 
 /// A blade or tubes, with their place.
-struct Part<'l> {
+struct BladePart<'l> {
     /// Number of the blade among the different ones, from 1: the map of the first is NAME.exr,
     /// those of others are NAME-k.exr. 0 for stalks.
     number: usize,
@@ -26,7 +26,7 @@ struct Part<'l> {
 }
 
 /// All parts of a leaf, in millimetres.
-pub(crate) struct Parts<'l>(Vec<Part<'l>>);
+pub(crate) struct Parts<'l>(Vec<BladePart<'l>>);
 
 impl<'l> Parts<'l> {
     /// Blades and their stalks in their places, then the axes.
@@ -36,7 +36,7 @@ impl<'l> Parts<'l> {
             let blade = &leaf.blades[placement.blade];
             let place = placement.to_leaf;
             let mesh = &blade.mesh;
-            parts.push(Part {
+            parts.push(BladePart {
                 number: placement.blade + 1,
                 positions: &mesh.positions,
                 normals: &mesh.normals,
@@ -50,7 +50,7 @@ impl<'l> Parts<'l> {
         let axes = leaf.axes.iter();
         parts.extend(axes.map(|axes| tubes((axes, DAffine3::IDENTITY))));
         // Parts with the same number become consecutive.
-        parts.sort_by_key(|part: &Part<'_>| (part.number == 0, part.number));
+        parts.sort_by_key(|part: &BladePart<'_>| (part.number == 0, part.number));
         Self(parts)
     }
 
@@ -78,8 +78,8 @@ impl<'l> Parts<'l> {
     }
 }
 
-fn tubes((stalk, place): (&StalkMesh, DAffine3)) -> Part<'_> {
-    Part {
+fn tubes((stalk, place): (&StalkMesh, DAffine3)) -> BladePart<'_> {
+    BladePart {
         number: 0,
         positions: &stalk.positions,
         normals: &stalk.normals,
@@ -90,7 +90,7 @@ fn tubes((stalk, place): (&StalkMesh, DAffine3)) -> Part<'_> {
     }
 }
 
-impl Part<'_> {
+impl BladePart<'_> {
     /// Place, normal, uv and thickness of every vertex.
     fn vertices(&self) -> impl Iterator<Item = (DVec3, DVec3, DVec2, f64)> {
         let moved = self.place != DAffine3::IDENTITY;
@@ -124,7 +124,7 @@ pub(crate) fn ply(parts: &Parts<'_>) -> Vec<u8> {
         parts.triangles()
     );
     let mut bytes = header.into_bytes();
-    for (position, normal, uv, thickness) in parts.0.iter().flat_map(Part::vertices) {
+    for (position, normal, uv, thickness) in parts.0.iter().flat_map(BladePart::vertices) {
         for value in position
             .to_array()
             .into_iter()
@@ -148,7 +148,7 @@ pub(crate) fn ply(parts: &Parts<'_>) -> Vec<u8> {
 /// OBJ with an object and a material, `blade-1` and so on or `stalks`, for each run of faces of one
 /// part.
 pub(crate) fn obj(parts: &Parts<'_>) -> String {
-    let vertices: Vec<_> = parts.0.iter().flat_map(Part::vertices).collect();
+    let vertices: Vec<_> = parts.0.iter().flat_map(BladePart::vertices).collect();
     let vertices = vertices.par_chunks(LINES).map(|some| {
         let mut text = String::new();
         for (position, normal, uv, _) in some {

@@ -53,7 +53,7 @@ pub fn captioned(drawing: &Drawing, notes: &[Note]) -> Drawing {
     let line_height = type_size.height() + gap / 2;
     let drawn = drawing.height as usize;
     let height = drawn + lines.len() * line_height + gap / 2;
-    let mut sheet = Sheet {
+    let mut sheet = CaptionSheet {
         width,
         rgb: vec![PAPER; 3 * width * height],
     };
@@ -121,11 +121,11 @@ fn round_length(most: f64) -> f64 {
 /// A note with its size, measured.
 struct Item {
     width: usize,
-    pieces: Vec<Piece>,
+    pieces: Vec<CaptionPiece>,
 }
 
 /// A part of an item, from its left end.
-enum Piece {
+enum CaptionPiece {
     Words(usize, String),
     /// Left, width, height as share of the line, colours from left to right.
     Bar(usize, usize, f64, Vec<[u8; 3]>),
@@ -169,21 +169,22 @@ impl Item {
     }
 
     fn words(&mut self, words: &str, letter: usize) {
-        self.pieces.push(Piece::Words(self.width, words.to_owned()));
+        self.pieces
+            .push(CaptionPiece::Words(self.width, words.to_owned()));
         self.width += words.chars().count() * letter;
     }
 
     fn bar(&mut self, width: usize, height: f64, colours: Vec<[u8; 3]>) {
         self.pieces
-            .push(Piece::Bar(self.width, width, height, colours));
+            .push(CaptionPiece::Bar(self.width, width, height, colours));
         self.width += width;
     }
 
-    fn draw(&self, sheet: &mut Sheet, [left, top]: [usize; 2], type_size: TypeSize) {
+    fn draw(&self, sheet: &mut CaptionSheet, [left, top]: [usize; 2], type_size: TypeSize) {
         for piece in &self.pieces {
             match piece {
-                Piece::Words(at, words) => sheet.words([left + at, top], words, type_size),
-                Piece::Bar(at, width, share, colours) => {
+                CaptionPiece::Words(at, words) => sheet.words([left + at, top], words, type_size),
+                CaptionPiece::Bar(at, width, share, colours) => {
                     let full = type_size.height();
                     let height = ((full as f64 * share).round() as usize).max(1);
                     let top = top + (full - height.min(full)) / 2;
@@ -224,12 +225,12 @@ impl TypeSize {
 }
 
 /// Pixels that are drawn on.
-struct Sheet {
+struct CaptionSheet {
     width: usize,
     rgb: Vec<u8>,
 }
 
-impl Sheet {
+impl CaptionSheet {
     fn words(&mut self, [left, top]: [usize; 2], words: &str, type_size: TypeSize) {
         for (number, letter) in words.chars().enumerate() {
             let raster = |letter| get_raster(letter, FontWeight::Regular, type_size.0);

@@ -165,7 +165,7 @@ pub fn draw_within(
         channels: 3,
         most: MOST_BYTES,
     })?;
-    let sheet = Sheet {
+    let sheet = DrawingSheet {
         corner: DVec2::new(low.x - border, high.y + border),
         scale,
     };
@@ -213,14 +213,14 @@ fn fill(canvas: &mut Pixmap, path: &Path, colour: [u8; 3], strength: f64) {
 }
 
 /// The map from millimetres to pixels.
-struct Sheet {
+struct DrawingSheet {
     /// Its upper left corner, mm.
     corner: DVec2,
     /// Pixels per millimetre.
     scale: f64,
 }
 
-impl Sheet {
+impl DrawingSheet {
     fn place(&self, p: DVec2) -> DVec2 {
         DVec2::new(p.x - self.corner.x, self.corner.y - p.y) * self.scale
     }

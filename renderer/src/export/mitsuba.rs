@@ -8,16 +8,12 @@
 //! irradiance differs by 2e-5 over the scene.
 
 mod bsdf;
-mod colours;
 mod emitter;
 mod media;
 mod mesh;
-mod plugin;
 mod sensor;
 mod shapes;
-mod spectra;
 mod surroundings;
-mod units;
 mod xml;
 
 use std::fs;
@@ -29,15 +25,17 @@ use serde_json::json;
 use thiserror::Error;
 
 use crate::image::{ImageError, Layer, Picture, openexr};
+use crate::material::colour_map::ColourMap;
 use crate::material::contents_texture::ContentsTexture;
-use crate::material::palette::Palette;
 use crate::material::relief::Relief;
+use crate::plugin::emitter::Emitter;
+use crate::plugin::spectra::Spectra;
+use crate::plugin::surface::{absorption_file, relief_file};
+use crate::plugin::{self, colours};
 use crate::scene::assets::{self, AssetError};
-use crate::scene::description::{Band, Description, FilmKind, Light};
+use crate::scene::description::Description;
 use crate::scene::world::World;
 use crate::spectrum::rgb;
-
-use self::spectra::Spectra;
 
 /// Why a scene could not be exported.
 #[derive(Debug, Error)]
@@ -100,14 +98,6 @@ pub enum ExportError {
         "{0} exists and holds no lamina.json: name a new folder, or one that was exported before"
     )]
     NotOurs(PathBuf),
-}
-
-/// Path, within the export, of the table of a palette.
-fn absorption_file(palette: &Palette) -> String {
-    match palette.number() {
-        0 => "prospect_d.csv".to_owned(),
-        number => format!("pigments-{number}.csv"),
-    }
 }
 
 /// PROSPECT-D's table with its notice, with the columns of these pigments and additional columns
@@ -174,7 +164,7 @@ pub fn leaking<'s>(scene: &'s Description, world: &World) -> Vec<&'s str> {
         .filter(|&number| {
             let mesh = world.geometry.mesh(world.geometry.instance(number).mesh);
             let object = world.objects[number as usize];
-            mesh.normals().is_some() && bsdf::is_stock(&world.materials[object.material])
+            mesh.normals().is_some() && bsdf::is_stock(scene, world, object.material)
         })
         .map(|number| world.objects[number as usize].object)
         .collect();
@@ -255,16 +245,19 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         fs::create_dir(&path).map_err(|source| ExportError::Write { path, source })?;
     }
     let show = |name: &str, picture: &Picture| openexr::write(picture, &folder.join(name));
+    let show_colours = |id: &str, map: &ColourMap| -> Result<(), ExportError> {
+        for (name, picture) in colours::pictures(id, map) {
+            show(&name, &picture)?;
+        }
+        save(colours::BASIS, rgb::basis_text().as_bytes())
+    };
     for (number, material) in world.materials.iter().enumerate() {
-        let id = units::material_id(scene, world, number);
+        let id = bsdf::material_id(scene, world, number);
         if let Some(map) = material.contents_map() {
             show(&format!("maps/{id}.exr"), &map_picture(map))?;
         }
         for (id, map) in colours::maps(&id, material) {
-            for (name, picture) in colours::pictures(&id, &map) {
-                show(&name, &picture)?;
-            }
-            save(colours::BASIS, rgb::basis_text().as_bytes())?;
+            show_colours(&id, &map)?;
         }
         if let Some(relief) = material.relief() {
             show(&relief_file(&id), &relief_picture(relief))?;
@@ -272,17 +265,14 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
     }
     for (light, table) in surroundings::tables(scene, world) {
         let picture = surroundings::weights(table.size, &table.weights);
-        show(&units::weights_file(light), &picture)?;
+        show(&plugin::weights_file(light), &picture)?;
         let spectra = surroundings::spectra(&table);
         save(&surroundings::spectra_file(light), spectra.as_bytes())?;
     }
-    for (number, light) in scene.lights.iter().enumerate() {
-        if let Some(map) = emitter::emission(scene, world, number) {
-            let id = units::light_id(&light.name);
-            for (name, picture) in colours::pictures(&id, map) {
-                show(&name, &picture)?;
-            }
-            save(colours::BASIS, rgb::basis_text().as_bytes())?;
+    for (light, built) in scene.with_built(&world.lights) {
+        if let Some(map) = emitter::emission(built) {
+            let id = plugin::light_id(&light.name);
+            show_colours(&id, map)?;
         }
         if light.value.area().is_some()
             && let Some((file, layer)) = light.value.picture()
@@ -290,7 +280,7 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
             let picture = assets::shining(file, layer)?;
             let size = [picture.width, picture.texels.len() / picture.width];
             let picture = surroundings::weights(size, &picture.texels);
-            show(&units::weights_file(&light.name), &picture)?;
+            show(&plugin::weights_file(&light.name), &picture)?;
         }
     }
     for palette in world.palettes.iter() {
@@ -325,11 +315,6 @@ pub fn map_picture(map: &ContentsTexture) -> Picture {
     Picture::new([width as u32, height as u32], layers)
 }
 
-/// Path, within the export, of the relief of a material.
-fn relief_file(id: &str) -> String {
-    format!("maps/{id}.relief.exr")
-}
-
 /// The slopes of a relief as a picture whose first row is v = 0.
 fn relief_picture(relief: &Relief) -> Picture {
     let ([width, height], texels) = relief.finest();
@@ -342,26 +327,16 @@ fn relief_picture(relief: &Relief) -> Picture {
     Picture::new([width as u32, height as u32], layers)
 }
 
-/// The bands of the film; a colour film is exported as one band over its range.
-fn bands(scene: &Description) -> Vec<Band> {
-    match &scene.film.kind {
-        FilmKind::Spectral { bands } => bands.clone(),
-        FilmKind::Rgb { range_nm, .. } => vec![Band {
-            center_nm: 0.5 * (range_nm[0] + range_nm[1]),
-            width_nm: range_nm[1] - range_nm[0],
-        }],
-    }
-}
-
 fn summary(scene: &Description) -> serde_json::Value {
-    let bands: Vec<_> = bands(scene)
+    let bands: Vec<_> = sensor::bands(scene)
         .iter()
         .map(|band| json!({ "center_nm": band.center_nm, "width_nm": band.width_nm }))
         .collect();
     let suns = scene
         .lights
         .iter()
-        .filter(|light| matches!(light.value, Light::Distant(_) | Light::Daylight(_)));
+        .map(|light| light.value.emitter(&mut Spectra::default()))
+        .filter(|emitter| matches!(emitter, Emitter::Disc { .. }));
     json!({
         "name": scene.name,
         "width": scene.film.width,

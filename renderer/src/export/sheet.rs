@@ -13,11 +13,11 @@ use super::drawing::{Style, Subject, draw_within};
 use crate::image::{ImageError, portable_network};
 
 /// Lower left and upper right corner of what a picture shows, mm.
-type Page = (DVec2, DVec2);
+type SheetPage = (DVec2, DVec2);
 
 /// A leaf of the sheet.
 pub(crate) struct Specimen {
-    pub(crate) bounds: Page,
+    pub(crate) bounds: SheetPage,
     pub(crate) outlines: Vec<Outline>,
     pub(crate) network: VenationNetwork,
 }
@@ -45,7 +45,7 @@ impl Sheet {
     }
 
     /// The part of the plane that a leaf's cell shows.
-    fn page(&self, leaf: &Specimen) -> Page {
+    fn page(&self, leaf: &Specimen) -> SheetPage {
         let middle = (leaf.bounds.0 + leaf.bounds.1) * 0.5;
         (middle - self.cell * 0.5, middle + self.cell * 0.5)
     }

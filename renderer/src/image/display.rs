@@ -13,15 +13,13 @@ use leafmodel::document::value_kind::{Flag, Text, Word};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::card;
 use super::colours::{mapped, to_rec709};
 use super::error::ImageError;
-use super::light_colour;
 use super::picture::{Picture, luminance};
 use super::pixels::{Depth, Pixels};
 use super::tone::Tone;
 use super::white::{White, WhiteKind, neutralised};
-use super::{atomic, jpeg, portable_network};
+use super::{atomic, card, jpeg, light_colour, portable_network};
 use crate::spectrum::observer::Observer;
 use crate::spectrum::{Share, WavelengthSampler};
 

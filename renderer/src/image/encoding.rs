@@ -16,7 +16,7 @@ use super::tone::from_srgb;
 const PQ_WHITE: f64 = 203.0;
 
 /// The light of a value in [0, 1].
-type Curve = Box<dyn Fn(f64) -> f64>;
+type TransferCurve = Box<dyn Fn(f64) -> f64>;
 
 /// What values of a picture mean, whatever its file says of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,7 +30,7 @@ pub enum Stored {
 /// What values mean.
 pub(super) struct Encoding {
     /// Of red, green and blue; one for all three if there is only one.
-    curves: Vec<Curve>,
+    curves: Vec<TransferCurve>,
     points: [[f32; 2]; 4],
 }
 
@@ -50,7 +50,7 @@ impl Encoding {
 
     /// One curve for all channels, and primaries.
     pub(super) fn even(curve: impl Fn(f64) -> f64 + 'static, points: [[f32; 2]; 4]) -> Self {
-        let curves: Vec<Curve> = vec![Box::new(curve)];
+        let curves: Vec<TransferCurve> = vec![Box::new(curve)];
         Self { curves, points }
     }
 
@@ -112,7 +112,7 @@ impl Encoding {
         };
         let profile = ColorProfile::new_from_slice(profile)
             .map_err(|error| refused(&format!("cannot be read ({error})")))?;
-        let curve = |trc: &Option<ToneReprCurve>| -> Result<Curve, ImageError> {
+        let curve = |trc: &Option<ToneReprCurve>| -> Result<TransferCurve, ImageError> {
             let trc = trc.as_ref().ok_or_else(|| refused("has no curves"))?;
             let light = trc.make_linear_evaluator();
             let light = light
@@ -164,7 +164,7 @@ impl Encoding {
     /// sRGB itself if this is sRGB but for rounding, as its profiles are.
     fn or_srgb(self) -> Self {
         const ROUNDING: f64 = 2e-3;
-        let is_even = |curve: &Curve| {
+        let is_even = |curve: &TransferCurve| {
             let mut steps = (0..=64).map(|step| f64::from(step) / 64.0);
             steps.all(|value| (curve(value) - from_srgb(value)).abs() < ROUNDING)
         };

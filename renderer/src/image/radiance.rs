@@ -27,7 +27,7 @@ const MOST_PIXELS_A_BYTE: u64 = 16;
 const MOST_LINE: usize = 1 << 16;
 
 /// What the header says.
-struct Header {
+struct RadianceHeader {
     /// What each channel is divided by: exposures and corrections of colours.
     factors: [f32; 3],
     points: [[f32; 2]; 4],
@@ -123,7 +123,7 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
 /// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`], also for a file of
 /// XYZE.
 pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
-    let Header {
+    let RadianceHeader {
         factors,
         points,
         order,
@@ -154,7 +154,7 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
 }
 
 /// Reads the header.
-fn header(bytes: &[u8]) -> Result<Header, ImageError> {
+fn header(bytes: &[u8]) -> Result<RadianceHeader, ImageError> {
     let mut at = 0;
     let mut line = || {
         let rest = &bytes[at..];
@@ -226,7 +226,7 @@ fn header(bytes: &[u8]) -> Result<Header, ImageError> {
             "`{shown}` is no size such as `-Y 512 +X 1024`"
         ))
     })?;
-    Ok(Header {
+    Ok(RadianceHeader {
         factors,
         points,
         order,

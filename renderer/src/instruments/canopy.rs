@@ -34,7 +34,7 @@ const SOIL_PROBES: u32 = 48;
 const MOST_FIGURES: usize = 1 << 18;
 
 /// One light, at one set of wavelengths.
-struct Lit<'a> {
+struct LitCanopy<'a> {
     stage: &'a Stage<'a>,
     period: Period,
     ledger: &'a Ledger,
@@ -45,7 +45,7 @@ struct Lit<'a> {
     stream: u32,
 }
 
-impl Experiment for Lit<'_> {
+impl Experiment for LitCanopy<'_> {
     fn sums(&self) -> usize {
         let seen = self.detectors.map_or(0, Detectors::len);
         1 + (self.ledger.quantities.len() + seen) * LANES
@@ -63,7 +63,7 @@ impl Experiment for Lit<'_> {
         let ray = self.ray(stream);
         sums[0] += 1.0;
         let flux = Flux::new(self.stage, &self.period, &self.wavelengths, 1);
-        let mut tally = Tally {
+        let mut tally = CanopyTally {
             lit: self,
             sums,
             is_untouched: true,
@@ -72,7 +72,7 @@ impl Experiment for Lit<'_> {
     }
 }
 
-impl Illumination for Lit<'_> {
+impl Illumination for LitCanopy<'_> {
     fn ray(&self, stream: &mut Stream) -> Ray {
         let [x, y, u, v] = stream.next4();
         let towards = match self.direction {
@@ -88,14 +88,14 @@ impl Illumination for Lit<'_> {
 }
 
 /// The sums to which one ray adds.
-struct Tally<'a> {
-    lit: &'a Lit<'a>,
+struct CanopyTally<'a> {
+    lit: &'a LitCanopy<'a>,
     sums: &'a mut [f64],
     /// Whether the ray has been scattered by nothing so far.
     is_untouched: bool,
 }
 
-impl Witness<'_> for Tally<'_> {
+impl Witness<'_> for CanopyTally<'_> {
     fn scattering(&mut self, at: &Scattering<'_>) {
         let lit = self.lit;
         if let Some(detectors) = lit.detectors {
@@ -180,7 +180,7 @@ pub(super) fn read_out(
     let detectors = canopy.detector.as_ref();
     let detectors = detectors.map(|own| Detectors::new(own, &upwards, azimuth, [1.0; 2]));
     let numbered = (0..).zip(&directions);
-    let lit = measurement.lit(numbered, |(stream, &direction), wavelengths| Lit {
+    let lit = measurement.lit(numbered, |(stream, &direction), wavelengths| LitCanopy {
         stage: &stage,
         period,
         ledger: &ledger,

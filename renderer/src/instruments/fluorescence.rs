@@ -108,7 +108,7 @@ fn excitations(light: &ExcitationLight) -> Vec<(String, Vec<Packet>)> {
 }
 
 /// One light, one excitation, and one set of wavelengths at which emission is measured.
-struct Reading<'a, L, C> {
+struct FluorescenceExperiment<'a, L, C> {
     stage: &'a Stage<'a>,
     light: &'a L,
     course: &'a C,
@@ -118,13 +118,13 @@ struct Reading<'a, L, C> {
     stream: u32,
 }
 
-impl<L: Illumination, C: Course + Sync> Reading<'_, L, C> {
+impl<L: Illumination, C: Course + Sync> FluorescenceExperiment<'_, L, C> {
     fn flux<'w>(&'w self, wavelengths: &'w Wavelengths<LANES>, ways: u32) -> Flux<'w, C> {
         Flux::new(self.stage, self.course, wavelengths, ways)
     }
 }
 
-impl<L: Illumination, C: Course + Sync> Experiment for Reading<'_, L, C> {
+impl<L: Illumination, C: Course + Sync> Experiment for FluorescenceExperiment<'_, L, C> {
     fn sums(&self) -> usize {
         1 + QUANTITIES * LANES
     }
@@ -326,7 +326,7 @@ pub(super) fn read_out<'l, L: Illumination + 'l, C: Course + Sync>(
     for (stream, (light, ..)) in (0..).zip(&lights) {
         for (_, packets) in &excitations {
             for emission in &emissions {
-                readings.push(Reading {
+                readings.push(FluorescenceExperiment {
                     stage,
                     light: *light,
                     course,

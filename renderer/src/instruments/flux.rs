@@ -15,8 +15,7 @@ use crate::walk::encounter::Encounter;
 use crate::walk::facet::{Facet, Surroundings};
 use crate::walk::leaf_walk::{LeafWalk, Leaving};
 use crate::walk::{self, Ahead, Arrival, Boundary, Collision, Walk, roulette};
-use trace::world::World;
-use trace::world::WorldObjects;
+use trace::world::{World, WorldObjects};
 
 /// Number of wavelengths that a path carries.
 pub(super) const LANES: usize = 8;

@@ -21,7 +21,7 @@ use crate::scene::description::Gonio;
 use crate::spectrum::{Lanes, Wavelengths};
 
 /// One light on one face, at one set of wavelengths.
-struct Lit<'a> {
+struct LitSample<'a> {
     stage: &'a Stage<'a>,
     lamp: &'a Lamp<'a>,
     /// Before the sample and behind it.
@@ -29,7 +29,7 @@ struct Lit<'a> {
     wavelengths: Wavelengths<LANES>,
 }
 
-impl Experiment for Lit<'_> {
+impl Experiment for LitSample<'_> {
     fn sums(&self) -> usize {
         1 + 2 * self.detectors[0].len() * LANES
     }
@@ -45,7 +45,7 @@ impl Experiment for Lit<'_> {
     fn shoot(&self, stream: &mut Stream, sums: &mut [f64]) {
         let ray = self.lamp.ray(stream);
         let flux = Flux::new(self.stage, &Straight, &self.wavelengths, 1);
-        let mut tally = Tally {
+        let mut tally = GonioTally {
             lit: self,
             sums,
             is_lit: false,
@@ -58,14 +58,14 @@ impl Experiment for Lit<'_> {
 }
 
 /// The sums to which one ray adds.
-struct Tally<'a> {
-    lit: &'a Lit<'a>,
+struct GonioTally<'a> {
+    lit: &'a LitSample<'a>,
     sums: &'a mut [f64],
     /// Whether the ray has met the sample.
     is_lit: bool,
 }
 
-impl Tally<'_> {
+impl GonioTally<'_> {
     fn add(&mut self, side: usize, number: usize, seen: Lanes<LANES>) {
         add(
             self.sums,
@@ -75,7 +75,7 @@ impl Tally<'_> {
     }
 }
 
-impl Witness<'_> for Tally<'_> {
+impl Witness<'_> for GonioTally<'_> {
     fn scattering(&mut self, at: &Scattering<'_>) {
         let lit = self.lit;
         for (side, detectors) in lit.detectors.iter().enumerate() {
@@ -131,7 +131,7 @@ pub(super) fn read_out(
         })
         .collect();
     let pairs = lamps.iter().zip(&detectors);
-    let lit = measurement.lit(pairs, |(lamp, detectors), wavelengths| Lit {
+    let lit = measurement.lit(pairs, |(lamp, detectors), wavelengths| LitSample {
         stage: &bench.stage,
         lamp,
         detectors,

@@ -54,7 +54,7 @@ const FLUORESCENCE: Manner = Manner {
 };
 
 /// One light on one face, at one set of wavelengths.
-struct Lit<'a> {
+struct LitInSphere<'a> {
     stage: &'a Stage<'a>,
     lamp: &'a Lamp<'a>,
     /// Whether absorption is told by constituents.
@@ -62,7 +62,7 @@ struct Lit<'a> {
     wavelengths: Wavelengths<LANES>,
 }
 
-impl Experiment for Lit<'_> {
+impl Experiment for LitInSphere<'_> {
     fn sums(&self) -> usize {
         let parts = if self.constituents { PARTS } else { 0 };
         1 + (QUANTITIES.len() + parts) * LANES
@@ -103,7 +103,7 @@ impl Experiment for Lit<'_> {
 
 /// What the sphere gathers of one ray.
 struct Gathered<'a> {
-    lit: &'a Lit<'a>,
+    lit: &'a LitInSphere<'a>,
     /// Sums of constituents.
     parts: &'a mut [f64],
     /// Out of the face that is lit.
@@ -142,7 +142,7 @@ pub(super) fn read_out(
     let bench = Bench::new(measurement, sample)?;
     check_layers(measurement, &bench.stage, sample.constituents)?;
     let lamps = bench.lamps(sample);
-    let lit = measurement.lit(lamps.iter(), |lamp, wavelengths| Lit {
+    let lit = measurement.lit(lamps.iter(), |lamp, wavelengths| LitInSphere {
         stage: &bench.stage,
         lamp,
         constituents: sample.constituents,

@@ -8,8 +8,7 @@ use super::row::{CutPaths, Reading, Row};
 use crate::geometry::{Geometry, GeometryError, origin_near};
 use crate::material::Material;
 use crate::spectrum::Lanes;
-use trace::world::World;
-use trace::world::WorldObjects;
+use trace::world::{World, WorldObjects};
 
 /// Counts paths that a limit cuts; sums of integers are the same on any number of threads.
 #[derive(Debug)]

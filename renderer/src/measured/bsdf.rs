@@ -273,11 +273,11 @@ fn refuse_twins(text: &str, samples: &[Sample]) -> Result<(), Fault> {
 }
 
 /// Both directions and the wavelength of a row, in whole steps.
-type Key = (Steps, Steps, i64);
+type PairKey = (Steps, Steps, i64);
 
 /// The key of a row whose light goes from `from` to `to`; azimuths count from that of `from` if the
 /// surface is isotropic.
-fn key(from: Direction, to: Direction, nm: f64, is_isotropic: bool) -> Key {
+fn key(from: Direction, to: Direction, nm: f64, is_isotropic: bool) -> PairKey {
     let (from, to) = if is_isotropic {
         let is_pole = |direction: Direction| {
             steps(direction)[1] == 0 && {
@@ -315,7 +315,7 @@ impl Table {
             off.min(360.0 - off) < SAME_DEG
         });
         // Sum and number of the rows of each key: a pole may be there once for each azimuth.
-        let mut known: BTreeMap<Key, (f64, u32)> = BTreeMap::new();
+        let mut known: BTreeMap<PairKey, (f64, u32)> = BTreeMap::new();
         for sample in &self.samples {
             let key = key(sample.incident, sample.scattered, sample.nm, is_isotropic);
             let (sum, count) = known.entry(key).or_default();

@@ -17,13 +17,12 @@ use self::leaves::{Draft, Leaves};
 use super::columns::{Column, Named, columns, is_wavelength};
 use super::known::{Known, ValueUnit, WavelengthUnit};
 pub use super::leaf::Leaf;
-use super::misnomers;
 use super::series::Series;
 use super::units::{
     self, are_percent, contradiction, greatest_fraction, guess, ignored, in_micrometres, note,
     percent,
 };
-use super::{Fault, of_ragged};
+use super::{Fault, misnomers, of_ragged};
 
 /// Leaves of a table, and what was taken for granted about it.
 #[derive(Clone, Debug, PartialEq)]

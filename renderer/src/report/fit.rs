@@ -1,17 +1,15 @@
 //! Contents that were found from spectra: CSV, JSON, a drawing, and words.
 
-mod fitted;
 mod plot;
 
 use std::fmt;
 
-use leafmodel::optics::Constituent;
 use leafmodel::optics::faces::CONTRASTS;
-use leafmodel::optics::inversion::{Determined, Found, INTERVAL, Inversion};
+use leafmodel::optics::inversion::{Determined, Found, INTERVAL};
+use leafmodel::optics::{Constituent, Model};
 use serde_json::{Map, Value as Json, json};
 
-pub(crate) use self::fitted::{Fitted, shown};
-pub(crate) use self::plot::svg;
+pub(crate) use self::plot::{Fitted, shown, svg};
 use super::table::{Table, aligned, cell};
 use crate::checkpoint::PROGRAM;
 
@@ -94,11 +92,11 @@ pub(crate) fn covariances(fitted: &[Fitted<'_>]) -> String {
 }
 
 /// Everything as JSON.
-pub(crate) fn report(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
+pub(crate) fn report(fitted: &[Fitted<'_>], free: &[Constituent], model: Model) -> String {
     let leaves = fitted.iter().map(|Fitted { leaf, found }| {
         let mut contents = Map::new();
         for &of in free {
-            let figure = figure(found.contents[of], found.known[of], Inversion::bounds(of));
+            let figure = figure(found.contents[of], found.known[of], found.bounds[of]);
             contents.insert(of.key().to_owned(), figure);
         }
         let contrast = found.contrast;
@@ -123,7 +121,10 @@ pub(crate) fn report(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
         })
     });
     let leaves: Vec<Json> = leaves.collect();
-    format!("{:#}\n", json!({ "program": PROGRAM, "leaves": leaves }))
+    format!(
+        "{:#}\n",
+        json!({ "program": PROGRAM, "model": model.name(), "leaves": leaves })
+    )
 }
 
 /// A value with its errors, or why there is none.

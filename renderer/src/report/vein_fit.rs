@@ -1,6 +1,7 @@
 //! Parameters of growth that were found from measures: CSV, JSON, a drawing, and words.
 
 mod picture;
+pub(crate) mod simulations;
 
 use leafmodel::inference::{
     Correlation, Fit, Identified, Parameter, ParameterEstimate, Prediction, Problem, Role,

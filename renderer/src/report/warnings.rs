@@ -1,6 +1,5 @@
 //! Warnings about unusual but allowed properties of a grown leaf.
 
-use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::leaf::{Lamina, LeafPlan};
 use leafmodel::optics::Contents;
 use leafmodel::shape::outline::Outline;
@@ -29,15 +28,7 @@ pub(crate) fn of(plan: &LeafPlan, lamina: &Lamina) -> Vec<String> {
         ));
     }
     if network.edges().is_empty() {
-        let advice = match &plan.venation {
-            VenationPlan::Auxin(_) => "more darts or smaller birth distances let sources appear",
-            VenationPlan::Cells(_) | VenationPlan::Transport(_) => {
-                "a smaller least_cells lets thinner veins appear"
-            }
-            VenationPlan::Development(_) | VenationPlan::Arcuate(_) => {
-                "they go from base to apex as far as there is blade: move base or apex"
-            }
-        };
+        let advice = plan.venation.advice_without_veins();
         warnings.push(format!("no vein grew; {advice}"));
     }
     let width = width(&lamina.outline);
@@ -54,13 +45,7 @@ pub(crate) fn of(plan: &LeafPlan, lamina: &Lamina) -> Vec<String> {
         .iter()
         .map(|edge| edge.radius_from.max(edge.radius_to))
         .fold(0.0, f64::max);
-    let key = match &plan.venation {
-        VenationPlan::Auxin(_) => "veinlet_radius_mm",
-        VenationPlan::Cells(_) | VenationPlan::Transport(_) | VenationPlan::Development(_) => {
-            "base_radius_mm"
-        }
-        VenationPlan::Arcuate(_) => "width",
-    };
+    let key = plan.venation.width_key();
     warnings.extend(too_wide("the widest vein", widest, key));
     // Without its own radius it has that of the midrib.
     let petiole = plan.petiole.as_ref().and_then(|petiole| petiole.radius_mm);
@@ -72,10 +57,11 @@ pub(crate) fn of(plan: &LeafPlan, lamina: &Lamina) -> Vec<String> {
 
 /// A warning about primaries that end at the margin long before the tip of their lobe.
 fn stubs(plan: &LeafPlan, lamina: &Lamina) -> Option<String> {
-    let VenationPlan::Arcuate(veins) = &plan.venation else {
-        return None;
-    };
-    let shares = veins.primaries_laid(&lamina.outline).ok()?;
+    let shares = plan
+        .venation
+        .arcuate()?
+        .primaries_laid(&lamina.outline)
+        .ok()?;
     let cut = shares.iter().filter(|&&share| share < STUB).count();
     let all = shares.len();
     (cut > 0).then(|| {
@@ -99,6 +85,7 @@ fn width(outline: &Outline) -> f64 {
 #[cfg(test)]
 mod tests {
     use leafmodel::blade::petiole::PetiolePlan;
+    use leafmodel::leaf::venation_plan::VenationPlan;
     use leafmodel::species::find;
     use leafmodel::transport::VeinStyle;
     use leafmodel::venation::arcuate::{ArcuatePlan, PalmateVeins};

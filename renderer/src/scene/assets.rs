@@ -164,8 +164,11 @@ pub fn contents_map(file: &Path) -> Result<ContentsTexture, AssetError> {
     let mut texels = memory::filled(Texel::splat(0.0), width * height);
     for constituent in Constituent::ALL {
         let name = constituent.channel();
-        // Maps of PROSPECT-D's inputs alone hold no betalains.
-        if !constituent.is_prospect_d() && !picture.layers.iter().any(|layer| layer.name == name) {
+        let is_there = |name: &str| picture.layers.iter().any(|layer| layer.name == name);
+        let has_parts = Constituent::DRY_MATTER_PARTS.map(|part| is_there(part.channel()));
+        let may_be_left_out = constituent.if_left_out().is_some()
+            || (constituent == Constituent::DryMatter && has_parts.contains(&true));
+        if may_be_left_out && !is_there(name) {
             continue;
         }
         let least = constituent.least() as f32;

@@ -62,7 +62,7 @@ impl Authored {
             source,
             film: Film::usual(),
             picture: Picture::default(),
-            camera: Camera::usual(),
+            camera: Camera::default(),
             integrator: Integrator::default(),
             media: Vec::new(),
             materials: Vec::new(),

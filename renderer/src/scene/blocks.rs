@@ -6,16 +6,11 @@
 //! - **Always true**: a scene is returned only if there is no error; its numbers are finite
 //!   and in range, indices are valid, files lie in the scene's folder.
 
-mod camera;
-pub(in crate::scene) mod film;
 mod fluorescence;
 mod instances;
-mod leaf;
 mod object;
 mod placement;
 mod references;
-mod sensitivities;
-mod solid;
 pub(in crate::scene) mod spectrum;
 pub(in crate::scene) mod table_file;
 mod volume;
@@ -24,7 +19,6 @@ use std::rc::Rc;
 
 use leafmodel::document::context::Context;
 use leafmodel::document::declared::Declared;
-use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, NamedList};
 use leafmodel::document::names::{Named, require_title};
 use leafmodel::document::reader::Block;
@@ -35,8 +29,10 @@ use leafmodel::document::tree::Table;
 use leafmodel::document::value_kind::{Flag, Text};
 use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 
-use super::authored::{Authored, Light};
-use super::description::{Leaf, Material, Medium, Picture};
+pub(crate) use self::references::Purpose;
+use super::authored::Authored;
+use super::description::film::film;
+use super::description::{Camera, Leaf, Picture};
 
 /// All keys at the top of a scene file.
 const SECTIONS: [&str; 16] = [
@@ -57,15 +53,6 @@ const SECTIONS: [&str; 16] = [
     "lights",
     "objects",
 ];
-
-/// What a scene is read for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Purpose {
-    /// A picture: spectra must cover the wavelengths of the film.
-    Picture,
-    /// Its instruments: spectra of surfaces must cover their wavelengths. Lights do nothing.
-    Instruments,
-}
 
 /// Reads a whole file. Errors are left in the context; if there is none, the scene is returned.
 pub(crate) fn read(
@@ -149,23 +136,19 @@ fn scene(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
     // The film comes first, since it sets the wavelengths that spectra must cover.
     let about = "What is recorded, and how well.";
     keys.required_block("film", about, &["rgb", "spectral"], |keys| {
-        film::film(&mut scene.film, keys);
+        film(&mut scene.film, keys);
     });
     fluorescence::report_range(keys);
     let about = "How the picture to look at is made from the film.";
     keys.block("picture", about, |keys| scene.picture.declare(keys));
     let about = "Where the scene is seen from.";
-    keys.required_block("camera", about, &camera::NAMES, |keys| {
-        camera::camera(&mut scene.camera, keys);
+    keys.required_block("camera", about, &Camera::kinds(), |keys| {
+        scene.camera.declare(keys);
     });
     let about = "How light is followed.";
     keys.block("integrator", about, |keys| scene.integrator.declare(keys));
-    named(
-        keys,
-        "instruments",
-        &mut scene.instruments,
-        "Instruments, which `lamina instruments` reads out.",
-    );
+    let about = "Instruments, which `lamina instruments` reads out.";
+    named(keys, "instruments", &mut scene.instruments, about);
     if purpose == Purpose::Instruments {
         set_range(scene, keys);
     }
@@ -190,53 +173,23 @@ fn set_range(scene: &Authored, keys: &Keys<'_>) {
 
 /// The named blocks.
 fn sections(scene: &mut Authored, keys: &mut Keys<'_>, purpose: Purpose) {
-    let about = "What fills bodies.";
-    section(
-        keys,
-        "media",
-        &mut scene.media,
-        &Medium::default,
-        about,
-        Medium::declare,
-    );
+    named(keys, "media", &mut scene.media, "What fills bodies.");
     let about = "What surfaces are made of.";
-    section(
-        keys,
-        "materials",
-        &mut scene.materials,
-        &Material::default,
-        about,
-        Material::declare,
-    );
+    named(keys, "materials", &mut scene.materials, about);
     named(keys, "meshes", &mut scene.meshes, "Shapes as triangles.");
     named(keys, "leaves", &mut scene.leaves, "Leaves that are grown.");
     named(keys, "solids", &mut scene.solids, "Bodies of solid tissue.");
-    named(
-        keys,
-        "plants",
-        &mut scene.plants,
-        "Boughs and shoots that bear leaves.",
-    );
+    let about = "Boughs and shoots that bear leaves.";
+    named(keys, "plants", &mut scene.plants, about);
     if purpose == Purpose::Instruments
         && let Some(root) = keys.reader()
     {
         root.cx.range_nm.set(None);
     }
     let about = "Lights; there is one at least.";
-    section(
-        keys,
-        "lights",
-        &mut scene.lights,
-        &Light::default,
-        about,
-        Light::declare,
-    );
-    named(
-        keys,
-        "objects",
-        &mut scene.objects,
-        "What stands in the scene; there is one at least.",
-    );
+    named(keys, "lights", &mut scene.lights, about);
+    let about = "What stands in the scene; there is one at least.";
+    named(keys, "objects", &mut scene.objects, about);
 }
 
 /// A section of blocks with names.
@@ -246,31 +199,15 @@ fn named<T: Declared + Default>(
     blocks: &mut Vec<Named<T>>,
     about: &'static str,
 ) {
-    section(keys, name, blocks, &T::default, about, T::declare);
-}
-
-fn section<T>(
-    keys: &mut Keys<'_>,
-    name: &'static str,
-    blocks: &mut Vec<Named<T>>,
-    new: &dyn Fn() -> T,
-    about: &'static str,
-    declare: impl Fn(&mut T, &mut Keys<'_>),
-) {
     let list = NamedList {
         required: false,
         new: &|name: &str| Named {
             name: name.to_owned(),
-            value: new(),
+            value: T::default(),
         },
         name_of: |block: &Named<T>| &block.name,
     };
     keys.named(name, blocks, &list, about, |block, keys| {
-        declare(&mut block.value, keys);
+        block.value.declare(keys);
     });
-}
-
-/// Reports an error at a key of the present block, or at the block if the key is missing.
-fn report(keys: &Keys<'_>, key: &str, error: DocumentError) {
-    keys.report(&[key], error);
 }

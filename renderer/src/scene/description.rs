@@ -5,6 +5,8 @@
 //! same input. `scene::expand` makes it of what the file says.
 
 mod camera;
+pub mod film;
+mod grown;
 pub(in crate::scene) mod instrument;
 pub mod layer;
 pub mod light;
@@ -19,15 +21,14 @@ pub mod tissue;
 use std::sync::Arc;
 
 use leafmodel::blade::stalk::StalkMesh;
-use leafmodel::document::declared::Declared;
 pub use leafmodel::document::names::Named;
-use leafmodel::leaf::LeafPlan;
-use leafmodel::solid::SolidPlan;
 
-use crate::film::MOST_SAMPLES;
+use crate::light::Light as BuiltLight;
 use crate::scene::model::Wanted;
 
 pub use self::camera::{Camera, FocusObject};
+pub use self::film::Film;
+pub use self::grown::{Leaf, Solid};
 pub use self::instrument::{
     Amount, Canopy, DepthProfile, Detector, Estimator, ExcitationLight, FluorescenceReading, Gonio,
     Incidence, Incident, Index, Instrument, InstrumentKind, Response, Sample, Spot, SpotMiddle,
@@ -85,53 +86,34 @@ pub struct Description {
 }
 
 impl Description {
+    /// Each light with those of the tracer that were built of it, given all of these.
+    pub(crate) fn with_built<'a>(
+        &'a self,
+        built: &'a [BuiltLight],
+    ) -> impl Iterator<Item = (&'a Named<Light>, &'a [BuiltLight])> {
+        let mut rest = built;
+        self.lights.iter().map(move |named| {
+            let (own, others) = rest.split_at(named.value.parts());
+            rest = others;
+            (named, own)
+        })
+    }
+
     /// What is used of the mesh with this number besides its triangles.
     pub fn wanted_of(&self, mesh: usize) -> Wanted {
         let materials = self.materials.iter().map(|named| &named.value);
-        let of_it = materials.filter(|material| material.colours_of() == Some(mesh));
+        let mut of_it = materials.filter(|material| material.colours_of() == Some(mesh));
         let emission = self
             .lights
             .iter()
             .filter_map(|light| light.value.emitting_object())
             .any(|object| self.objects[object].value.first_mesh() == Some(mesh));
-        let nothing = Wanted {
+        Wanted {
+            colours: of_it.clone().next().is_some(),
+            finishes: of_it.any(|material| matches!(material, Material::Model(_))),
             emission,
-            ..Wanted::default()
-        };
-        of_it.fold(nothing, |wanted, material| Wanted {
-            colours: true,
-            finishes: wanted.finishes || matches!(material, Material::Model(_)),
-            emission,
-        })
+        }
     }
-}
-
-/// What is recorded, and how well.
-#[derive(Clone, Debug, Declared)]
-pub struct Film {
-    /// Pixels across.
-    #[key(with = Self::declare_size)]
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Samples a pixel; with `noise` the most.
-    #[key("spp", required, 1..=MOST_SAMPLES.into())]
-    pub spp: u32,
-    /// Relative error at which a part of the picture has enough samples; `None` if all parts get
-    /// the same number.
-    #[key(with = Self::declare_noise)]
-    pub noise: Option<f64>,
-    /// Seed of every random number; same file, same seed, same bytes.
-    #[key("seed")]
-    pub seed: u64,
-    /// Radius of the Gaussian reconstruction filter; 0 is a box of one pixel, which keeps pixels
-    /// independent of each other.
-    ///
-    /// In pixels.
-    #[key("filter_radius_px", 0.0..=8.0)]
-    pub filter_radius: f64,
-    /// Colour or bands.
-    pub kind: FilmKind,
 }
 
 /// What a scene's triangles are made from.
@@ -141,30 +123,4 @@ pub enum Shape {
     Mesh(Mesh),
     /// The axes of a plant, or other bodies of it, mm.
     Body(Arc<StalkMesh>),
-}
-
-/// A grown leaf: mesh, content maps and coats.
-#[derive(Clone, Debug)]
-pub struct Leaf {
-    /// The plan from which it is grown.
-    pub plan: LeafPlan,
-    /// The properties of its faces.
-    pub faces: LeafFaces,
-    /// How its chlorophyll fluoresces; `None` if it does not.
-    pub fluorescence: Option<Fluorescence>,
-    /// Factor on the distance over which light that the blade lets through spreads sideways, ≥ 0.
-    pub light_spread: f64,
-    /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
-    pub extrapolate: bool,
-}
-
-/// A grown body of solid tissue: mesh and map of contents.
-#[derive(Clone, Debug, Default)]
-pub struct Solid {
-    /// The plan from which it is grown.
-    pub plan: SolidPlan,
-    /// The optics of the tissue.
-    pub optics: SolidOptics,
-    /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
-    pub extrapolate: bool,
 }

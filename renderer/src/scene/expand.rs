@@ -3,41 +3,16 @@
 
 mod boughs;
 mod individuals;
+mod planted;
 pub(super) mod rigs;
 mod walls;
 
 use leafmodel::document::names::Named;
 
-use super::authored::{Authored, Light, Plant};
+pub(super) use self::planted::Fault;
+use self::planted::Planted;
+use super::authored::{Authored, Light};
 use super::description::{Description, Instrument, Shape};
-
-/// Why a scene cannot be expanded.
-#[derive(Debug)]
-pub(super) struct Fault {
-    /// Where the file says what is wrong.
-    pub(super) path: Vec<String>,
-    /// What is wrong.
-    pub(super) problem: String,
-    /// What to do.
-    pub(super) help: &'static str,
-}
-
-impl Fault {
-    fn new(path: &[&str], problem: String, help: &'static str) -> Self {
-        Self {
-            path: path.iter().map(|&key| key.to_owned()).collect(),
-            problem,
-            help,
-        }
-    }
-}
-
-/// The plants of a scene, and which object is which.
-struct Planted {
-    plants: Vec<Named<Plant>>,
-    /// Of each object of the file the plant that it is.
-    of_object: Vec<Option<usize>>,
-}
 
 /// The scene as shapes and places.
 ///
@@ -72,12 +47,6 @@ pub(super) fn expand(authored: Authored) -> Result<Description, Fault> {
     individuals::grow_apart(&mut scene, &planted)?;
     boughs::place(&mut scene, &planted)?;
     Ok(scene)
-}
-
-/// Adds a block to a section; its number.
-fn add<T>(blocks: &mut Vec<Named<T>>, name: String, value: T) -> usize {
-    blocks.push(Named { name, value });
-    blocks.len() - 1
 }
 
 /// Other values by the same names.

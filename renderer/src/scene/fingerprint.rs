@@ -34,7 +34,7 @@ pub(super) fn fingerprint(identity: &str, inputs: &[PathBuf]) -> Result<u64, Ass
 /// plants, which presets may hide.
 pub(super) fn identity(tree: &Table, authored: &Authored) -> String {
     let mut text = String::new();
-    write_table(&mut text, tree, Depth::File);
+    write_table(&mut text, tree, Nesting::File);
     for leaf in &authored.leaves {
         text += &plan_file::leaf_to_toml(&leaf.name, &leaf.value.plan, Extent::All);
     }
@@ -49,7 +49,7 @@ pub(super) fn identity(tree: &Table, authored: &Authored) -> String {
 
 /// Where a table lies in the file.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Depth {
+enum Nesting {
     File,
     /// A section, the order of whose blocks counts: lights and objects have numbers.
     Section,
@@ -58,25 +58,25 @@ enum Depth {
 }
 
 /// Keys that samples do not depend on, or that are compared by themselves.
-fn is_left_out(depth: Depth, key: &str) -> bool {
+fn is_left_out(depth: Nesting, key: &str) -> bool {
     match depth {
-        Depth::File => key == "picture",
-        Depth::Film => ["spp", "seed", "noise"].contains(&key),
-        Depth::Section | Depth::Block => false,
+        Nesting::File => key == "picture",
+        Nesting::Film => ["spp", "seed", "noise"].contains(&key),
+        Nesting::Section | Nesting::Block => false,
     }
 }
 
-fn write_table(text: &mut String, table: &Table, depth: Depth) {
+fn write_table(text: &mut String, table: &Table, depth: Nesting) {
     let mut entries: Vec<_> = table.0.iter().collect();
-    if depth != Depth::Section {
+    if depth != Nesting::Section {
         entries.sort_by_key(|entry| &entry.key);
     }
     entries.retain(|entry| !is_left_out(depth, &entry.key));
     for entry in entries {
         let inner = match depth {
-            Depth::File => Depth::Section,
-            Depth::Section if ["rgb", "spectral"].contains(&entry.key.as_str()) => Depth::Film,
-            Depth::Section | Depth::Film | Depth::Block => Depth::Block,
+            Nesting::File => Nesting::Section,
+            Nesting::Section if ["rgb", "spectral"].contains(&entry.key.as_str()) => Nesting::Film,
+            Nesting::Section | Nesting::Film | Nesting::Block => Nesting::Block,
         };
         *text += &format!("{:?}=", entry.key);
         write_value(text, &entry.node.value, inner);
@@ -85,7 +85,7 @@ fn write_table(text: &mut String, table: &Table, depth: Depth) {
 }
 
 /// A value in one form: 1 and 1.0 are the same.
-fn write_value(text: &mut String, value: &Value, depth: Depth) {
+fn write_value(text: &mut String, value: &Value, depth: Nesting) {
     match value {
         Value::Text(own) => *text += &format!("{own:?}"),
         Value::Integer(own) => *text += &own.to_string(),
@@ -95,7 +95,7 @@ fn write_value(text: &mut String, value: &Value, depth: Depth) {
         Value::List(list) => {
             text.push('[');
             for node in list {
-                write_value(text, &node.value, Depth::Block);
+                write_value(text, &node.value, Nesting::Block);
                 text.push(',');
             }
             text.push(']');

@@ -15,6 +15,7 @@
 mod accessors;
 mod container;
 mod cut_out;
+mod error;
 mod file;
 mod left_out;
 mod masks;
@@ -28,96 +29,16 @@ mod tests;
 
 use std::io::Cursor;
 
-use leafmodel::document::source::escaped;
-use thiserror::Error;
-
 use self::pictures::Pictures;
-use crate::geometry::{MeshError, TriangleMesh};
-use crate::image::{ImageError, claimed};
+use crate::geometry::TriangleMesh;
+use crate::image::claimed;
 use crate::material::colour_map::ColourMap;
 use crate::material::model::Finish;
 
-pub use container::{Container, FileKind};
+pub use container::{Container, FileKind, Files};
+pub use error::ModelError;
 pub use file::ModelFile;
-
-/// Why a glTF file cannot be used.
-#[derive(Debug, Error)]
-pub enum ModelError {
-    /// It is no glTF 2.0 file, or a damaged one.
-    #[error("byte {byte}: {what}")]
-    Container {
-        /// Counted from 0.
-        byte: usize,
-        /// What is wrong.
-        what: String,
-    },
-    /// Its JSON cannot be understood.
-    #[error("its JSON, {0}")]
-    Json(String),
-    /// A part of its JSON says what must not be.
-    #[error("{place}: {what}")]
-    Invalid {
-        /// The part, such as `meshes[0].primitives[1]`.
-        place: String,
-        /// What is wrong.
-        what: String,
-    },
-    /// It needs an extension that is not known.
-    #[error(
-        "it requires the extension {0}, which is not read: save it again without (export \
-         uncompressed geometry and PNG or JPEG pictures)"
-    )]
-    Extension(String),
-    /// Nothing in it has triangles.
-    #[error("its scene has no triangles{0}")]
-    NoTriangles(String),
-    /// A picture cannot be read.
-    #[error("images[{number}]: {source}")]
-    Picture {
-        /// Number of the picture in the file.
-        number: usize,
-        /// What is wrong with it.
-        source: ImageError,
-    },
-    /// What it holds cannot be rendered.
-    #[error(transparent)]
-    Mesh(#[from] MeshError),
-}
-
-impl ModelError {
-    fn invalid(place: impl Into<String>, what: impl Into<String>) -> Self {
-        Self::Invalid {
-            place: place.into(),
-            what: what.into(),
-        }
-    }
-}
-
-/// A piece of the file for messages: quoted, safe to print, at most one line long.
-fn shown(text: &str) -> String {
-    const MOST: usize = 60;
-    format!("\"{}\"", escaped(text, MOST))
-}
-
-/// What a scene uses of a model besides its triangles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Wanted {
-    /// The base colours.
-    pub colours: bool,
-    /// Roughness, metal and normals, with the colours.
-    pub finishes: bool,
-    /// Emitted light.
-    pub emission: bool,
-}
-
-impl Wanted {
-    /// All that is read.
-    pub const ALL: Self = Self {
-        colours: true,
-        finishes: true,
-        emission: true,
-    };
-}
+pub use left_out::Wanted;
 
 /// A mesh and its surface.
 #[derive(Clone, Debug)]
@@ -133,9 +54,6 @@ pub struct Model {
     /// What the file has and this lacks, in words.
     pub left_out: Vec<String>,
 }
-
-/// Bytes of a file that a glTF file names, by its name as written there.
-pub type Files<'a> = &'a dyn Fn(&str) -> Option<&'a [u8]>;
 
 /// What a model will have, known before any of it is decoded.
 #[derive(Clone, Copy, Debug, PartialEq)]

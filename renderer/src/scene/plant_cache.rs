@@ -48,7 +48,7 @@ pub struct CacheError {
 
 /// Why a file is not used.
 #[derive(Debug, Error)]
-enum Refused {
+enum RefusedEntry {
     /// There is no such file, which is not an error.
     #[error("it is not there")]
     Missing,
@@ -121,7 +121,7 @@ impl PlantCache {
         let path = self.path(&identity);
         match read(&path, &key) {
             Ok(parts) => return Ok(parts),
-            Err(Refused::Missing) => {}
+            Err(RefusedEntry::Missing) => {}
             Err(refused) => self.lock_notes().push(format!(
                 "{}: {refused}; the leaf was grown anew",
                 path.display()
@@ -168,21 +168,21 @@ fn write(file: &mut impl Write, key: &[u8], parts: &LeafParts) -> io::Result<()>
 }
 
 /// The reason of refusal for an error of reading.
-fn refused(error: io::Error) -> Refused {
+fn refused(error: io::Error) -> RefusedEntry {
     if error.kind() == io::ErrorKind::NotFound {
-        Refused::Missing
+        RefusedEntry::Missing
     } else if error.kind() == io::ErrorKind::UnexpectedEof {
-        Refused::Damaged
+        RefusedEntry::Damaged
     } else {
-        Refused::Unreadable(error)
+        RefusedEntry::Unreadable(error)
     }
 }
 
-fn read(path: &Path, key: &[u8]) -> Result<LeafParts, Refused> {
+fn read(path: &Path, key: &[u8]) -> Result<LeafParts, RefusedEntry> {
     // The file's type is checked before opening it, since opening a pipe would wait for a writer.
     let found = std::fs::metadata(path).map_err(refused)?;
     if !found.is_file() {
-        return Err(Refused::Foreign);
+        return Err(RefusedEntry::Foreign);
     }
     let mut file = BufReader::new(File::open(path).map_err(refused)?);
     // All that stands before the leaf is known, so a foreign file cannot determine how much is read.
@@ -191,17 +191,17 @@ fn read(path: &Path, key: &[u8]) -> Result<LeafParts, Refused> {
     let mut start = vec![0; expected.len()];
     let is_whole = file.read_exact(&mut start);
     if start.starts_with(&OLDER) {
-        return Err(Refused::Older);
+        return Err(RefusedEntry::Older);
     }
     if is_whole.is_ok() && start != expected || !expected.starts_with(&start[..MAGIC.len()]) {
-        return Err(Refused::Foreign);
+        return Err(RefusedEntry::Foreign);
     }
     is_whole.map_err(refused)?;
     let head = SectionHead::read(&mut file).map_err(refused)?;
     let leaf = head.bytes(&mut file).map_err(refused)?;
     let is_at_end = file.read(&mut [0]).map_err(refused)? == 0;
-    let leaf = leaf.filter(|_| is_at_end).ok_or(Refused::Damaged)?;
-    parts_from(&leaf).ok_or(Refused::Damaged)
+    let leaf = leaf.filter(|_| is_at_end).ok_or(RefusedEntry::Damaged)?;
+    parts_from(&leaf).ok_or(RefusedEntry::Damaged)
 }
 
 /// The leaf that these bytes encode; `None` if they are not a leaf.

@@ -64,7 +64,7 @@ pub fn grow_solid(
     palette: Palette,
     table: Arc<ReflectanceTable>,
 ) -> Result<(TriangleMesh, SolidMaterial), SolidError> {
-    let grown = Solid::grow(&solid.plan, &|| false)?;
+    let grown = Solid::grow(&solid.plan)?;
     let uvs = grown.uvs.iter().map(|uv| uv.as_vec2()).collect();
     let mesh = mesh_parts(
         &grown.positions,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use leafmodel::optics::solid::ReflectanceTable;
 
-use super::description::{self, Fluorescence, LeafFaces, LeafOptics, SolidOptics};
+use super::description::tissue::{self, Fluorescence, LeafFaces, LeafOptics, SolidOptics};
 use crate::bsdf::leaf::Coat;
 use crate::material::held::Held;
 use crate::material::leaf::{Abaxial, LeafMaterial, LeafTissue};
@@ -46,7 +46,7 @@ pub(super) fn solid(
 }
 
 /// A coat with its tables.
-fn coat_of(coat: description::Coat) -> Coat {
+fn coat_of(coat: tissue::Coat) -> Coat {
     Coat::new(
         coat.eta as f32,
         coat.alpha_across as f32,

@@ -5,9 +5,7 @@ mod error;
 mod light_colours;
 mod lights;
 mod materials;
-mod memory;
 pub(crate) mod meshes;
-mod middle;
 pub(crate) mod needs;
 mod notes;
 mod placing;
@@ -33,7 +31,7 @@ use self::lights::build_lights;
 use self::materials::{Known, build_materials};
 use self::meshes::{OwnSurface, build_mesh};
 pub use self::notes::on_mesh;
-pub use self::placing::Pieces;
+pub use self::placing::{MaterialOwner, Pieces};
 use self::placing::{Placed, place};
 use self::seen::Seen;
 pub use self::strewing::Places;
@@ -81,23 +79,6 @@ impl Deref for World {
     fn deref(&self) -> &traced::World {
         &self.traced
     }
-}
-
-/// The owner of a material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MaterialOwner {
-    /// The scene's material with this number.
-    Scene(usize),
-    /// A material of the leaf with the number `leaf`. Its different blades come first, then
-    /// its stalks, then its hairs by kind.
-    Leaf {
-        /// Index into [`Description::leaves`].
-        leaf: usize,
-        /// Index of the material within the leaf.
-        part: usize,
-    },
-    /// The body of solid tissue with this number.
-    Solid(usize),
 }
 
 /// What a world is built with besides its description.
@@ -195,7 +176,7 @@ impl World {
         }
         let mut view = scene
             .camera
-            .view_on(|object| middle::of_object(object, &meshes, &instances, &objects))
+            .view_on(|object| seen::middle_of(object, &meshes, &instances, &objects))
             .map_err(WorldError::Focus)?;
         let seen = (&meshes[..], &instances[..], &objects);
         let origin = look(scene, &mut view, seen, options, &mut notes);

@@ -34,10 +34,7 @@
 mod binary_tree;
 mod bounds;
 mod bvh;
-mod error;
 mod hilbert;
-mod hit;
-mod median;
 mod slab;
 mod triangle;
 mod wide_tree;

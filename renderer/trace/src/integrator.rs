@@ -8,7 +8,6 @@
 pub mod effort;
 pub mod features;
 mod fluorescence;
-mod job;
 pub mod layers;
 pub mod mis;
 pub mod noise;

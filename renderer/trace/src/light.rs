@@ -252,14 +252,8 @@ impl Light {
     /// Prefetches what [`Light::radiance_at_infinity`] will look up for a ray that is to be traced.
     #[inline]
     pub fn prefetch(&self, wi: Vec3) {
-        match self {
-            Self::Environment(light) => light.prefetch(wi),
-            Self::Sky(_)
-            | Self::Distant(_)
-            | Self::Constant(_)
-            | Self::Sun(_)
-            | Self::Area(_)
-            | Self::Spot(_) => {}
+        if let Self::Environment(light) = self {
+            light.prefetch(wi);
         }
     }
 

@@ -162,13 +162,10 @@ impl Material {
     /// The leaf that it is.
     #[inline]
     fn leaf(&self) -> Option<&LeafMaterial> {
-        match self {
-            Self::Diffuse(_)
-            | Self::Dielectric(_)
-            | Self::Plastic(_)
-            | Self::Model(_)
-            | Self::Solid(_) => None,
-            Self::Leaf(leaf) => Some(leaf),
+        if let Self::Leaf(leaf) = self {
+            Some(leaf)
+        } else {
+            None
         }
     }
 

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::Outcome;
 use super::distances::{Located, locate};
 use super::linear::{Factor, moments};
+use super::outcome::Outcome;
 use super::problem::Problem;
 use super::random::{member, normal, uniform};
 use super::simulated::{Counts, Particle, Shortage};

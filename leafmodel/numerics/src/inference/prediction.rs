@@ -1,6 +1,6 @@
 //! What the posterior foretells of each measure, beside what was observed.
 
-use super::Outcome;
+use super::outcome::Outcome;
 use super::posterior::{LEVELS, quantile};
 use super::problem::{Problem, Role};
 

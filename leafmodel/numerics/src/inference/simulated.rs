@@ -1,6 +1,6 @@
 //! Simulations that were carried out.
 
-use super::{FitError, Outcome};
+use super::outcome::{FitError, Outcome};
 
 /// A simulation that was carried out.
 #[derive(Clone, Debug)]

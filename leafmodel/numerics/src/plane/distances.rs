@@ -3,8 +3,9 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
+use super::points::{bounds, rectangle_distance_squared};
+use super::polygon;
 use super::segment::Line;
-use super::{bounds, polygon, rectangle_distance_squared};
 
 /// Distances to segments.
 ///

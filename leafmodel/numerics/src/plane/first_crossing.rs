@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::{Slabs, turn};
+use super::points::turn;
+use super::slabs::Slabs;
 
 /// Two edges of the closed polygon that cross, or touch elsewhere than at the corner that
 /// neighbours share. `None` for a simple polygon. Only edges in a common slab whose x-ranges

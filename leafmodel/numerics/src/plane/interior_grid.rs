@@ -6,7 +6,9 @@
 
 use glam::DVec2;
 
-use super::{Slabs, bounds, polygon};
+use super::points::bounds;
+use super::polygon;
+use super::slabs::Slabs;
 
 /// Cells along the longer side of the bounding rectangle.
 const CELLS: f64 = 48.0;

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::{segment, turn};
+use super::points::turn;
+use super::segment;
 
 /// The sides of a closed polygon, from each corner to the next.
 #[inline]

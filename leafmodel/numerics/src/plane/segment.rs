@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::turn;
+use super::points::turn;
 
 /// How far from `a` to `b` the point nearest to `p` lies, 0 to 1.
 #[inline]

@@ -17,7 +17,7 @@
 //!
 //! `docs/src/theory/leaf-optics.md` has the formula.
 
-use super::least_squares::{Parameter, minimise};
+use super::least_squares::{EXACT, Fit, Parameter, dot, minimise};
 
 /// Fewest values of a spectrum in which correlation is looked for.
 const LEAST: usize = 16;
@@ -46,6 +46,8 @@ pub struct Correlation {
     pub fraction: f64,
     /// Its length, nm.
     pub length_nm: f64,
+    /// How many values count as one independent value, ≥ 1.
+    pub values_as_one: f64,
 }
 
 /// The covariance of parameters of which `influence` has a row each: how much it moves with each
@@ -84,6 +86,7 @@ pub(super) fn covariance(
     let correlation = Correlation {
         fraction,
         length_nm: length * step,
+        values_as_one: times([fraction, length]),
     };
     let white = Correlation {
         fraction: 0.0,
@@ -110,10 +113,11 @@ pub(super) fn covariance(
                     .collect()
             })
             .collect();
-        let smooth: Vec<Vec<f64>> = moved.iter().map(|row| own.smoothed(nm, row)).collect();
+        let falls = own.falls(nm);
+        let smooth: Vec<Vec<f64>> = moved.iter().map(|row| own.smoothed(&falls, row)).collect();
         for (line, moved) in sum.iter_mut().zip(&moved) {
             for (sum, smooth) in line.iter_mut().zip(&smooth) {
-                *sum += moved.iter().zip(smooth).map(|(a, b)| a * b).sum::<f64>();
+                *sum += dot(moved, smooth);
             }
         }
     }
@@ -126,18 +130,25 @@ pub(super) fn covariance(
 }
 
 impl Correlation {
+    /// What is left of a correlation from one wavelength to the next.
+    fn falls(self, nm: &[f64]) -> Vec<f64> {
+        let steps = nm.windows(2).map(|pair| pair[1] - pair[0]);
+        steps
+            .map(|step| libm::exp(-step / self.length_nm))
+            .collect()
+    }
+
     /// The sum over all residuals of their correlation with each times a value: for the exponential
     /// by a sweep to either side.
-    fn smoothed(self, nm: &[f64], row: &[f64]) -> Vec<f64> {
-        let falls = |i: usize| libm::exp(-(nm[i] - nm[i - 1]) / self.length_nm);
+    fn smoothed(self, falls: &[f64], row: &[f64]) -> Vec<f64> {
         let mut smooth: Vec<f64> = row.to_vec();
         let (mut before, mut behind) = (0.0, 0.0);
         for i in 1..row.len() {
-            before = falls(i) * (before + row[i - 1]);
+            before = falls[i - 1] * (before + row[i - 1]);
             smooth[i] += self.fraction * before;
         }
         for i in (1..row.len()).rev() {
-            behind = falls(i) * (behind + row[i]);
+            behind = falls[i - 1] * (behind + row[i]);
             smooth[i - 1] += self.fraction * behind;
         }
         smooth
@@ -163,10 +174,16 @@ fn fitted(rho: &[f64], count: usize) -> [f64; 2] {
         },
     ];
     let start = [0.8, (rho.len() as f64 / 3.0).max(0.5)];
-    let found = minimise(&known, &start, |at| {
-        let steps = (1..).zip(rho);
-        let off = steps.map(|(step, rho)| at[0] * libm::exp(-f64::from(step) / at[1]) - rho);
-        off.collect()
+    let found = minimise(&known, &start, EXACT, |at| {
+        let mut fit = Fit::of(2, rho.len());
+        for (place, rho) in rho.iter().enumerate() {
+            let over = (place + 1) as f64 / at[1];
+            let fall = libm::exp(-over);
+            fit.left[place] = at[0] * fall - rho;
+            fit.slopes[0][place] = fall;
+            fit.slopes[1][place] = at[0] * fall * over / at[1];
+        }
+        fit
     });
     [found.parameters[0], found.parameters[1]]
 }
@@ -243,23 +260,29 @@ fn autocorrelation(spectrum: Fitted<'_>, scales: &[f64]) -> Option<Vec<f64>> {
         .collect();
     let step = step(nm);
     let most = (count / 8).max(8);
-    let mut sums = vec![(0.0, 0_u32); most];
-    for i in 0..count {
-        for j in i + 1..count {
-            let lag = ((nm[j] - nm[i]) / step).round() as usize;
-            if lag > most {
-                break;
-            }
-            if lag > 0 {
-                sums[lag - 1].0 += residuals[i] * residuals[j];
-                sums[lag - 1].1 += 1;
+    let mut sums = vec![(0.0, 0); most];
+    let is_even = |pair: &[f64]| (pair[1] - pair[0] - step).abs() < 1e-6 * step;
+    if nm.windows(2).all(is_even) {
+        for (lag, (sum, pairs)) in (1..count).zip(&mut sums) {
+            *pairs = count - lag;
+            *sum = dot(&residuals[lag..], &residuals[..*pairs]);
+        }
+    } else {
+        for i in 0..count {
+            for j in i + 1..count {
+                let lag = ((nm[j] - nm[i]) / step).round() as usize;
+                if lag > most {
+                    break;
+                }
+                if lag > 0 {
+                    sums[lag - 1].0 += residuals[i] * residuals[j];
+                    sums[lag - 1].1 += 1;
+                }
             }
         }
     }
-    let known = sums
-        .iter()
-        .take_while(|(_, pairs)| *pairs as usize >= LEAST / 2);
-    let rho: Vec<f64> = known.map(|(sum, pairs)| sum / f64::from(*pairs)).collect();
+    let known = sums.iter().take_while(|(_, pairs)| *pairs >= LEAST / 2);
+    let rho: Vec<f64> = known.map(|(sum, pairs)| sum / *pairs as f64).collect();
     let neighbours = rho.first()?;
     (neighbours * (count as f64).sqrt() > SIGNIFICANT).then_some(rho)
 }
@@ -275,8 +298,9 @@ mod tests {
         let own = Correlation {
             fraction: 0.7,
             length_nm: 4.0,
+            values_as_one: 1.0,
         };
-        let smooth = own.smoothed(&nm, &row);
+        let smooth = own.smoothed(&own.falls(&nm), &row);
         for i in 0..4 {
             let others = (0..4).map(|j| {
                 let rho = if i == j {

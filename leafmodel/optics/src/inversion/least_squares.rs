@@ -1,6 +1,6 @@
 //! Least squares within bounds.
 //!
-//! - **In**: a function from parameters to residuals, bounds, a start.
+//! - **In**: a function from parameters to residuals with their slopes, bounds, a start.
 //! - **Out**: the parameters of a local minimum of the sum of squares within the bounds, which of them
 //!   the residuals determine, and how each residual moves those.
 //!
@@ -16,13 +16,16 @@
 //! estimator HC1, for the standard errors.
 
 /// Relative change of the sum of squares below which a minimum is taken as found.
-const FLAT: f64 = 1e-13;
+pub const EXACT: f64 = 1e-13;
+/// The same where only the best of several starts is looked for.
+pub const ROUGH: f64 = 1e-4;
 /// Greatest number of steps.
 const MOST_STEPS: usize = 400;
-/// Step of differences, as a share of a parameter's scale.
-const DIFFERENCE: f64 = 1e-5;
 /// Damping from which no step can help any more.
 const MOST_DAMPING: f64 = 1e12;
+/// Root of the mean square by which residuals change over a parameter's scale, below which it has no
+/// influence: less than the rounding of any measurement.
+const LEAST_EFFECT: f64 = 1e-12;
 /// Share of a diagonal that must be left of a pivot: below, the parameter is not told from others.
 const LEAST_PIVOT: f64 = 1e-11;
 /// Share of the square of a parameter's effect that another has in the sum of others that equals it.
@@ -35,6 +38,25 @@ pub struct Parameter {
     pub bounds: [f64; 2],
     /// A change that matters, > 0.
     pub scale: f64,
+}
+
+/// Residuals at some parameters.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// The residuals.
+    pub left: Vec<f64>,
+    /// The derivatives of all residuals by each parameter.
+    pub slopes: Vec<Vec<f64>>,
+}
+
+impl Fit {
+    /// Zeros, for so many parameters and residuals.
+    pub fn of(parameters: usize, residuals: usize) -> Self {
+        Self {
+            left: vec![0.0; residuals],
+            slopes: vec![vec![0.0; residuals]; parameters],
+        }
+    }
 }
 
 /// A minimum.
@@ -70,32 +92,36 @@ pub enum State {
 }
 
 impl Minimum {
-    /// The covariance of the determined parameters, if the residuals are independent.
-    pub fn covariance(&self) -> Vec<Vec<f64>> {
-        let count = self.left.len() as f64;
+    /// The covariance of the determined parameters, if the first so many residuals are independent and
+    /// the others have no error.
+    pub fn covariance(&self, residuals: usize) -> Vec<Vec<f64>> {
+        let count = residuals as f64;
         let spare = count - self.unknowns as f64;
+        let left = &self.left[..residuals];
         let moved = |a: &[f64], b: &[f64]| -> f64 {
-            let parts = a.iter().zip(b).zip(&self.left);
-            parts.map(|((a, b), left)| a * b * left * left).sum::<f64>() * count / spare
+            let weighted = a.iter().zip(left).map(|(a, left)| a * left * left);
+            dot(&weighted.collect::<Vec<f64>>(), &b[..residuals]) * count / spare
         };
         let line = |a: &Vec<f64>| self.influence.iter().map(|b| moved(a, b)).collect();
         self.influence.iter().map(line).collect()
     }
 }
 
-/// Minimises the sum of squares of `residuals(parameters)` from a start within the bounds.
+/// Minimises the sum of squares of `residuals(parameters)` from a start within the bounds, until it
+/// changes by less than the fraction `flat`.
 pub fn minimise(
     known: &[Parameter],
     start: &[f64],
-    mut residuals: impl FnMut(&[f64]) -> Vec<f64>,
+    flat: f64,
+    mut residuals: impl FnMut(&[f64]) -> Fit,
 ) -> Minimum {
     let mut at: Vec<f64> = start.to_vec();
-    let mut left = residuals(&at);
-    let mut sum = squares(&left);
+    let mut fit = residuals(&at);
+    let mut sum = dot(&fit.left, &fit.left);
     let mut damping = 1e-3;
     let mut calm = 0;
     for _ in 0..MOST_STEPS {
-        let system = System::of(known, &at, &left, &mut residuals);
+        let system = System::of(known, &fit);
         let free = system.free(known, &at);
         let mut moved = false;
         while damping < MOST_DAMPING {
@@ -109,14 +135,14 @@ pub fn minimise(
                 *value = (*value + step * parameter.scale).clamp(low, high);
             }
             let after = residuals(&next);
-            let less = squares(&after);
+            let less = dot(&after.left, &after.left);
             if less < sum {
-                calm = if sum - less <= FLAT * sum {
+                calm = if sum - less <= flat * sum {
                     calm + 1
                 } else {
                     0
                 };
-                (at, left, sum) = (next, after, less);
+                (at, fit, sum) = (next, after, less);
                 damping = (damping / 5.0).max(1e-15);
                 moved = true;
                 break;
@@ -127,20 +153,29 @@ pub fn minimise(
             break;
         }
     }
-    let system = System::of(known, &at, &left, &mut residuals);
-    let (states, unknowns, influence) = system.determined(known, &at, left.len());
+    let system = System::of(known, &fit);
+    let (states, unknowns, influence) = system.determined(known, &at, &fit);
     Minimum {
         parameters: at,
         sum,
-        left,
+        left: fit.left,
         states,
         influence,
         unknowns,
     }
 }
 
-fn squares(residuals: &[f64]) -> f64 {
-    residuals.iter().map(|residual| residual * residual).sum()
+/// The sum of products, in eight sums side by side.
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
+    let mut sums = [0.0; 8];
+    for (a, b) in a.iter().zip(b) {
+        for lane in 0..8 {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    let rest = a_rest.iter().zip(b_rest).map(|(a, b)| a * b);
+    sums.into_iter().chain(rest).sum()
 }
 
 /// The normal equations in parameters over their scales.
@@ -149,43 +184,25 @@ struct System {
     gradient: Vec<f64>,
     /// Jᵀ J.
     matrix: Vec<Vec<f64>>,
-    /// J, column by column.
-    columns: Vec<Vec<f64>>,
+    /// The diagonal of a parameter that has an influence is above this.
+    least: f64,
 }
 
 impl System {
-    fn of(
-        known: &[Parameter],
-        at: &[f64],
-        left: &[f64],
-        residuals: &mut impl FnMut(&[f64]) -> Vec<f64>,
-    ) -> Self {
-        let columns: Vec<Vec<f64>> = (0..at.len())
-            .map(|i| {
-                let [low, high] = known[i].bounds;
-                let step = DIFFERENCE * known[i].scale;
-                let mut near = |to: f64| {
-                    let mut near = at.to_vec();
-                    near[i] = to.clamp(low, high);
-                    (near[i], residuals(&near))
-                };
-                let (above, up) = near(at[i] + step);
-                let (below, down) = near(at[i] - step);
-                let wide = (above - below) / known[i].scale;
-                up.iter()
-                    .zip(&down)
-                    .map(|(up, down)| (up - down) / wide)
-                    .collect()
-            })
-            .collect();
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    fn of(known: &[Parameter], fit: &Fit) -> Self {
+        let scaled = || known.iter().zip(&fit.slopes);
+        let gradient = scaled().map(|(one, slopes)| one.scale * dot(slopes, &fit.left));
+        let mut matrix = vec![vec![0.0; known.len()]; known.len()];
+        for (i, (one, slopes)) in scaled().enumerate() {
+            for (j, (other, others)) in scaled().enumerate().take(i + 1) {
+                matrix[i][j] = one.scale * other.scale * dot(slopes, others);
+                matrix[j][i] = matrix[i][j];
+            }
+        }
         Self {
-            gradient: columns.iter().map(|column| dot(column, left)).collect(),
-            matrix: columns
-                .iter()
-                .map(|a| columns.iter().map(|b| dot(a, b)).collect())
-                .collect(),
-            columns,
+            gradient: gradient.collect(),
+            matrix,
+            least: fit.left.len() as f64 * LEAST_EFFECT * LEAST_EFFECT,
         }
     }
 
@@ -196,7 +213,7 @@ impl System {
                 let [low, high] = known[i].bounds;
                 let held = (at[i] <= low && self.gradient[i] >= 0.0)
                     || (at[i] >= high && self.gradient[i] <= 0.0);
-                !held && self.matrix[i][i] > 0.0
+                !held && self.matrix[i][i] > self.least
             })
             .collect()
     }
@@ -219,11 +236,12 @@ impl System {
         &self,
         known: &[Parameter],
         at: &[f64],
-        residuals: usize,
+        fit: &Fit,
     ) -> (Vec<State>, usize, Vec<Vec<f64>>) {
+        let residuals = fit.left.len();
         let free = self.free(known, at);
         let mut states: Vec<State> = (0..at.len())
-            .map(|i| match (self.matrix[i][i] > 0.0, free[i]) {
+            .map(|i| match (self.matrix[i][i] > self.least, free[i]) {
                 (true, true) => State::Determined,
                 (true, false) => State::AtBound,
                 (false, _) => State::WithoutInfluence,
@@ -269,14 +287,14 @@ impl System {
         {
             let unit = (0..numbers.len()).map(|other| f64::from(u8::from(other == place)));
             let row = factor.solve(unit.collect());
-            let at = |at: usize| {
-                let parts = row.iter().zip(&numbers);
-                parts
-                    .map(|(row, &j)| row * self.columns[j][at])
-                    .sum::<f64>()
-                    * known[i].scale
-            };
-            influence.push((0..residuals).map(at).collect());
+            let mut moved = vec![0.0; residuals];
+            for (row, &j) in row.iter().zip(&numbers) {
+                let factor = row * known[j].scale * known[i].scale;
+                for (moved, slope) in moved.iter_mut().zip(&fit.slopes[j]) {
+                    *moved += factor * slope;
+                }
+            }
+            influence.push(moved);
         }
         (states, numbers.len(), influence)
     }
@@ -338,6 +356,30 @@ mod tests {
         vec![parameter; count]
     }
 
+    /// From a start, with slopes by central differences.
+    fn minimise(
+        known: &[Parameter],
+        start: &[f64],
+        residuals: impl Fn(&[f64]) -> Vec<f64>,
+    ) -> Minimum {
+        const STEP: f64 = 1e-5;
+        super::minimise(known, start, EXACT, |at| {
+            let beside = |i: usize, by: f64| {
+                let mut beside = at.to_vec();
+                beside[i] += by;
+                residuals(&beside)
+            };
+            let slopes = (0..at.len()).map(|i| {
+                let ends = beside(i, STEP).into_iter().zip(beside(i, -STEP));
+                ends.map(|(up, down)| (up - down) / (2.0 * STEP)).collect()
+            });
+            Fit {
+                left: residuals(at),
+                slopes: slopes.collect(),
+            }
+        })
+    }
+
     fn assert_near(found: f64, expected: f64, slack: f64) {
         assert!((found - expected).abs() <= slack, "{found}, not {expected}");
     }
@@ -358,7 +400,7 @@ mod tests {
         assert_near(found.parameters[0], 3.0001, 1e-4);
         assert_near(found.parameters[1], 0.5001, 1e-4);
         assert_eq!(found.states, [State::Determined; 2]);
-        let covariance = found.covariance();
+        let covariance = found.covariance(x.len());
         assert_near(covariance[0][0].sqrt(), 0.98949, 1e-4);
         assert_near(covariance[1][1].sqrt(), 0.11415, 1e-4);
         assert_eq!(covariance[0][1], covariance[1][0]);

@@ -1,5 +1,8 @@
 use super::*;
+use crate::faces::abaxial_ratio;
 use crate::layers::{LayeredLeaf, Resolution};
+use crate::{Model, Pigments};
+use document::declared::Words;
 use properties::uniform;
 
 /// The cases of the reference table: contents, and spectra that another implementation computed.
@@ -42,8 +45,13 @@ fn cases() -> Vec<Case> {
 
 impl Case {
     fn found(&self, with: [bool; 2]) -> Found {
-        let inversion = Inversion::new(&self.nm, &Inversion::PROSPECT_D, Contents::NOTHING)
-            .expect("within the table");
+        let inversion = Inversion::new(
+            &Pigments::default(),
+            &self.nm,
+            Model::ProspectD.inputs(),
+            Contents::NOTHING,
+        )
+        .expect("within the table");
         inversion.of(Spectra {
             reflectance: with[0].then_some(&self.reflectance),
             transmittance: with[1].then_some(&self.transmittance),
@@ -59,8 +67,13 @@ impl Case {
     }
 
     fn found_by_faces(&self, abaxial: &[f64], with: [bool; 2]) -> Found {
-        let inversion = Inversion::new(&self.nm, &Inversion::PROSPECT_D, Contents::NOTHING)
-            .expect("within the table");
+        let inversion = Inversion::new(
+            &Pigments::default(),
+            &self.nm,
+            Model::ProspectD.inputs(),
+            Contents::NOTHING,
+        )
+        .expect("within the table");
         inversion.of(Spectra {
             reflectance: with[0].then_some(&self.reflectance),
             abaxial: Some(abaxial),
@@ -70,7 +83,7 @@ impl Case {
 
     /// Greatest difference from the case's contents, over them or over a hundredth of what matters.
     fn worst(&self, found: &Found) -> (f64, Constituent) {
-        let off = Inversion::PROSPECT_D.map(|of| {
+        let off = Model::ProspectD.inputs().iter().map(|&of| {
             let least = 0.01 * parameter(of).scale;
             let off = (found.contents[of] - self.contents[of]).abs();
             (off / self.contents[of].abs().max(least), of)
@@ -169,7 +182,7 @@ impl Coverage {
     }
 
     fn count_all(&mut self, found: &Found, truth: &Contents) {
-        for of in Inversion::PROSPECT_D {
+        for &of in Model::ProspectD.inputs() {
             self.count(found.contents[of], truth[of], found.known[of]);
         }
     }
@@ -269,7 +282,12 @@ fn covered(noise: Noise, step_nm: f64, last_nm: f64, is_relative: bool, leaves: 
         .iter()
         .map(|&nm| ProspectD::coefficients(nm).expect("within the table"));
     let at: Vec<Coefficients> = at.collect();
-    let inversion = Inversion::new(&nm, &Inversion::PROSPECT_D, Contents::NOTHING);
+    let inversion = Inversion::new(
+        &Pigments::default(),
+        &nm,
+        Model::ProspectD.inputs(),
+        Contents::NOTHING,
+    );
     let inversion = inversion.expect("within the table");
     let mut coverage = Coverage::default();
     for leaf in 0..leaves {
@@ -352,7 +370,12 @@ fn the_covariance_has_the_squares_of_the_errors_on_its_diagonal_and_is_symmetric
         .iter()
         .map(|value| value * (1.0 + 0.01 * normal()))
         .collect();
-    let inversion = Inversion::new(&case.nm, &Inversion::PROSPECT_D, Contents::NOTHING);
+    let inversion = Inversion::new(
+        &Pigments::default(),
+        &case.nm,
+        Model::ProspectD.inputs(),
+        Contents::NOTHING,
+    );
     let found = inversion.expect("within the table").of(Spectra {
         reflectance: Some(&noisy),
         ..Spectra::default()
@@ -380,11 +403,16 @@ fn pigments_have_no_value_where_only_infrared_light_was_measured() {
         .position(|nm| *nm >= 1300.0)
         .expect("the table goes on");
     for betalains in [false, true] {
-        let mut free = Inversion::PROSPECT_D.to_vec();
+        let mut free = Model::ProspectD.inputs().to_vec();
         if betalains {
             free.push(Constituent::Betacyanins);
         }
-        let inversion = Inversion::new(&case.nm[from..], &free, Contents::NOTHING);
+        let inversion = Inversion::new(
+            &Pigments::default(),
+            &case.nm[from..],
+            &free,
+            Contents::NOTHING,
+        );
         let found = inversion.expect("within the table").of(Spectra {
             reflectance: Some(&case.reflectance[from..]),
             transmittance: Some(&case.transmittance[from..]),
@@ -407,7 +435,8 @@ fn what_is_fixed_stays_and_the_rest_is_found_around_it() {
     let case = &cases()[0];
     let fixed = case.contents;
     let free = [Constituent::Chlorophyll, Constituent::Water];
-    let inversion = Inversion::new(&case.nm, &free, fixed).expect("within the table");
+    let inversion =
+        Inversion::new(&Pigments::default(), &case.nm, &free, fixed).expect("within the table");
     let found = inversion.of(Spectra {
         reflectance: Some(&case.reflectance),
         ..Spectra::default()
@@ -425,8 +454,9 @@ fn visible_light_does_not_determine_water() {
     let case = &cases()[0];
     let visible = case.nm.iter().filter(|nm| **nm <= 700.0).count();
     let inversion = Inversion::new(
+        &Pigments::default(),
         &case.nm[..visible],
-        &Inversion::PROSPECT_D,
+        Model::ProspectD.inputs(),
         Contents::NOTHING,
     );
     // Off by one percent, to one side and the other.
@@ -452,7 +482,12 @@ fn visible_light_does_not_determine_water() {
 
 #[test]
 fn a_wavelength_outside_of_the_table_is_refused() {
-    let outside = Inversion::new(&[500.0, 350.0], &Inversion::PROSPECT_D, Contents::NOTHING);
+    let outside = Inversion::new(
+        &Pigments::default(),
+        &[500.0, 350.0],
+        Model::ProspectD.inputs(),
+        Contents::NOTHING,
+    );
     assert_eq!(outside.expect_err("350 nm").wavelength_nm, 350.0);
 }
 
@@ -472,8 +507,13 @@ fn both_faces_of_a_leaf_of_layers_show_its_pigments_and_contrast() {
             faces[1].push(abaxial.reflected);
             through.push(adaxial.transmitted);
         }
-        let inversion = Inversion::new(&nm, &Inversion::PROSPECT_D, Contents::NOTHING)
-            .expect("within the table");
+        let inversion = Inversion::new(
+            &Pigments::default(),
+            &nm,
+            Model::ProspectD.inputs(),
+            Contents::NOTHING,
+        )
+        .expect("within the table");
         let [one, both] = [None, Some(faces[1].as_slice())].map(|abaxial| {
             inversion.of(Spectra {
                 reflectance: Some(&faces[0]),
@@ -483,7 +523,8 @@ fn both_faces_of_a_leaf_of_layers_show_its_pigments_and_contrast() {
         });
         let contrast = both.contrast.expect("both faces are there");
         for (name, found) in [("one face", &one), ("both", &both)] {
-            let shown = Inversion::PROSPECT_D.map(|of| found.contents[of]);
+            let inputs = Model::ProspectD.inputs().iter();
+            let shown: Vec<f64> = inputs.map(|&of| found.contents[of]).collect();
             eprintln!("{name}: {shown:.4?}, rms {:.4}", found.rms());
         }
         eprintln!("{contrast:?}");
@@ -492,4 +533,113 @@ fn both_faces_of_a_leaf_of_layers_show_its_pigments_and_contrast() {
             both.contents[Constituent::Chlorophyll] / one.contents[Constituent::Chlorophyll];
         assert!((moved - 1.0).abs() < 0.25, "{moved}");
     }
+}
+
+/// R and T of a leaf in a model every 10 nm, with a ripple as of a model that lacks something.
+fn spectra_of(pigments: &Pigments, leaf: &Contents, ripple: f64) -> [Vec<f64>; 3] {
+    let nm: Vec<f64> = (0..211).map(|i| 400.0 + 10.0 * f64::from(i)).collect();
+    let optics = nm.iter().map(|&nm| {
+        let leaf = ProspectD::coefficients_of(pigments, nm).reflectance_transmittance(leaf);
+        let wave = ripple * libm::sin(nm / 60.0);
+        (leaf.reflectance + wave, leaf.transmittance + wave)
+    });
+    let (r, t) = optics.unzip();
+    [nm, r, t]
+}
+
+#[test]
+fn contents_come_back_in_each_model() {
+    let usual = Contents::of(&[
+        (Constituent::Structure, 1.6),
+        (Constituent::Chlorophyll, 42.0),
+        (Constituent::Carotenoids, 9.0),
+        (Constituent::Anthocyanins, 2.0),
+        (Constituent::Brown, 0.1),
+        (Constituent::Water, 0.012),
+        (Constituent::DryMatter, 0.005),
+        (Constituent::Proteins, 0.0012),
+        (Constituent::CarbonBased, 0.005),
+    ]);
+    for (name, model) in Model::WORDS {
+        let pigments = Pigments {
+            model: *model,
+            ..Pigments::default()
+        };
+        let mut leaf = Contents::NOTHING;
+        for &of in model.inputs() {
+            leaf[of] = usual[of];
+        }
+        let [nm, r, t] = spectra_of(&pigments, &leaf, 0.0);
+        let inversion = Inversion::new(&pigments, &nm, model.inputs(), Contents::NOTHING);
+        let found = inversion.expect("within the tables").of(Spectra {
+            reflectance: Some(&r),
+            transmittance: Some(&t),
+            ..Spectra::default()
+        });
+        for &of in model.inputs() {
+            let off = (found.contents[of] / leaf[of] - 1.0).abs();
+            assert!(off < 1e-5, "{name}, {of:?}: {}", found.contents[of]);
+        }
+    }
+}
+
+#[test]
+fn a_prior_decides_what_the_spectra_do_not_and_no_more() {
+    let leaf = Contents::prospect_d([1.6, 42.0, 9.0, 1.0, 0.1, 0.012, 0.006]);
+    let [nm, r, t] = spectra_of(&Pigments::default(), &leaf, 0.003);
+    let visible = nm.partition_point(|nm| *nm <= 700.0);
+    let priors = |prior| {
+        PerConstituent::splat(None).with(&[
+            (
+                Constituent::Water,
+                Some(Prior::Normal {
+                    mean: 0.02,
+                    deviation: 0.004,
+                }),
+            ),
+            (Constituent::Chlorophyll, prior),
+        ])
+    };
+    let found = |until: usize, prior| {
+        let free = Model::ProspectD.inputs();
+        let inversion = Inversion::new(&Pigments::default(), &nm[..until], free, Contents::NOTHING);
+        let inversion = inversion
+            .expect("within the tables")
+            .with_priors(priors(prior));
+        inversion.of(Spectra {
+            reflectance: Some(&r[..until]),
+            transmittance: Some(&t[..until]),
+            ..Spectra::default()
+        })
+    };
+    // Visible light does not determine water: there the prior is all that is known.
+    let dim = found(visible, None);
+    let water = dim.contents[Constituent::Water];
+    let error = dim.known[Constituent::Water].error().expect("it is known");
+    assert!((water - 0.02).abs() < 4e-4, "{water}");
+    assert!((error / 0.004 - 1.0).abs() < 0.02, "{error}");
+    // Infrared light determines it, whatever the prior.
+    let bright = found(nm.len(), None);
+    let water = bright.contents[Constituent::Water];
+    assert!((water - 0.012).abs() < 1e-3, "{water}");
+    // Between two sources that disagree the result lies by their weights.
+    let alone = bright.contents[Constituent::Chlorophyll];
+    let error = bright.known[Constituent::Chlorophyll]
+        .error()
+        .expect("it is known");
+    let prior = Prior::Normal {
+        mean: alone + 2.0 * error,
+        deviation: error,
+    };
+    let both = found(nm.len(), Some(prior));
+    let share = (both.contents[Constituent::Chlorophyll] - alone) / (2.0 * error);
+    assert!((0.2..0.8).contains(&share), "{share}");
+    let narrower = both.known[Constituent::Chlorophyll]
+        .error()
+        .expect("it is known");
+    assert!(narrower < 0.85 * error, "{narrower} {error}");
+    // A range is kept.
+    let ranged = found(nm.len(), Some(Prior::Within([45.0, 60.0])));
+    assert_eq!(ranged.contents[Constituent::Chlorophyll], 45.0);
+    assert_eq!(ranged.known[Constituent::Chlorophyll], Determined::AtEnd);
 }

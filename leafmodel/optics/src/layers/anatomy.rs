@@ -207,10 +207,13 @@ impl Anatomy {
             Constituent::Anthocyanins | Constituent::Betacyanins | Constituent::Betaxanthins => {
                 f64::from(u8::from(tissue == Tissue::Palisade))
             }
-            Constituent::Brown | Constituent::Water | Constituent::Structure => {
-                self.cells_um(tissue) / self.all_cells_um()
+            Constituent::Brown
+            | Constituent::Water
+            | Constituent::Structure
+            | Constituent::Extra => self.cells_um(tissue) / self.all_cells_um(),
+            Constituent::DryMatter | Constituent::Proteins | Constituent::CarbonBased => {
+                self.dry_matter_of(tissue) / self.dry_matter_g_per_cm2()
             }
-            Constituent::DryMatter => self.dry_matter_of(tissue) / self.dry_matter_g_per_cm2(),
         }
     }
 

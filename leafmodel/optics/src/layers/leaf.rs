@@ -9,7 +9,7 @@ use crate::contents::Contents;
 use crate::prospect_d::{Coefficients, ProspectD};
 
 /// A leaf with less water than this, g per g of dry matter, has empty cells.
-const DRY_BELOW: f64 = 0.5;
+pub const DRY_BELOW: f64 = 0.5;
 /// Nothing passes so much; more would not be finite in the end.
 const DEEPEST: f64 = 1e6;
 /// Where the amount of scattering is found, nm: leaves absorb least there.
@@ -90,10 +90,7 @@ impl LayeredLeaf {
     }
 
     fn of_anatomy(contents: &Contents, anatomy: Anatomy, scattering: Scattering) -> Self {
-        let (water, dry) = (
-            contents[Constituent::Water],
-            contents[Constituent::DryMatter],
-        );
+        let (water, dry) = (contents[Constituent::Water], contents.all_dry_matter());
         // A gram of water is a cubic centimetre.
         let cells = if water < DRY_BELOW * dry {
             Cells::Empty

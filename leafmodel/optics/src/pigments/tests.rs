@@ -211,11 +211,10 @@ fn bands_vanish_smoothly_beyond_the_range_of_their_data() {
 #[test]
 fn parameters_out_of_range_are_refused_by_name() {
     let path = |pigments: Pigments| pigments.in_range().expect_err("it is wrong").path;
-    let good = Pigments::default();
-    assert!(good.in_range().is_ok());
+    assert!(Pigments::default().in_range().is_ok());
     let chlorophyll = |mix| Pigments {
         chlorophyll: Some(mix),
-        ..good
+        ..Pigments::default()
     };
     let solution = ChlorophyllMix::bands(3.0);
     for (mix, wanted) in [
@@ -241,15 +240,19 @@ fn parameters_out_of_range_are_refused_by_name() {
     assert_eq!(
         path(Pigments {
             carotenoids,
-            ..good
+            ..Pigments::default()
         }),
         "carotenoids.shares.beta_carotene"
     );
     let betalains = Betalains {
         packaging: f64::NAN,
-        ..good.betalains
+        ..Betalains::default()
     };
-    assert_eq!(path(Pigments { betalains, ..good }), "betalains.packaging");
+    let packed = Pigments {
+        betalains,
+        ..Pigments::default()
+    };
+    assert_eq!(path(packed), "betalains.packaging");
     assert_eq!(path(aglycones(only(0), 46.0, 0.0)), "anthocyanins.shift_nm");
     assert_eq!(
         path(aglycones(only(0), 0.0, 1.1)),

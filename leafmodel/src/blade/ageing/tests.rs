@@ -2,6 +2,7 @@
 
 use super::super::ageing_courses::{COURSES, LITTER, RED};
 use super::*;
+use crate::blade::ageing::leaf::AgeingLeaf;
 use crate::optics::Constituent::{
     Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
 };

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::{HairPlan, Root};
+use super::plan::HairPlan;
 
 /// Sides of a hair's cross-section, and pieces along it.
 pub(super) const SIDES: usize = 3;
@@ -75,4 +75,16 @@ impl HairMesh {
             self.triangles.push([a, b, first + (SIDES * PIECES) as u32]);
         }
     }
+}
+
+/// The foot of a hair.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Root {
+    pub(super) foot: DVec3,
+    /// Unit: straight out of the face, or out of the margin.
+    pub(super) out: DVec3,
+    /// Unit, at right angles to it: where it leans.
+    pub(super) lean: DVec3,
+    /// Three random numbers for its shape.
+    pub(super) chance: [f64; 3],
 }

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::numeric::smooth_step;
 use crate::random::{Use, uniform};
 

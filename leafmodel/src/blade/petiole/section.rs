@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::super::mesh::vertex_normals;
 use super::super::stalk::StalkMesh;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::numeric::smooth_step;
 use crate::plane::polyline;
 

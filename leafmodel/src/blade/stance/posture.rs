@@ -3,8 +3,8 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use super::settled::Settled;
-use crate::blade::BladeForm;
 use crate::blade::form::Bending;
+use crate::blade::plan::BladeForm;
 use crate::blade::pleats::Pleats;
 use crate::shape::outline::Outline;
 use crate::venation::conformal_map::ConformalMap;

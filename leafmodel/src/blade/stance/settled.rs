@@ -4,9 +4,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{Stance, tissue};
-use crate::blade::BladeForm;
+use super::plan::Stance;
+use super::tissue;
 use crate::blade::form::Bending;
+use crate::blade::plan::BladeForm;
 use crate::blade::pleats::Pleats;
 use crate::blade::relief::Relief;
 use crate::shape::outline::Outline;

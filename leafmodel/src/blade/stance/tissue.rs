@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
-use super::{Drying, Stance};
-use crate::blade::BladeForm;
+use super::plan::{Drying, Stance};
 use crate::blade::mottle::Mottle;
+use crate::blade::plan::BladeForm;
 use crate::random::{Use, bits};
 use crate::shape::outline::Outline;
 use crate::shell::{Grid, Patch};

@@ -15,7 +15,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::super::frame::UvFrame;
-use super::SurfacePlan;
+use super::plan::SurfacePlan;
 use crate::venation::network::VeinSegment;
 
 /// Strength of a fully developed vein, in 1/L.

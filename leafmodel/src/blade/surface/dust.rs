@@ -16,7 +16,7 @@
 use glam::DVec2;
 
 use super::super::mottle::Mottle;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::plane::distances::Distances;
 use crate::plane::polygon;
 use crate::venation::network::VeinSegment;

@@ -2,12 +2,18 @@
 
 use std::f64::consts::PI;
 
+use crate::blade::frame::UvFrame;
+use crate::blade::mesh::BladeMesh;
+use crate::blade::senescence::Withering;
+use crate::blade::tissue::Tissue;
+use crate::venation::network::VeinSegment;
+
 use glam::DVec2;
 
 use super::super::relief::HALF_WIDTH;
 use super::super::vein_grid::VeinGrid;
 use super::super::vein_profile::strength;
-use super::{SurfaceOf, SurfacePlan};
+use super::plan::SurfacePlan;
 
 /// Bounds are taken by this factor higher, for rounding.
 const SPARE: f64 = 1.0 + 1e-9;
@@ -98,6 +104,25 @@ impl Mounds {
         }
         mound
     }
+}
+
+/// What the relief of a blade is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceOf<'a> {
+    /// Where the map lies.
+    pub frame: &'a UvFrame,
+    /// The margin, mm; without one the whole frame is covered.
+    pub margin: &'a [DVec2],
+    /// The veins.
+    pub veins: &'a [VeinSegment],
+    /// The tissue, for the radius of a fully developed vein.
+    pub tissue: &'a Tissue,
+    /// The blade's mesh, whose relief is not repeated; without one the map has all of it.
+    pub mesh: Option<&'a BladeMesh>,
+    /// How the tissue has aged.
+    pub withering: Option<&'a Withering>,
+    /// Decides where dust lies.
+    pub seed: u64,
 }
 
 #[cfg(test)]

@@ -2,9 +2,7 @@
 
 use super::dust::DustPlan;
 use super::stomata::StomataPlan;
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
-use crate::document::ranges::RangeError;
+use crate::document::{Declared, Keys, RangeError};
 
 /// How the faces of a blade differ from smooth sheets.
 #[derive(Clone, Copy, Debug, Declared, PartialEq)]

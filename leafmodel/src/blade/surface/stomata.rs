@@ -1,8 +1,6 @@
 //! Stomata: how many a face has, of which size, and how they lie.
 
-use crate::document::declared::Declared;
-use crate::document::keys::Keys;
-use crate::document::ranges::RangeError;
+use crate::document::{Declared, Keys, RangeError};
 
 /// The stomata of both faces: elliptic pits in the epidermis.
 ///

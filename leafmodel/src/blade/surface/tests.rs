@@ -1,5 +1,8 @@
 use proptest::prelude::*;
 
+use crate::blade::frame::UvFrame;
+use crate::venation::network::VeinSegment;
+
 use super::*;
 use crate::blade::tissue::tests::GREEN;
 use properties::fixed;

@@ -5,7 +5,6 @@ use rayon::prelude::*;
 
 use super::super::frame::UvFrame;
 use super::super::mottle::Mottle;
-use super::NOISE_DEVIATION;
 use crate::shape::outline::Outline;
 use crate::venation::network::VeinSegment;
 
@@ -179,3 +178,6 @@ impl Grid<'_> {
         means
     }
 }
+
+/// Standard deviation of the noise of [`Mottle`] (measured).
+pub(super) const NOISE_DEVIATION: f64 = 0.36;

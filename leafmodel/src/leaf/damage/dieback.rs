@@ -17,7 +17,7 @@ use glam::DVec2;
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
 use crate::blade::mottle::Mottle;
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::numeric::smooth_step;
 use crate::optics::{Constituent, Contents};
 use crate::plane::distances::Distances;
@@ -250,12 +250,15 @@ impl Front {
                 Constituent::Betacyanins
                 | Constituent::Betaxanthins
                 | Constituent::Brown
-                | Constituent::DryMatter => 1.0,
+                | Constituent::DryMatter
+                | Constituent::Proteins
+                | Constituent::CarbonBased
+                | Constituent::Extra => 1.0,
             };
         }
         // What died last is darkest; the oldest has bleached.
         // Veins, which hold more dry matter, brown more.
-        let thick = (living[Constituent::DryMatter] / USUAL_DRY_MATTER).clamp(0.7, 2.5);
+        let thick = (living.all_dry_matter() / USUAL_DRY_MATTER).clamp(0.7, 2.5);
         let brown = (0.9 + 0.8 * libm::exp(-depth.max(0.0) / DARK_MM)) * thick;
         dead[Constituent::Brown] = dead[Constituent::Brown].max(brown);
         let is_dead = smooth_step(depth / EDGE_MM + 0.5);

@@ -45,7 +45,10 @@ impl Stain {
                 (Constituent::Chlorophyll, _) => 0.04,
                 (Constituent::Carotenoids, _) => 0.06,
                 (Constituent::Anthocyanins | Constituent::Water, _) => 0.3,
-                (Constituent::DryMatter, true) => 0.5,
+                (
+                    Constituent::DryMatter | Constituent::Proteins | Constituent::CarbonBased,
+                    true,
+                ) => 0.5,
                 _ => 1.0,
             };
         }

@@ -2,6 +2,7 @@ use std::sync::LazyLock;
 
 use super::*;
 use crate::blade::frame::UvFrame;
+use crate::grow_options::GrowOptions;
 use crate::leaf::{Lamina, Leaf, LeafPlan};
 use crate::optics::Constituent;
 use crate::species::find;
@@ -213,7 +214,9 @@ fn died(dieback: Dieback) -> (Lamina, Vec<(DVec2, bool)>) {
     let (outline, wounds) = damage.done_to(&WHOLE.outline, &mut lamina.network, plan.seed);
     lamina.outline = outline;
     lamina.wounds = Some(wounds);
-    let map = plan.paint(&lamina, &|| false).expect("a good plan");
+    let map = GrowOptions::default()
+        .contents(&plan, &lamina)
+        .expect("a good plan");
     let frame = UvFrame::around(lamina.intact().points());
     let green = plan.tissue.lamina[Constituent::Chlorophyll];
     let mut places = Vec::new();
@@ -348,7 +351,9 @@ fn a_yellow_rim_runs_ahead_of_dead_tissue_and_seeds_differ() {
         .as_ref()
         .and_then(|wounds| wounds.front.clone());
     let front = front.expect("a front");
-    let map = grown.paint(&lamina, &|| false).expect("a good plan");
+    let map = GrowOptions::default()
+        .contents(&grown, &lamina)
+        .expect("a good plan");
     let frame = UvFrame::around(lamina.intact().points());
     let green = grown.tissue.lamina;
     let mut rim = 0;

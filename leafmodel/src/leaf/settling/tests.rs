@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::blade::stance::Stance;
+
 use super::super::tests::plan;
 use super::super::*;
 use crate::blade::petiole::{Course, PetiolePlan, Section};

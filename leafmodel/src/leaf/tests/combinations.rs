@@ -2,6 +2,9 @@
 
 use super::super::*;
 use crate::blade::tissue::Tissue;
+use crate::leaf::outline_plan::OutlinePlan;
+use crate::leaf::tests::Contour;
+use crate::leaf::venation_plan::VenationPlan;
 use crate::shape::cubic_margin::CubicMargin;
 use crate::shape::svg_path::SvgContour;
 use crate::species::find;

@@ -1,7 +1,7 @@
 //! How often values of one group exceed those of the other.
 
+use super::effect::{Effect, OUTSIDE};
 use super::student::quantile;
-use super::{Effect, OUTSIDE};
 
 /// Beyond this on either side lies a twentieth of the normal distribution.
 const NORMAL: f64 = 1.959_963_984_540_054;

@@ -2,7 +2,7 @@
 
 use libm::lgamma;
 
-use super::{Effect, OUTSIDE};
+use super::effect::{Effect, OUTSIDE};
 use crate::measure::statistics::{mean, variance};
 
 /// Pieces into which each stretch of an integral is cut; Simpson's rule leaves less than 1e-8.

@@ -1,9 +1,10 @@
 //! Means, their intervals, and Welch's test of two of them.
 
 use serde::Serialize;
+
 use special::Beta;
 
-use super::OUTSIDE;
+use super::effect::OUTSIDE;
 use crate::measure::statistics::{mean, median, variance};
 
 /// What a group of values is like.

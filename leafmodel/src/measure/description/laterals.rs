@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
+use super::rules::{AT_MARGIN, IN_TOOTH, ROUND};
 use super::tracing::{Tracer, Vein};
-use super::{AT_MARGIN, IN_TOOTH, ROUND};
 use crate::shape::outline::Outline;
 use crate::venation::architecture::margin::Margin;
 use crate::venation::architecture::{Agrophic, Attachment, SecondaryEnding};

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::AT_MARGIN;
+use super::rules::AT_MARGIN;
 use crate::plane::segment;
 use crate::shape::outline::Outline;
 use crate::venation::architecture::margin::Margin;

@@ -1,6 +1,6 @@
 //! Tertiaries and quaternaries: whether they cross from one coarser vein to the next, and how.
 
-use super::ROUND;
+use super::rules::ROUND;
 use super::tracing::{Tracer, Vein};
 use crate::measure::statistics::median;
 use crate::venation::architecture::QuaternaryCourse;

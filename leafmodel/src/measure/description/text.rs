@@ -1,7 +1,7 @@
 //! A description in words.
 
 use super::{Areolation, Description, MarginalVenation, Veinlets};
-use crate::document::declared::Words;
+use crate::document::Words;
 use crate::venation::architecture::{Agrophic, PrimaryPattern};
 
 impl Description {

@@ -2,7 +2,6 @@
 
 use glam::DVec2;
 
-use super::Pipe;
 use crate::plane::bounds;
 
 /// Parts of so few nodes are not divided any more.
@@ -92,4 +91,16 @@ fn dissect(
     dissect(left, places, around, side, order);
     dissect(right, places, around, side, order);
     order.extend(between);
+}
+
+/// A pipe between two unknowns, or between one and a node at pressure 0 ([`Pipe::GROUND`]).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pipe {
+    pub(crate) ends: [u32; 2],
+    pub(crate) conductance: f64,
+}
+
+impl Pipe {
+    /// Stands for a node at pressure 0.
+    pub(crate) const GROUND: u32 = u32::MAX;
 }

@@ -1,7 +1,9 @@
 use glam::DVec3;
 
+use crate::mosaic::shapes::lathe::lathe;
+
 use super::*;
-use crate::mosaic::shapes::{Shape, lathe, rounded_cube, sheet, sphere};
+use crate::mosaic::shapes::{Shape, rounded_cube, sheet, sphere};
 use crate::shape::outline::Outline;
 
 fn surface(shape: Shape) -> Surface {

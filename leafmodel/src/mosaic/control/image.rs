@@ -2,12 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::document::declared::{Declared, Kinds};
-use crate::document::keys::Keys;
-use crate::document::limits::Limits;
 use crate::document::named_asset::decoded;
-use crate::document::ranges::RangeError;
-use crate::document::value_kind::{Number, Text};
+use crate::document::{Declared, Keys, Kinds, Limits, Number, RangeError, Text};
 use crate::not_grown::{NotGrown, not_grown};
 use crate::random::{Use, uniform};
 

@@ -1,5 +1,7 @@
 use glam::DVec3;
 
+use crate::mosaic::paint::sheet::SheetField;
+
 use super::*;
 use crate::mosaic::control::{ControlImage, Steered};
 use crate::mosaic::shapes::sphere;

@@ -1,6 +1,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
+use crate::mosaic::shapes::lathe::lathe;
+
 use super::*;
 
 /// Areas of the triangles, longest edge, Euler characteristic, number of open edges.

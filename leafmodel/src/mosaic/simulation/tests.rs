@@ -3,6 +3,7 @@ mod steered;
 use glam::DVec3;
 
 use super::*;
+use crate::grow_options::GrowOptions;
 use crate::mosaic::control::{ControlImage, CylinderControl, Steered};
 use crate::mosaic::growth::SurfaceGrowth;
 use crate::mosaic::plan::CellType;
@@ -55,7 +56,9 @@ fn cells_multiply_as_the_branching_process_says() {
         ..small(1500, 18.0)
     };
     let days = [0.0, 4.0, 6.0, 11.0, 18.0];
-    let stages = Mosaic::grow_until(&surface, &plan, 3, &days, &|| false).expect("good");
+    let stages = GrowOptions::default()
+        .mosaics(&surface, &plan, 3, &days)
+        .expect("good");
     for (stage, day) in stages.iter().zip(days) {
         for (kind, mean) in [(0, 5.0), (1, 10.0)] {
             let of_kind = |mosaic: &Mosaic| {
@@ -251,12 +254,14 @@ fn the_bits_do_not_depend_on_threads_or_on_the_days_asked_for() {
     };
     let (one, two) = (with(1), with(2));
     assert_eq!(one.cells, two.cells);
-    let stages = Mosaic::grow_until(&surface, &plan, 9, &[12.0, 3.0], &|| false).expect("good");
+    let stages = GrowOptions::default()
+        .mosaics(&surface, &plan, 9, &[12.0, 3.0])
+        .expect("good");
     assert_eq!(stages[0].cells, one.cells);
     assert!(stages[1].cells.len() < one.cells.len() && stages[1].day == 3.0);
     let other = Mosaic::grow(&surface, &plan, 10).expect("good");
     assert_ne!(other.cells, one.cells);
-    let stopped = Mosaic::grow_until(&surface, &plan, 9, &[12.0], &|| true);
+    let stopped = GrowOptions::stopped_by(&|| true).mosaics(&surface, &plan, 9, &[12.0]);
     assert_eq!(stopped.expect_err("stopped").to_string(), "stopped");
 }
 
@@ -275,7 +280,9 @@ fn on_a_growing_surface_cells_keep_their_spacing() {
         ..small(200, 20.0)
     };
     let days = [0.0, 10.0, 20.0];
-    let stages = Mosaic::grow_until(&surface, &plan, 6, &days, &|| false).expect("good");
+    let stages = GrowOptions::default()
+        .mosaics(&surface, &plan, 6, &days)
+        .expect("good");
     for stage in &stages {
         // The area per cell stays constant, since divisions fill the room made by growth.
         let cell_area = stage.surface.total_area() / stage.cells.len() as f64;
@@ -378,7 +385,11 @@ fn what_a_plan_has_wrong_is_named() {
         ..explosive
     };
     let surface = square(10.0, 5.0);
-    let error = Mosaic::grow_to(&surface, &explosive, 1, &[1000.0], 5000, &|| false);
+    let options = GrowOptions {
+        most_cells: 5000,
+        ..GrowOptions::default()
+    };
+    let error = options.mosaics(&surface, &explosive, 1, &[1000.0]);
     let error = error.expect_err("too many").to_string();
     assert!(error.contains("more than 5000 cells"), "{error}");
 }

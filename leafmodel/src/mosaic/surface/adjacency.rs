@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::NONE;
 use crate::not_grown::{NotGrown, not_grown};
 
 /// Greatest number of vertices or faces; beyond it, edge numbers would overflow.
@@ -129,3 +128,6 @@ fn ends(faces: &[[u32; 3]], face: u32, edge: u8) -> (u32, u32) {
     let edge = usize::from(edge);
     (corners[edge], corners[(edge + 1) % 3])
 }
+
+/// Marks the missing neighbour at a margin.
+pub(super) const NONE: u32 = u32::MAX;

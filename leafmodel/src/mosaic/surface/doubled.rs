@@ -1,6 +1,7 @@
 //! The two faces of a thin blade as one surface.
 
-use super::{NONE, Surface};
+use super::Surface;
+use super::adjacency::NONE;
 use crate::not_grown::{NotGrown, not_grown};
 
 impl Surface {

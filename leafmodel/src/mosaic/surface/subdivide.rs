@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{NONE, Surface, SurfacePoint, adjacency};
+use super::adjacency::NONE;
+use super::{Surface, SurfacePoint, adjacency};
 use crate::not_grown::{NotGrown, not_grown};
 
 /// Greatest number of faces: 6 GB of them while they are halved, enough for half a million cells at

@@ -13,7 +13,13 @@ use crate::optics::{Constituent, Contents, VeinFactors};
 
 pub(super) fn tissue_and_form() -> impl Strategy<Value = (Tissue, BladeForm)> {
     let contents = (1.0..4.0, of_each(0.0..1.0)).prop_map(|(structure, rest)| {
-        let mut held = Contents(rest).with(&[(Constituent::Structure, structure)]);
+        // PROSPECT-D has neither the parts of dry matter nor a table of its own.
+        let mut held = Contents(rest).with(&[
+            (Constituent::Structure, structure),
+            (Constituent::Proteins, 0.0),
+            (Constituent::CarbonBased, 0.0),
+            (Constituent::Extra, 0.0),
+        ]);
         held[Constituent::Chlorophyll] *= 80.0;
         held[Constituent::Carotenoids] *= 20.0;
         held

@@ -1,8 +1,8 @@
 //! Pigments by chance.
 
-use crate::optics::Pigments;
 use crate::optics::betalains::{Betacyanin, Betalains, Betaxanthin};
 use crate::optics::pigments::{AnthocyaninMix, CarotenoidMix, ChlorophyllBands, ChlorophyllMix};
+use crate::optics::{Model, Pigments};
 use proptest::prelude::*;
 
 /// Shares that sum to 1, some of them 0.
@@ -66,6 +66,8 @@ pub(super) fn pigments() -> impl Strategy<Value = Pigments> {
     let betalains = (betacyanin, betaxanthin, factor());
     (chlorophyll, carotenoids, anthocyanins, betalains).prop_map(
         |(chlorophyll, carotenoids, anthocyanins, (betacyanin, betaxanthin, packaging))| Pigments {
+            model: Model::default(),
+            extra: None,
             chlorophyll,
             carotenoids,
             anthocyanins,

@@ -52,10 +52,12 @@ pub(super) fn senescence() -> impl Strategy<Value = Option<Senescence>> {
 }
 
 /// Of these there are small numbers.
-const RARE: [Constituent; 3] = [
+const RARE: [Constituent; 5] = [
     Constituent::Brown,
     Constituent::Water,
     Constituent::DryMatter,
+    Constituent::Proteins,
+    Constituent::CarbonBased,
 ];
 /// How small.
 const BULK: f64 = 0.02;

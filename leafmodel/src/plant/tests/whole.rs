@@ -9,7 +9,7 @@ fn feet_of(kinds: usize, individuals: u32) -> Vec<Vec<Foot>> {
 #[test]
 fn a_trillium_has_three_leaves_sepals_and_petals_that_alternate() {
     let plan = presets::find("trillium").expect("a preset").plan();
-    let plant = Plant::grow(&plan, &feet_of(3, plan.individuals)).expect("a good plan");
+    let plant = Plant::grow(&plan, &feet_of(3, plan.individuals), None).expect("a good plan");
     let of = |kind: usize| plant.leaves.iter().filter(move |leaf| leaf.kind == kind);
     assert_eq!([0, 1, 2].map(|kind| of(kind).count()), [3, 3, 3]);
     // Above the whorl of leaves, by about the peduncle's length.
@@ -51,14 +51,17 @@ fn a_trillium_has_three_leaves_sepals_and_petals_that_alternate() {
         .fold(0.0, f64::max);
     // Stamens of 15 to 25 mm.
     assert!((15.0..25.0).contains(&highest), "{highest}");
-    assert_eq!(Plant::grow(&plan, &feet_of(2, 3)), Err(PlantError::NoLeaf));
+    assert_eq!(
+        Plant::grow(&plan, &feet_of(2, 3), None),
+        Err(PlantError::NoLeaf)
+    );
 }
 
 #[test]
 fn a_potted_plant_stands_in_its_soil_and_the_soil_in_the_pot() {
     let plan = presets::find("croton-in-pot").expect("a preset").plan();
     let pot = plan.pot.expect("it has a pot");
-    let plant = Plant::grow(&plan, &feet_of(1, plan.individuals)).expect("a good plan");
+    let plant = Plant::grow(&plan, &feet_of(1, plan.individuals), None).expect("a good plan");
     let body = |organ: Organ| {
         let found = plant.organs.iter().find(|own| own.0 == organ);
         &found.expect("it is there").1
@@ -131,7 +134,7 @@ fn axes_that_climb_lie_on_the_wall_and_leaves_stand_off_it() {
     let feet = vec![feet.collect::<Vec<_>>()];
     let even = Wall::flat(DVec3::X);
     for wall in [&even, &stepped()] {
-        let plant = Plant::grow_on(&plan, &feet, Some(wall)).expect("a good plan");
+        let plant = Plant::grow(&plan, &feet, Some(wall)).expect("a good plan");
         assert_eq!(plant.axes.validate(), Ok(()));
         assert!(plant.leaves.len() > 60, "{}", plant.leaves.len());
         let mut near = 0;

@@ -2,10 +2,11 @@
 
 use glam::DVec2;
 
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 
+use super::error::{FormPart, GrowthFormError, GrowthFormProblem, Side};
+use super::form::{Axis, GrowthForm, SecondaryAxis};
 use super::rows::{AxisGrowth, Rows};
-use super::{Axis, FormPart, GrowthForm, GrowthFormError, GrowthFormProblem, SecondaryAxis, Side};
 use crate::shape::outer_boundary::union_boundary;
 use crate::shape::outline::Outline;
 

@@ -1,9 +1,9 @@
 //! Ranges of a growth form's numbers.
 
+use super::error::{FormPart, GrowthFormError, GrowthFormProblem, Side};
+use super::form::{Axis, GrowthForm, HalfForm};
 use super::rows::{AxisGrowth, Rows, row_at};
-use super::{Axis, FormPart, GrowthForm, GrowthFormError, GrowthFormProblem, HalfForm, Side};
-use crate::document::declared::Declared;
-use crate::document::ranges::RangeError;
+use crate::document::{Declared, RangeError};
 
 /// Greatest depth of axes on axes.
 const DEEPEST: usize = 8;

@@ -4,7 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 use crate::shape::outline::OutlineError;
 
 /// A side of an axis, seen with its tip up.

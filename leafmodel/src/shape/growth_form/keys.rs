@@ -1,15 +1,12 @@
 //! The keys of `outline.growth_algorithm`.
 
-use super::{Axis, GrowthForm, HalfForm, LateralGrowth, SecondaryAxis, VeinRow};
-use crate::document::context::Context;
-use crate::document::declared::Declared;
-use crate::document::error::DocumentError;
+use super::form::{Axis, GrowthForm, HalfForm, LateralGrowth, SecondaryAxis, VeinRow};
 use crate::document::keys::{BlockList, Keys};
-use crate::document::limits::Limits;
 use crate::document::schema::Type;
-use crate::document::tree::{Node, Value};
-use crate::document::value_kind::{Degrees, Flag, Integer, Kind, Number};
 use crate::document::values::{list, number, number_at, wrong_type};
+use crate::document::{
+    Context, Declared, Degrees, DocumentError, Flag, Integer, Kind, Limits, Node, Number, Value,
+};
 use crate::shape::rates::Rates;
 
 const SLOPES: Limits = Limits::closed(-20.0, 20.0);

@@ -3,11 +3,9 @@
 
 use glam::DVec2;
 
+use super::error::{FormPart, GrowthFormError, GrowthFormProblem, Side};
+use super::form::{Axis, ENLARGEMENT, HalfForm, LateralGrowth, RowGrowth, SecondaryAxis, VeinRow};
 use super::row_curve::RowCurve;
-use super::{
-    Axis, ENLARGEMENT, FormPart, GrowthFormError, GrowthFormProblem, HalfForm, LateralGrowth,
-    RowGrowth, SecondaryAxis, Side, VeinRow,
-};
 use crate::shape::outer_boundary::outer_boundary;
 
 /// Longest row, in lengths of its axis; longer ones are refused.

@@ -2,6 +2,8 @@
 
 use proptest::prelude::*;
 
+use crate::shape::growth::RateCurve;
+
 use super::*;
 use crate::measure::shape;
 use crate::shape::outline::OutlineError;

@@ -1,8 +1,9 @@
 //! Veins that would cross each other, and the slopes that keep them apart.
 
+use super::error::{GrowthFormError, GrowthFormProblem, SlopeRange};
+use super::form::VeinRow;
 use super::row_curve::RowCurve;
 use super::rows::Rows;
-use super::{GrowthFormError, GrowthFormProblem, SlopeRange, VeinRow};
 use crate::numeric::bisect;
 
 /// Greatest slope of a vein, up or down.

@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::numeric::smooth_step;
 use crate::random::{Use, bell, uniform};
 

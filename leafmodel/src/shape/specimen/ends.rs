@@ -4,7 +4,7 @@
 
 use glam::DVec2;
 
-use crate::document::declared::Declared;
+use crate::document::Declared;
 use crate::not_grown::{NotGrown, not_grown};
 use crate::numeric::{bisect, smooth_step};
 use crate::shape::tips::{Point, Tip};

@@ -1,6 +1,6 @@
 //! One wave of teeth: its numbers, and the form of a tooth.
 
-use crate::document::declared::{Declared, Words};
+use crate::document::{Declared, Words};
 use crate::shape::tips::Tip;
 
 /// One wave along each side of a margin.

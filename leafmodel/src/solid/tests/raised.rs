@@ -92,11 +92,7 @@ fn a_body_with_warts_is_closed_and_its_normals_are_those_of_its_faces() {
 
 #[test]
 fn heights_that_fit_no_mosaic_are_refused() {
-    let refused = |plan: &SolidPlan| {
-        Solid::grow(plan, &|| false)
-            .expect_err("it is refused")
-            .to_string()
-    };
+    let refused = |plan: &SolidPlan| Solid::grow(plan).expect_err("it is refused").to_string();
     let without = SolidPlan {
         mosaic: None,
         ..ball(Some(warts()))

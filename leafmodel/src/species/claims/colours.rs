@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use crate::blade::frame::UvFrame;
 use crate::blade::senescence::AgeSource;
+use crate::grow_options::GrowOptions;
 use crate::leaf::LeafPlan;
 use crate::leaf::venation_plan::VenationPlan;
 use crate::optics::Constituent::{
@@ -65,7 +66,9 @@ fn points(plan: &LeafPlan) -> Vec<Point> {
         });
     }
     let lamina = plan.grow_lamina().expect("a good plan");
-    let map = plan.paint(&lamina, &|| false).expect("a good plan");
+    let map = GrowOptions::default()
+        .contents(&plan, &lamina)
+        .expect("a good plan");
     let frame = UvFrame::around(lamina.outline.points());
     let segments: Vec<VeinSegment> = lamina.network.segments().filter(|s| s.order <= 2).collect();
     let (base, apex) = (lamina.outline.base(), lamina.outline.apex());

@@ -8,7 +8,7 @@ use super::secondaries::{self, agrophic};
 use super::{
     Agrophic, Architecture, Lots, PrimaryPattern, QuaternaryCourse, SecondaryEnding, TertiaryCourse,
 };
-use crate::document::declared::{Declared, Words};
+use crate::document::{Declared, Words};
 use crate::shape::outline::Outline;
 
 /// Secondaries of one side are at least so many segments of the young leaf apart.

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::document::ranges::RangeError;
+use crate::document::RangeError;
 
 /// Why an architecture cannot be grown, and how to mend it.
 #[derive(Clone, Debug, Error, PartialEq)]

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::ArcuateVeins;
+use super::layout::ArcuateVeins;
 use super::layout::Vein;
 
 /// The article's texture fields at a point.

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::ArcuateVeins;
+use super::layout::ArcuateVeins;
 use super::layout::Vein;
 use crate::buckets::Buckets;
 use crate::numeric::bisect;

@@ -5,8 +5,8 @@
 
 use glam::DVec2;
 
-use super::ArcuatePlan;
 use super::cell_noise::cell_noise;
+use super::plan::ArcuatePlan;
 use super::spline::Quadratic;
 use crate::plane::{polygon, polyline};
 use crate::shape::cubic::Cubic;
@@ -284,5 +284,32 @@ fn lateral(plan: &ArcuatePlan, sides: &Sides, axes: &[Vein], sector: &Sector, i:
         ]),
         axis: sector.axis,
         start,
+    }
+}
+
+/// Veins laid out on a blade.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ArcuateVeins {
+    pub(super) frame: Frame,
+    pub(super) plan: ArcuatePlan,
+    /// Midrib first, then the primaries beside it.
+    pub(super) axes: Vec<Vein>,
+    /// In the order of the article's code: from base to tip, upper side before lower side.
+    pub(super) laterals: Vec<Vein>,
+}
+
+impl ArcuateVeins {
+    /// Number of lateral veins of both sides.
+    #[cfg(test)]
+    pub(crate) fn laterals(&self) -> usize {
+        self.laterals.len()
+    }
+
+    /// Start, control and end point of a lateral, mm. Laterals of the midrib come first, from base
+    /// to tip, left before right.
+    #[cfg(test)]
+    pub(crate) fn lateral(&self, index: usize) -> Option<[DVec2; 3]> {
+        let vein = self.laterals.get(index)?;
+        Some(vein.curve.0.map(|p| self.frame.to_mm(p)))
     }
 }

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-use super::Lone;
+use super::view::Lone;
 use super::view::{MARGIN, Nearest, Node, View, find_seeing};
 use crate::plane::rectangle_distance_squared;
 use crate::venation::fresh_nodes::FreshNodes;

@@ -4,7 +4,6 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-use super::Lone;
 use crate::plane::rectangle_distance_squared;
 use crate::venation::point_tree::PointTree;
 use crate::venation::probe::{Probe, SLACK};
@@ -186,4 +185,13 @@ pub(super) fn sees_no_other(place: DVec2, node: Node, tree: &PointTree) -> bool 
         found: &mut Vec::new(),
     };
     tree.visit(place, &mut seen).is_continue()
+}
+
+/// A lone source.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lone {
+    /// Its place.
+    pub(crate) place: DVec2,
+    /// Its place in the list of all sources.
+    pub(crate) slot: u32,
 }

@@ -1,99 +1,17 @@
 //! Ranges of a plan's numbers.
 
 use glam::DVec2;
-use thiserror::Error;
 
+use super::error::PlanError;
+use super::young_size;
 use super::{AuxinPlan, Growth, Pattern};
-use crate::document::declared::Declared;
-use crate::document::ranges::RangeError;
-use crate::shape::growth::GrowthError;
+use crate::document::Declared;
 use crate::shape::outline::Outline;
-use crate::venation::architecture::ArchitectureError;
-use crate::venation::simulation::courses::young_size;
 use crate::venation::veins::COINCIDENT;
 
 /// Greatest number of darts in all steps of growth together, or in one step without growth. More
 /// would take minutes and add nothing.
 const MOST_DARTS: f64 = 1e8;
-
-/// Why a plan cannot be carried out.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum PlanError {
-    /// A number is outside the range in which the model holds.
-    #[error(transparent)]
-    Range(#[from] RangeError),
-    /// The leaf starts longer than it ends.
-    #[error("initial_length is {initial_length}, outside 0.001 to final_length (segments)")]
-    StartsLonger {
-        /// Its length at the start, segments.
-        initial_length: f64,
-    },
-    /// A saddle that is too wide for its curvature.
-    #[error(
-        "gaussian_curvature is {curvature}, outside what a blade so wide can have: above -3.6 over its half diagonal (in leaf lengths) squared"
-    )]
-    TooCurved {
-        /// Curvature times the length squared.
-        curvature: f64,
-    },
-    /// The lamina would grow for too many steps.
-    #[error("growing in steps of {length_step} segments takes {steps} steps, more than 1000000")]
-    TooManySteps {
-        /// Growth per step, segments.
-        length_step: f64,
-        /// Number of steps.
-        steps: f64,
-    },
-    /// The young leaf would be far larger than the full-grown one or have no extent.
-    #[error(
-        "with these growth functions the young leaf is {times} times as wide or as long as the full-grown one; 0.000001 to 2 is possible"
-    )]
-    YoungLeaf {
-        /// The worse of the two ratios.
-        times: f64,
-    },
-    /// Two origins coincide.
-    #[error("origins {first} and {second} of the veins lie in one place")]
-    OriginsMeet {
-        /// The first of the two, from 0.
-        first: usize,
-        /// The second.
-        second: usize,
-    },
-    /// With joined origins, an origin lies at the base.
-    #[error("one of the joined origins of the veins lies at the base")]
-    OriginAtBase,
-    /// Two rules cannot be combined.
-    #[error("{key} does not go together with {other}")]
-    Incompatible {
-        /// One rule.
-        key: &'static str,
-        /// The other.
-        other: &'static str,
-    },
-    /// An architecture that contradicts itself or its outline.
-    #[error(transparent)]
-    Architecture(#[from] ArchitectureError),
-    /// A growth function is not valid.
-    #[error(transparent)]
-    Growth(#[from] GrowthError),
-    /// An origin lies outside the blade.
-    #[error("origin {index} of the veins, ({x}, {y}) of the leaf's length, is not on the blade")]
-    OriginOffBlade {
-        /// Which origin, from 0.
-        index: usize,
-        /// Its place across the midrib, shares of the midrib's length.
-        x: f64,
-        /// Its place along the midrib, likewise.
-        y: f64,
-    },
-    /// The blade and `darts_per_area` together ask for too many darts.
-    #[error("the darts per area ask for {darts:.0} darts on this blade, more than 100000000")]
-    TooManyDarts {
-        /// How many.
-        darts: f64,
-    },
-}
 
 impl AuxinPlan {
     /// Checks every number by itself, and that growth ends.

@@ -3,9 +3,9 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::VeinEdge;
 use crate::buckets::Buckets;
 use crate::plane::{Lattice, bounds, segment};
+use crate::venation::network::VeinEdge;
 
 /// Cells over all points: about two per point if the points fill the rectangle, at most about four
 /// per point, and with sides no smaller than `least`.

@@ -14,7 +14,6 @@ use crate::venation::architecture::{
     Architecture, Lots, festoons, primaries, quaternaries, secondaries, tertiaries,
 };
 use crate::venation::influence::Influence;
-use crate::venation::plan::Growth;
 
 /// Distance between the sources of a vein, segments.
 const SPACING: f64 = 2.0;
@@ -328,16 +327,5 @@ fn is_first_of_row(veins: &[Secondary], i: usize) -> bool {
     i == 0 || {
         let (before, vein) = (&veins[i - 1], &veins[i]);
         before.axis != vein.axis || before.side != vein.side
-    }
-}
-
-/// The size of the leaf when its veins are laid out, over its full size.
-pub(crate) fn young_size(growth: &Growth, final_length: f64) -> f64 {
-    match growth {
-        Growth::None | Growth::Marginal { .. } => 1.0,
-        // The frame of anisotropic growth has one unit, and the leaf starts short in it.
-        Growth::Isogonic { initial_length, .. } | Growth::Anisotropic { initial_length, .. } => {
-            (initial_length / final_length).min(1.0)
-        }
     }
 }

@@ -2,36 +2,15 @@
 
 use glam::DVec2;
 
+use crate::venation::simulation::NO_DIRECTION;
+use crate::venation::simulation::Outcome;
+use crate::venation::simulation::TURNING;
+use crate::venation::simulation::turned;
+
 use super::{PATIENCE, Simulation};
 use crate::venation::influence::{Fate, Influence};
 use crate::venation::sources::Known;
 use crate::venation::veins::COINCIDENT;
-
-/// Below this length the sum of unit vectors is taken to cancel.
-pub(crate) const NO_DIRECTION: f64 = 1e-9;
-
-/// Distance from an origin, in segments, within which veins turn aside at the margin.
-pub(crate) const TURNING: f64 = 12.0;
-
-/// Directions beside one that leaves the blade, the smallest turns first, up to a right angle.
-pub(crate) fn turned(straight: DVec2) -> impl Iterator<Item = DVec2> {
-    (1..=6).flat_map(move |k| {
-        let (sin, cos) = libm::sincos(f64::from(k) * 15.0_f64.to_radians());
-        [sin, -sin].map(|sin| DVec2::new(cos, sin).rotate(straight))
-    })
-}
-
-/// The outcome of a driven node.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Outcome {
-    /// It grew this child.
-    Child(u32),
-    /// No child: it would coincide with an existing node, or the pulls cancel.
-    Blocked,
-    /// No child: the new edge would leave the blade. Another vein may still reach the source, so it
-    /// is not given up for this.
-    OffBlade,
-}
 
 impl<I: Influence> Simulation<'_, I> {
     /// Adds up, for each driven node, the unit vectors to its sources (Eq. 1); returns the driven

@@ -10,7 +10,7 @@ use std::ops::Range;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::VeinEdge;
+use crate::venation::network::VeinEdge;
 
 /// Share of the way to balance for which a plan's round stands.
 const QUARTER: f64 = 0.25;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::model::ModelArguments;
 use super::tables::{ReadingTablesArguments, word};
 use crate::measured::known::{AngleUnit, Known, Measure, Overlap, ValueUnit};
 
@@ -41,12 +42,19 @@ pub struct FitArguments {
     /// The number in bands that were masked; by default empty values, NA, NaN, -9999 and such
     #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
     pub masked: Option<f64>,
-    /// Contents that are looked for: structure, chlorophyll, … [default: all of PROSPECT-D]
+    /// What one unit of each constituent absorbs.
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Contents that are looked for: structure, chlorophyll, … [default: all of the model]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub free: Vec<String>,
     /// A content that is known: --fix water=0.012
     #[arg(long, value_name = "NAME=VALUE")]
     pub fix: Vec<String>,
+    /// What is known of a content beforehand: its mean and standard deviation, --prior
+    /// chlorophyll=40+-10, or its range, --prior water=0.005..0.02
+    #[arg(long, value_name = "NAME=PRIOR")]
+    pub prior: Vec<String>,
     /// Wavelengths that count, nm; the default is all from 400 to 2500
     #[arg(long, value_name = "FROM..TO")]
     pub range: Option<String>,

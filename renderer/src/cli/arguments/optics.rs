@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 use leafmodel::optics::{Constituent, PerConstituent};
 
+use super::model::ModelArguments;
 use super::numbers::number;
 use super::tables::TableArguments;
 
-/// `lamina optics`: a preset, PROSPECT-D's inputs and betalains, and what is to be told of them.
+/// `lamina optics`: a preset, PROSPECT's inputs and betalains, and what is to be written about them.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 #[command(group = ArgGroup::new("wanted").args(["list", "figures", "out", "colour", "layers", "angles", "about"]).required(true).multiple(true))]
 #[command(group = ArgGroup::new("by_wavelength").args(["angles", "table"]))]
@@ -49,6 +50,18 @@ pub struct OpticsArguments {
     /// Dry matter, g/cm² [default: 0.009]
     #[arg(long, value_parser = in_range(Constituent::DryMatter))]
     pub cm: Option<f64>,
+    /// Proteins, g/cm², in place of dry matter; prospect-pro [default: 0.001]
+    #[arg(long, value_name = "PROTEINS", value_parser = in_range(Constituent::Proteins))]
+    pub proteins: Option<f64>,
+    /// Carbon-based constituents, g/cm², in place of dry matter; prospect-pro [default: 0.008]
+    #[arg(long, value_name = "CBC", value_parser = in_range(Constituent::CarbonBased))]
+    pub cbc: Option<f64>,
+    /// What the table of --extra-absorption describes, µg/cm² [default: 0]
+    #[arg(long, value_name = "EXTRA", value_parser = in_range(Constituent::Extra))]
+    pub extra: Option<f64>,
+    /// What each of them absorbs.
+    #[command(flatten)]
+    pub model: ModelArguments,
     /// A leaf in each row: columns are named as these options (`cab`) or as `lamina fit --out` names
     /// them (`chlorophyll_ug_per_cm2`), `leaf` or `id` names the leaf, and options or the preset
     /// give what has no column; --out is then `leaf,wavelength_nm,R,T`, or an `.npy` array
@@ -67,11 +80,11 @@ pub struct OpticsArguments {
     /// Print both faces of the leaf as five layers at 450, 550, 680 and 800 nm, beside PROSPECT-D and
     /// the rule by which scenes find the abaxial face, or write them, and what each layer absorbs, at
     /// every nanometre; `-` is the standard output
-    #[arg(long, value_name = "FILE.csv", num_args = 0..=1)]
+    #[arg(long, value_name = "FILE.csv", num_args = 0..=1, conflicts_with_all = ["model", "extra_absorption"])]
     pub layers: Option<Option<PathBuf>>,
     /// BRDF and BTDF of both faces of the leaf as five layers, by incidence, view and azimuth, as a
     /// table; `-` is the standard output
-    #[arg(long, value_name = "FILE.csv")]
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["model", "extra_absorption"])]
     pub angles: Option<PathBuf>,
     /// Wavelengths of --angles [default: 450,550,680,800] or --table [default: each nanometre], 400 to
     /// 2500
@@ -99,6 +112,9 @@ impl OpticsArguments {
             Constituent::Brown => ("--brown", self.brown),
             Constituent::Water => ("--cw", self.cw),
             Constituent::DryMatter => ("--cm", self.cm),
+            Constituent::Proteins => ("--proteins", self.proteins),
+            Constituent::CarbonBased => ("--cbc", self.cbc),
+            Constituent::Extra => ("--extra", self.extra),
         })
     }
 }

@@ -7,11 +7,10 @@ use leafmodel::document::source::quoted;
 use crate::cli::arguments::FitArguments;
 use crate::cli::terminal::{Failure, note};
 use crate::cli::texts::text_of;
-use crate::measured::Slack;
 use crate::measured::known::Known;
 use crate::measured::series::{self, Series};
 use crate::measured::spectra::{self, Leaf};
-use crate::measured::units;
+use crate::measured::{Slack, units};
 use crate::report::fit::shown;
 
 /// The files that are read, at least one.

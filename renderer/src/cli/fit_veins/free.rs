@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use leafmodel::document::written::Extent;
+use leafmodel::grow_options::GrowOptions;
 use leafmodel::inference::{Draw, Observation, Outcome, Parameter};
 use leafmodel::leaf::LeafPlan;
 use leafmodel::measure::measure;
@@ -176,7 +177,7 @@ impl Grower {
                 bytes / GIB
             ));
         }
-        let lamina = plan.grow_lamina_unless(stop);
+        let lamina = GrowOptions::stopped_by(stop).lamina(&plan);
         let lamina = lamina.map_err(|error| error.to_string())?;
         let exponent = plan.venation.murray_exponent();
         let measures = measure(&lamina.outline, &lamina.network, exponent);

@@ -3,12 +3,10 @@
 //! What is simulated depends on the problem and on earlier simulations alone, so a fit that begins
 //! again asks for the same leaves; those that the table has are not grown again.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use leafmodel::document::rows::{Decimal, Form, Rows, Separator};
 use leafmodel::document::whole_file;
 use leafmodel::inference::{Draw, Outcome, Problem};
 use rayon::prelude::*;
@@ -20,10 +18,7 @@ use crate::cli::places::write_whole;
 use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
 use crate::cli::terminal::Failure;
-use crate::report::table::{Table, cell};
-
-/// Simulations by generation and number.
-type Grown = BTreeMap<(u32, u32), (Draw, Outcome)>;
+use crate::report::vein_fit::simulations::{self, Grown, place};
 
 /// All simulations of a fit.
 #[derive(Debug)]
@@ -32,13 +27,13 @@ pub(super) struct Simulations<'p> {
     /// Of the fit, so that the table of another one is not taken for its own.
     identity: String,
     problem: &'p Problem,
-    known: Mutex<Known>,
+    known: Mutex<KnownSimulations>,
     /// Of lines about the progress, and of writings of the table.
     clock: Clock,
 }
 
 #[derive(Debug)]
-struct Known {
+struct KnownSimulations {
     grown: Grown,
     /// How many were there when the fit began.
     before: usize,
@@ -60,7 +55,7 @@ impl<'p> Simulations<'p> {
             path: path.to_owned(),
             identity,
             problem,
-            known: Mutex::new(Known { grown, before }),
+            known: Mutex::new(KnownSimulations { grown, before }),
             clock: Clock::new(),
         })
     }
@@ -106,59 +101,27 @@ impl<'p> Simulations<'p> {
         let left = each * all.saturating_sub(done) as f64;
         eprintln!("{done} of {all} leaves, about {left:.0} s to go");
         // The last writing, when all is done, tells what is wrong.
-        let _ = write_whole(&self.path, self.table(&known.grown));
+        let _ = write_whole(
+            &self.path,
+            simulations::table(&known.grown, &self.identity, self.problem),
+        );
     }
 
-    fn known(&self) -> MutexGuard<'_, Known> {
+    fn known(&self) -> MutexGuard<'_, KnownSimulations> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Writes the table.
     pub(super) fn save(&self) -> Result<(), Failure> {
         let known = self.known();
-        write_whole(&self.path, self.table(&known.grown))
-    }
-
-    fn table(&self, grown: &Grown) -> String {
-        let mut table = Table::of(header(self.problem));
-        // All digits, and a point.
-        let exact = |value: &f64| format!("{value:?}");
-        for (draw, outcome) in grown.values() {
-            let numbers = [draw.generation.into(), draw.number.into(), draw.seed];
-            let mut cells = vec![self.identity.clone()];
-            cells.extend(numbers.map(|number: u64| number.to_string()));
-            cells.extend(draw.values.iter().map(exact));
-            match outcome {
-                Ok(measures) => {
-                    cells.extend(measures.iter().map(|value| cell(value.as_ref().map(exact))));
-                    cells.push(String::new());
-                }
-                Err(problem) => {
-                    cells.extend(self.problem.observed().iter().map(|_| String::new()));
-                    cells.push(problem.clone());
-                }
-            }
-            table.row(cells);
-        }
-        table.text()
+        write_whole(
+            &self.path,
+            simulations::table(&known.grown, &self.identity, self.problem),
+        )
     }
 }
 
-fn place(draw: &Draw) -> (u32, u32) {
-    (draw.generation, draw.number)
-}
-
-/// `fit` (which one), `generation`, `number`, `seed`, the free keys, the measures, and why a leaf
-/// failed.
-fn header(problem: &Problem) -> Vec<String> {
-    let first = ["fit", "generation", "number", "seed"].map(str::to_owned);
-    let keys = problem.parameters().iter().map(|one| one.name().to_owned());
-    let measures = problem.observed().iter().map(|one| one.key.clone());
-    let all = first.into_iter().chain(keys).chain(measures);
-    all.chain(["failed".to_owned()]).collect()
-}
-
-/// The simulations in a file, none if there is no file. Rows that are damaged count as none.
+/// The simulations in a file, none if there is no file.
 fn read(path: &Path, identity: &str, problem: &Problem) -> Result<Grown, Failure> {
     let text = match whole_file::read_utf8(path, whole_file::MOST_BYTES) {
         Ok(text) => text,
@@ -182,51 +145,5 @@ fn read(path: &Path, identity: &str, problem: &Problem) -> Result<Grown, Failure
             ),
         })
     };
-    let form = Form {
-        separator: Some(Separator::Comma),
-        decimal: Some(Decimal::Point),
-    };
-    let table = Rows::written(&text, form);
-    let mut rows = table.of_any_length().map(|row| {
-        let texts = row.fields.into_iter().map(|field| field.text);
-        texts.collect::<Vec<String>>()
-    });
-    let header = header(problem);
-    if rows.next().as_ref() != Some(&header) {
-        return Err(foreign());
-    }
-    let mut grown = Grown::new();
-    for row in rows {
-        if row.first().map(String::as_str) != Some(identity) {
-            return Err(foreign());
-        }
-        if let Some((draw, outcome)) = simulation(&row, header.len(), problem) {
-            grown.insert(place(&draw), (draw, outcome));
-        }
-    }
-    Ok(grown)
-}
-
-fn simulation(row: &[String], cells: usize, problem: &Problem) -> Option<(Draw, Outcome)> {
-    if row.len() != cells {
-        return None;
-    }
-    let measures_from = 4 + problem.parameters().len();
-    let values = (4..measures_from).map(|cell| row[cell].parse::<f64>().ok());
-    let draw = Draw {
-        generation: row[1].parse().ok()?,
-        number: row[2].parse().ok()?,
-        seed: row[3].parse().ok()?,
-        values: values.collect::<Option<_>>()?,
-    };
-    let failed = &row[cells - 1];
-    if !failed.is_empty() {
-        return Some((draw, Err(failed.clone())));
-    }
-    let measures = (measures_from..cells - 1).map(|cell| match row[cell].as_str() {
-        "" => Some(None),
-        text => text.parse::<f64>().ok().map(Some),
-    });
-    let measures: Option<Vec<Option<f64>>> = measures.collect();
-    Some((draw, Ok(measures?)))
+    simulations::read(&text, identity, problem).ok_or_else(foreign)
 }

@@ -32,9 +32,9 @@ pub(super) fn tell(name: &str) -> Result<(), Failure> {
 }
 
 /// Trait, value, range, provenance.
-type Row = [String; 4];
+type AboutRow = [String; 4];
 
-fn row(quantity: &Quantity) -> Row {
+fn row(quantity: &Quantity) -> AboutRow {
     let Quantity { name, unit, .. } = quantity;
     let value = match quantity.value {
         Some(value) => with_unit(&number(value), unit),
@@ -55,7 +55,7 @@ fn table(traits: &Traits) -> String {
     format!("  {}\n{rows}", traits.species)
 }
 
-fn rows(traits: &Traits) -> impl Iterator<Item = Row> {
+fn rows(traits: &Traits) -> impl Iterator<Item = AboutRow> {
     traits.summer.iter().chain(&traits.differs).map(row)
 }
 
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn a_leaf_in_colour_reports_its_green_before_what_differs() {
-        let rows: Vec<Row> = rows(traits("birch-autumn")).collect();
+        let rows: Vec<AboutRow> = rows(traits("birch-autumn")).collect();
         let at = |name: &str| rows.iter().position(|row| row[0] == name);
         let (green, turned) = (at("chlorophyll"), at("turned: chlorophyll"));
         assert!(green.expect("it has a row") < turned.expect("it has a row"));

@@ -6,12 +6,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use leafmodel::blade::UvFrame;
 use leafmodel::blade::contents_map::ContentsMap;
 use leafmodel::blade::senescence::Senescence;
+use leafmodel::grow_options::GrowOptions;
 use leafmodel::leaf::{Lamina, LeafError, LeafPlan};
 
 use super::drawings::has_caption;
 use super::films::Films;
 use super::maps;
-use super::outputs::{Outputs, numbered};
+use super::outputs::{Outputs, finish, numbered};
 use crate::cli::arguments::CaptionedKinds;
 use crate::cli::signals;
 use crate::cli::terminal::Failure;
@@ -88,7 +89,9 @@ pub(super) fn write(
     let is_stopped = || stop.load(Ordering::Relaxed);
     let failed = |error: LeafError| signals::failure(stop, error);
     // Cells do not change their type as they age.
-    let pattern = plan.grow_pattern(lamina, &is_stopped).map_err(failed)?;
+    let pattern = GrowOptions::stopped_by(&is_stopped)
+        .pattern(plan, lamina)
+        .map_err(failed)?;
     let painted = |day: f64, map_size: u32| -> Result<ContentsMap, Failure> {
         let plan = LeafPlan {
             senescence: senescence.on_day(day),
@@ -96,7 +99,7 @@ pub(super) fn write(
             ..plan.clone()
         };
         signals::check(stop)?;
-        plan.paint_with(lamina, pattern.as_ref()).map_err(failed)
+        plan.paint(lamina, pattern.as_ref()).map_err(failed)
     };
     let last = last_day(plan)?;
     // So wide that all frames have captions of one size.
@@ -126,7 +129,7 @@ pub(super) fn write(
             let pngs = outputs.staged.iter().filter(|(_, kind)| !kind.is_film());
             for (path, _) in pngs {
                 let png = drawn(false).png().map_err(Failure::bad)?;
-                super::finish(&numbered(path, number + 1), &png, stop)?;
+                finish(&numbered(path, number + 1), &png, stop)?;
             }
             films.push(&[drawn(true)])?;
         }

@@ -5,8 +5,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
 use leafmodel::blade::UvFrame;
-use leafmodel::leaf::outline_plan::Contour;
-use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::leaf::{Lamina, LeafPlan};
 use rayon::prelude::*;
 
@@ -16,19 +14,7 @@ use crate::image::{Layer, Picture, openexr};
 
 /// Refuses plans of leaves that have no fields.
 pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
-    let on_cells = match &plan.outline.contour {
-        Contour::Transport(_) => true,
-        Contour::GrowthAlgorithm(_)
-        | Contour::Curve(_)
-        | Contour::Svg(_)
-        | Contour::Cubic(_)
-        | Contour::Development(_) => false,
-    };
-    match &plan.venation {
-        VenationPlan::Arcuate(_) | VenationPlan::Transport(_) | VenationPlan::Cells(_) => Ok(()),
-        VenationPlan::Auxin(_) if on_cells => Ok(()),
-        VenationPlan::Auxin(_) | VenationPlan::Development(_) => Err(none()),
-    }
+    plan.has_fields().then_some(()).ok_or_else(none)
 }
 
 fn none() -> Failure {

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use tempfile::NamedTempFile;
 
-use super::outputs::{Kind, Outputs};
+use super::outputs::{Kind, Outputs, finish};
 use crate::cli::arguments::GrowArguments;
 use crate::cli::progress::Steps;
 use crate::cli::signals;
@@ -43,31 +43,31 @@ pub(super) fn check(outputs: &Outputs) -> Result<(), Failure> {
 
 /// All films that are being written.
 pub(super) struct Films {
-    all: Vec<Film>,
+    all: Vec<GrowthFilm>,
     count: u32,
     /// Frames that are drawn.
     drawn: Steps,
     timing: Timing,
 }
 
-struct Film {
+struct GrowthFilm {
     path: PathBuf,
     kind: Kind,
     /// There is one from the first frame on, which tells the size.
-    writer: Option<Writer>,
+    writer: Option<FilmWriter>,
 }
 
-enum Writer {
+enum FilmWriter {
     /// Boxed, since it is far larger.
     Own(Box<Animation>),
-    Other(Encoding),
+    Other(FilmEncoding),
 }
 
 impl Films {
     /// The films among the outputs, each of `count` frames.
     pub(super) fn begun(arguments: &GrowArguments, outputs: &Outputs, count: u32) -> Self {
         let films = outputs.staged.iter().filter(|(_, kind)| kind.is_film());
-        let films = films.map(|(path, kind)| Film {
+        let films = films.map(|(path, kind)| GrowthFilm {
             path: path.clone(),
             kind: *kind,
             writer: None,
@@ -103,15 +103,15 @@ impl Films {
             let writer = if let Some(writer) = &mut film.writer {
                 writer
             } else {
-                let begun = Writer::begun(film.kind, &film.path, size, self.count, self.timing);
+                let begun = FilmWriter::begun(film.kind, &film.path, size, self.count, self.timing);
                 film.writer.insert(begun?)
             };
             match writer {
-                Writer::Own(film) => {
+                FilmWriter::Own(film) => {
                     let pixels: Vec<&[u8]> = frames.iter().map(|frame| &frame.rgb[..]).collect();
                     film.push(&pixels).map_err(Failure::bad)?;
                 }
-                Writer::Other(encoding) => {
+                FilmWriter::Other(encoding) => {
                     for frame in frames {
                         encoding.push(&frame.rgb)?;
                     }
@@ -127,16 +127,16 @@ impl Films {
         for film in self.all {
             let Some(writer) = film.writer else { continue };
             let bytes = match writer {
-                Writer::Own(film) => film.finish().map_err(Failure::bad)?,
-                Writer::Other(encoding) => encoding.finish(self.timing, stop)?,
+                FilmWriter::Own(film) => film.finish().map_err(Failure::bad)?,
+                FilmWriter::Other(encoding) => encoding.finish(self.timing, stop)?,
             };
-            super::finish(&film.path, &bytes, stop)?;
+            finish(&film.path, &bytes, stop)?;
         }
         Ok(())
     }
 }
 
-impl Writer {
+impl FilmWriter {
     fn begun(
         kind: Kind,
         path: &Path,
@@ -145,7 +145,7 @@ impl Writer {
         timing: Timing,
     ) -> Result<Self, Failure> {
         let Kind::Film(format) = kind else {
-            return Ok(Self::Other(Encoding::begun(path, size, timing)?));
+            return Ok(Self::Other(FilmEncoding::begun(path, size, timing)?));
         };
         let film = Animation::new(format, size, count, timing).map_err(Failure::bad)?;
         Ok(Self::Own(Box::new(film)))
@@ -153,14 +153,14 @@ impl Writer {
 }
 
 /// A run of the other program, which takes frames and writes to a file that nobody sees yet.
-struct Encoding {
+struct FilmEncoding {
     child: Child,
     file: NamedTempFile,
     /// Shown once more at the end.
     last: Vec<u8>,
 }
 
-impl Encoding {
+impl FilmEncoding {
     fn begun(path: &Path, [width, height]: [u32; 2], timing: Timing) -> Result<Self, Failure> {
         let file = tempfile::Builder::new()
             .prefix(&format!(".lamina-{}-", std::process::id()))
@@ -248,7 +248,7 @@ impl Encoding {
     }
 }
 
-impl Drop for Encoding {
+impl Drop for FilmEncoding {
     fn drop(&mut self) {
         // After a failure or Ctrl-C it must not go on.
         let _ = self.child.kill();

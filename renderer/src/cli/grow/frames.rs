@@ -4,7 +4,6 @@ use std::sync::atomic::AtomicBool;
 
 use leafmodel::blade::petiole::PetiolePlan;
 use leafmodel::compound::FlatLeaf;
-use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::leaf::{Lamina, LeafError, LeafPlan, LeafStage};
 use rayon::prelude::*;
 
@@ -31,39 +30,17 @@ pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
             "--frames shows how one blade grows, and this is a compound leaf: take its block `compound` out of the plan"
         );
     }
-    if plan.damage.is_some() {
-        return Err(no_stages(&LeafError::NoStages(
-            "damage comes to a full-grown leaf; take the block `damage` out of the plan",
-        )));
-    }
-    match &plan.venation {
-        VenationPlan::Arcuate(_) => Err(no_stages(&LeafError::NoStages(
-            "arcuate veins are there all at once",
-        ))),
-        VenationPlan::Cells(_) if !plan.outline.is_contour() => Err(no_stages(
-            &LeafError::NoStages("teeth belong to the full-grown margin of a transport leaf"),
-        )),
-        VenationPlan::Development(_) if !plan.outline.is_contour() => Err(no_stages(
-            &LeafError::NoStages("teeth belong to the full-grown margin of a leaf that develops"),
-        )),
-        VenationPlan::Auxin(_)
-        | VenationPlan::Cells(_)
-        | VenationPlan::Transport(_)
-        | VenationPlan::Development(_) => Ok(()),
-    }
+    plan.check_stages().map_err(|error| no_stages(&error))
 }
 
 /// Refuses plans of leaves whose veins grow without auxin.
 pub(super) fn check_sources(plan: &LeafPlan) -> Result<(), Failure> {
-    match &plan.venation {
-        VenationPlan::Auxin(_) => Ok(()),
-        VenationPlan::Arcuate(_)
-        | VenationPlan::Cells(_)
-        | VenationPlan::Transport(_)
-        | VenationPlan::Development(_) => Err(bad!(
+    if plan.venation.auxin().is_none() {
+        bail!(
             "--sources shows the sources towards which veins grow, and those of this leaf do not: its venation has no `auxin`"
-        )),
+        );
     }
+    Ok(())
 }
 
 fn no_stages(error: &LeafError) -> Failure {

@@ -3,8 +3,8 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use leafmodel::compound::{CompoundLeaf, FlatLeaf, WholeLeaf, leaflet_plans};
+use leafmodel::grow_options::GrowOptions;
 use leafmodel::leaf::{Lamina, Leaf, LeafError, LeafPlan};
-use leafmodel::venation::VenationError;
 
 use crate::cli::signals;
 use crate::cli::terminal::Failure;
@@ -42,9 +42,10 @@ impl Grown {
             return Ok(Self::Flat { laminas, compound });
         }
         let is_stopped = || stop.load(Ordering::Relaxed);
+        let options = GrowOptions::stopped_by(&is_stopped);
         let blades = plans.iter().zip(laminas);
         let blades: Result<Vec<Leaf>, LeafError> = blades
-            .map(|(plan, lamina)| Leaf::from_lamina_unless(plan, lamina, &is_stopped))
+            .map(|(plan, lamina)| options.leaf_of(plan, lamina))
             .collect();
         let mut blades = blades.map_err(|error| signals::failure(stop, error))?;
         let mut whole = match (&plan.compound, compound) {
@@ -100,8 +101,9 @@ impl Grown {
 /// Margin and veins of one blade.
 fn lamina(plan: &LeafPlan, stop: &AtomicBool) -> Result<Lamina, Failure> {
     let is_stopped = || stop.load(Ordering::Relaxed);
-    let lamina = plan.grow_lamina_unless(&is_stopped).map_err(|error| {
-        if matches!(error, LeafError::Venation(VenationError::Stopped)) {
+    let lamina = GrowOptions::stopped_by(&is_stopped).lamina(plan);
+    let lamina = lamina.map_err(|error| {
+        if error.is_stop() {
             Failure::Interrupted
         } else {
             Failure::bad(error)

@@ -6,8 +6,8 @@ use std::sync::atomic::AtomicBool;
 use leafmodel::plan_file::individuals_to_toml;
 
 use super::choice::Chosen;
-use super::outputs::{Kind, Outputs};
-use super::{Grown, finish};
+use super::grown::Grown;
+use super::outputs::{Kind, Outputs, finish};
 use crate::cli::terminal::Failure;
 use crate::export::sheet::{Sheet, Specimen};
 use crate::export::veins::VeinFormat;

@@ -90,6 +90,7 @@ mod tests {
     use crate::scene::assets::contents_map;
     use crate::scene::description::Held;
     use crate::scene::load::load;
+    use leafmodel::grow_options::GrowOptions;
     use leafmodel::optics::Texel;
 
     const SCENE: &str = r#"
@@ -125,7 +126,9 @@ radiance_w_m2_sr_nm = 0.1
         plan.map_size = 200;
         plan.venation = find("arcuate").expect("a preset").plan().venation;
         let lamina = plan.grow_lamina().expect("a good plan");
-        let map = plan.paint(&lamina, &|| false).expect("a good plan");
+        let map = GrowOptions::default()
+            .contents(&plan, &lamina)
+            .expect("a good plan");
         let folder = tempfile::tempdir().expect("a folder");
         let maps = folder.path().join("maps");
         let stop = AtomicBool::new(false);
@@ -197,6 +200,8 @@ radiance_w_m2_sr_nm = 0.1
             ("brown", "1"),
             ("water", "cm"),
             ("dry_matter", "g/cm2"),
+            ("proteins", "g/cm2"),
+            ("extra", "ug/cm2"),
         ] {
             assert_eq!(told(&format!("lamina:unit.{content}")), unit);
         }

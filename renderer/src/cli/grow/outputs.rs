@@ -1,9 +1,11 @@
 //! The files that are asked for, checked before any work is done.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 use crate::cli::arguments::{CaptionedKinds, GrowArguments, VeinColour};
-use crate::cli::places::{check_outputs, check_writable, require_ending};
+use crate::cli::places::{check_outputs, check_writable, require_ending, write_and_say};
+use crate::cli::signals;
 use crate::cli::terminal::Failure;
 use crate::export::veins::VeinFormat;
 use crate::image::animation::Format;
@@ -203,6 +205,12 @@ pub(super) fn numbered(path: &Path, number: usize) -> PathBuf {
         name.push(ending);
     }
     path.with_file_name(name)
+}
+
+/// Writes a file and prints its name, unless the run was interrupted.
+pub(super) fn finish(path: &Path, bytes: &[u8], stop: &AtomicBool) -> Result<(), Failure> {
+    signals::check(stop)?;
+    write_and_say(path, bytes)
 }
 
 #[cfg(test)]

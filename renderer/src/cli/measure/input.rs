@@ -12,6 +12,7 @@ use crate::cli::arguments::{MeasureArguments, ReadingArguments, TableArguments};
 use crate::cli::terminal::Failure;
 use crate::cli::texts::text_of;
 use crate::cli::trace;
+use crate::report::tracing::note_on_length;
 
 /// Endings of pictures, which are no networks; the first [`READ`] of them can be traced.
 const PICTURES: [&str; 8] = ["png", "tif", "tiff", "jpg", "jpeg", "bmp", "webp", "exr"];
@@ -30,14 +31,14 @@ pub(in crate::cli) struct Input {
 }
 
 /// How a file becomes a network.
-enum Kind {
+enum InputKind {
     /// It holds one.
     Network(Format),
     /// It shows one.
     Picture,
 }
 
-impl Kind {
+impl InputKind {
     fn of(path: &Path) -> Result<Self, Failure> {
         let ending = path
             .extension()
@@ -64,9 +65,9 @@ impl Kind {
 impl Input {
     /// Reads a network, or traces a picture; with `strict`, fails if anything is wrong with it.
     pub(in crate::cli) fn read(path: &Path, arguments: &ReadingArguments) -> Result<Self, Failure> {
-        match Kind::of(path)? {
-            Kind::Network(format) => Self::of_network(path, arguments, format),
-            Kind::Picture => Self::of_picture(path, arguments),
+        match InputKind::of(path)? {
+            InputKind::Network(format) => Self::of_network(path, arguments, format),
+            InputKind::Picture => Self::of_picture(path, arguments),
         }
     }
 
@@ -87,7 +88,7 @@ impl Input {
         };
         let mut remarks: Vec<String> = self.faults.iter().map(told).collect();
         let places = self.network.nodes().iter().map(|node| node.position);
-        remarks.extend(trace::note_on_length(places, "--mm-per-unit"));
+        remarks.extend(note_on_length(places, "--mm-per-unit"));
         let mut note = |text: &str| remarks.push(format!("note: {text}"));
         let is_reported = |fault: &Fault| fault.kind == FaultKind::NoRadius;
         if !self.known.radii && !self.faults.iter().any(is_reported) {
@@ -240,10 +241,10 @@ fn wanted(arguments: &ReadingArguments) -> Wanted {
 /// The margin in a file of its own.
 fn margin(path: &Path, arguments: &ReadingArguments) -> Result<Outline, Failure> {
     let shown = path.display();
-    let format = match Kind::of(path)? {
-        Kind::Network(format @ (Format::Svg | Format::Json)) => format,
-        Kind::Network(Format::GraphMl | Format::Table | Format::Gml | Format::Neighbours)
-        | Kind::Picture => {
+    let format = match InputKind::of(path)? {
+        InputKind::Network(format @ (Format::Svg | Format::Json)) => format,
+        InputKind::Network(Format::GraphMl | Format::Table | Format::Gml | Format::Neighbours)
+        | InputKind::Picture => {
             bail!("{shown}: a margin is read from svg, json or geojson");
         }
     };

@@ -12,11 +12,12 @@ use leafmodel::document::nearest::nearest;
 use leafmodel::document::report::DocumentErrors;
 use leafmodel::document::rows::{Field, Form, Rows};
 use leafmodel::document::source::{Sources, escaped};
-use leafmodel::optics::{Constituent, Contents, ProspectD};
+use leafmodel::optics::{Constituent, Contents};
 
 use super::leaf::{self, Chosen};
 use super::warn_of_mixtures;
 use crate::cli::arguments::OpticsArguments;
+use crate::cli::model;
 use crate::cli::places::check_outputs;
 use crate::cli::places::require_ending;
 use crate::cli::terminal::{Failure, note, note_output, say};
@@ -48,12 +49,8 @@ pub(super) fn run(arguments: &OpticsArguments, table: &Path, out: &Path) -> Resu
         check_outputs([out], &[table.to_owned()], "the command")?;
     }
     let text = text_of(table)?;
-    let leaves = read(
-        &leaf::choose(arguments)?,
-        arguments.form.form(),
-        table,
-        &text,
-    )?;
+    let chosen = leaf::choose(arguments)?;
+    let leaves = read(&chosen, arguments.form.form(), table, &text)?;
     drop(text);
     warn_of_mixtures(&leaves.contents);
     let wavelengths: Vec<f64> = if arguments.nm.is_empty() {
@@ -61,10 +58,7 @@ pub(super) fn run(arguments: &OpticsArguments, table: &Path, out: &Path) -> Resu
     } else {
         arguments.nm.clone()
     };
-    let at: Vec<_> = wavelengths
-        .iter()
-        .map(|&nm| ProspectD::coefficients_extrapolated(nm))
-        .collect();
+    let at: Vec<_> = wavelengths.iter().map(|&nm| chosen.at(nm)).collect();
     if is_stdout {
         let mut stdout = std::io::stdout().lock();
         note_output(output::csv(&leaves, &wavelengths, &at, &mut stdout));
@@ -80,7 +74,8 @@ pub(super) fn run(arguments: &OpticsArguments, table: &Path, out: &Path) -> Resu
         say(out.display());
     }
     eprintln!(
-        "PROSPECT-D, table of Feret, Gitelson, Noble and Jacquemoud (2017): {} leaves at {} wavelengths",
+        "{}: {} leaves at {} wavelengths",
+        model::source(chosen.pigments.model),
         leaves.contents.len(),
         at.len()
     );
@@ -136,6 +131,12 @@ fn read(chosen: &Chosen, form: Form, file: &Path, text: &str) -> Result<Leaves, 
                 }
                 Column::Name | Column::Other => {}
             }
+        }
+        if let Some(problem) = model::refusal(&chosen.pigments, &contents)
+            && let (Some(first), true) = (fields.first(), cx.error_count() == 0)
+        {
+            let help = "give each leaf what the model has";
+            cx.error(&first.at(source), impossible(first, problem, help));
         }
         let number = leaves.contents.len() + 1;
         let name = named_by.map_or_else(|| number.to_string(), |at| fields[at].text.clone());

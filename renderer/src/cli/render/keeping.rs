@@ -20,10 +20,10 @@ pub(super) struct Keeping<'a> {
     stays: bool,
     heading: &'a Heading,
     signals: &'a Signals,
-    state: Mutex<State>,
+    state: Mutex<KeepingState>,
 }
 
-struct State {
+struct KeepingState {
     pace: Pace,
     /// Whether the file is of this render.
     is_ours: bool,
@@ -46,7 +46,7 @@ impl<'a> Keeping<'a> {
             stays,
             heading,
             signals,
-            state: Mutex::new(State {
+            state: Mutex::new(KeepingState {
                 pace: Pace::new(every),
                 is_ours: is_taken_up,
                 count: 0,
@@ -55,7 +55,7 @@ impl<'a> Keeping<'a> {
         }
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, KeepingState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

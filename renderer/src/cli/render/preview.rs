@@ -31,10 +31,10 @@ pub(super) struct Preview<'a> {
     layout: Layout,
     /// The picture to look at, if it is written before it is done.
     shown: Option<&'a Path>,
-    state: Mutex<State>,
+    state: Mutex<PreviewState>,
 }
 
-struct State {
+struct PreviewState {
     viewer: Option<Viewer>,
     pace: Pace,
     /// How often it was shown.
@@ -54,7 +54,7 @@ impl<'a> Preview<'a> {
             heading,
             layout,
             shown,
-            state: Mutex::new(State {
+            state: Mutex::new(PreviewState {
                 viewer,
                 pace: Pace::new(every),
                 count: 0,
@@ -63,7 +63,7 @@ impl<'a> Preview<'a> {
         }
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, PreviewState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

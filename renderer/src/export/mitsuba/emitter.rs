@@ -1,23 +1,15 @@
 //! Lights.
 
-use std::f64::consts::PI;
-
 use glam::DVec3;
 
-use crate::export::element::{Element, Layout};
 use crate::light;
-use crate::light::daylight::sun::HALF_DIAMETER as SUN_HALF_DIAMETER;
 use crate::material::colour_map::ColourMap;
-use crate::scene::description::light::area::AreaPattern;
-use crate::scene::description::{Description, Light, Named, Spectrum};
+use crate::plugin::element::{Element, Layout};
+use crate::plugin::emitter::Emitter;
+use crate::plugin::spectra::Spectra;
+use crate::plugin::{UNITS_PER_METRE, look_at};
+use crate::scene::description::Light;
 use crate::scene::world::World;
-use crate::spectrum::Curve;
-use crate::spectrum::rgb::Primaries;
-
-use super::colours;
-use super::plugin::look_at;
-use super::spectra::Spectra;
-use super::units::{UNITS_PER_METRE, light_id, weights_file};
 
 /// Distance of suns in scene radii. Over the scene irradiance deviates from that at the centre by
 /// up to twice the inverse of this.
@@ -25,101 +17,25 @@ const SUN_DISTANCE: f64 = 1e5;
 
 /// The emitter of a light with a place or a disc of its own; `None` if it is written with its shape
 /// or [around](super::surroundings) the scene.
-pub(super) fn emitter(
-    light: &Named<Light>,
-    world: &World,
-    spectra: &mut Spectra,
-) -> Option<Element> {
-    match &light.value {
-        Light::Area(_) | Light::Constant(_) | Light::Environment(_) | Light::Overcast(_) => None,
-        Light::Daylight(day) => {
-            let irradiance = day.lights().0.irradiance().written();
-            let limb = Element::plugin("texture", "lamina_sun").with("name", "radiance");
-            let spectrum = spectra.element("irradiance", &irradiance, 1.0);
-            let limb = limb
-                .holding(spectrum)
-                .float("half_diameter", SUN_HALF_DIAMETER);
-            let emitter = Element::plugin("emitter", "area").holding(limb);
-            let towards = day.towards_sun();
-            Some(disk(towards, SUN_HALF_DIAMETER, emitter, world))
-        }
-        Light::Distant(light) => {
-            let half = 0.5 * light.angular_diameter;
-            let sin = libm::sin(half);
-            let emitter = area(&light.irradiance, None, 1.0 / (PI * sin * sin), spectra);
-            Some(disk(light.towards, half, emitter, world))
-        }
-        Light::Spot(light) => {
-            let places = [light.position, light.look_at];
-            let [origin, target] = places.map(|place| place * UNITS_PER_METRE);
-            let up = (target - origin).normalize().any_orthonormal_vector();
-            let beam = light.cone_angle - light.penumbra_angle;
-            // Intensity over the square of a distance in Mitsuba's units must equal irradiance in
-            // ours.
-            let factor = UNITS_PER_METRE * UNITS_PER_METRE;
-            let spot = Element::plugin("emitter", "spot")
-                .placed([look_at(origin, target, up)])
-                .float("cutoff_angle", light.cone_angle.to_degrees())
-                .float("beam_width", beam.max(0.0).to_degrees());
-            Some(spot.holding(spectra.element("intensity", &light.intensity, factor)))
-        }
+pub(super) fn emitter(light: &Light, world: &World, spectra: &mut Spectra) -> Option<Element> {
+    match light.emitter(spectra) {
+        Emitter::OnShape | Emitter::Around(_) => None,
+        Emitter::Placed(emitter) => Some(emitter),
+        Emitter::Disc {
+            towards,
+            half,
+            emitter,
+        } => Some(disk(towards, half, emitter, world)),
     }
 }
 
-/// The emitter that makes a shape emit a radiance times a factor, in the pattern of an area light.
-pub(super) fn area(
-    radiance: &Spectrum,
-    pattern: Option<(&str, &AreaPattern, Option<&ColourMap>)>,
-    factor: f64,
-    spectra: &mut Spectra,
-) -> Element {
-    let even = spectra.element("radiance", radiance, factor);
-    let radiance = match pattern {
-        None => even,
-        Some((light, pattern, emission)) => {
-            let texture = Element::plugin("texture", "lamina_pattern").with("name", "radiance");
-            let texture = texture.holding(even).float("edge_share", pattern.edge);
-            if emission.is_some() {
-                texture.holding(colours::texture(&light_id(light), "colours", emission))
-            } else if pattern.picture.is_some() {
-                texture
-                    .string("picture", weights_file(light))
-                    .holding_all(primaries(spectra))
-            } else {
-                texture
-            }
-        }
-    };
-    Element::plugin("emitter", "area")
-        .holding(radiance)
-        .laid_out(Layout::Level)
-}
-
-/// What the materials of a model emit that is the light with this number, if it is one.
-pub(super) fn emission<'w>(
-    scene: &Description,
-    world: &'w World,
-    number: usize,
-) -> Option<&'w ColourMap> {
-    let before = scene.lights[..number].iter();
-    let first: usize = before.map(|light| light.value.parts()).sum();
-    if let Some(light::Light::Area(area)) = world.lights.get(first) {
+/// What the materials of a model emit that is the light of which these were built, if it is one.
+pub(super) fn emission(built: &[light::Light]) -> Option<&ColourMap> {
+    if let [light::Light::Area(area)] = built {
         area.emission()
     } else {
         None
     }
-}
-
-/// The spectra of red, green and blue under an even white of 1.
-fn primaries(spectra: &mut Spectra) -> [Element; 3] {
-    let primaries = Primaries::new(Curve::Constant(1.0)).curves();
-    let named = ["red", "green", "blue"].into_iter().zip(&primaries);
-    let elements: Vec<_> = named
-        .map(|(name, curve)| spectra.element(name, &curve.written(), 1.0))
-        .collect();
-    elements
-        .try_into()
-        .unwrap_or_else(|_| unreachable!("three"))
 }
 
 /// Distance of what shines from infinity, mm, and the middle of the scene, mm.
@@ -189,7 +105,7 @@ penumbra_angle_deg = 10
         let scene = parse(SCENE, "scene.toml", Path::new("."), &[]);
         let scene = scene.expect("the test's own scene is right").description;
         let world = World::build(&scene).expect("the test's own scene can be built");
-        let spot = emitter(&scene.lights[0], &world, &mut Spectra::default());
+        let spot = emitter(&scene.lights[0].value, &world, &mut Spectra::default());
         let text = spot.expect("a spot stands alone").to_string();
         for part in [
             "<emitter type=\"spot\">",

@@ -2,13 +2,12 @@
 
 use glam::{DVec3, Vec3Swizzles as _};
 
-use crate::export::element::Element;
+use crate::plugin::UNITS_PER_METRE;
+use crate::plugin::element::Element;
+use crate::plugin::spectra::{RANGE_NM, Spectra};
 use crate::scene::description::{Description, Medium, MediumPhase, Named, Spectrum};
 use crate::scene::world::{MaterialOwner, World};
 use crate::spectrum::Curve;
-
-use super::spectra::{RANGE_NM, Spectra};
-use super::units::UNITS_PER_METRE;
 
 /// Two bodies that may lie within each other, by the names of their objects; Mitsuba must be told
 /// what is outside of the inner one, and no scene says that.

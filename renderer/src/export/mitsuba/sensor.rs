@@ -2,12 +2,16 @@
 
 use crate::camera::thin_lens::ThinLens;
 use crate::camera::view::{Projection, View};
-use crate::export::element::Element;
-use crate::scene::description::Description;
+use crate::plugin::element::Element;
+use crate::plugin::{UNITS_PER_METRE, look_at};
+use crate::scene::description::{Band, Description, FilmKind};
 
-use super::plugin::look_at;
-use super::spectra;
-use super::units::UNITS_PER_METRE;
+/// Number of intervals of a band's response.
+const RESPONSE_INTERVALS: usize = 64;
+
+/// Width, nm, of the box that represents a single wavelength: Mitsuba's wavelengths are `f32`, with
+/// steps of up to 2.4e-4 nm.
+const SINGLE_WAVELENGTH_NM: f64 = 0.5;
 
 /// The key of a lens that Mitsuba's lens does not have, if there is one. A pinhole has no shape.
 pub(super) fn foreign_key(view: &View) -> Option<&'static str> {
@@ -24,6 +28,17 @@ pub(super) fn foreign_key(view: &View) -> Option<&'static str> {
     ];
     let mut foreign = keys.into_iter().filter(|(_, is_set)| *is_set);
     foreign.next().filter(|_| *radius > 0.0).map(|(key, _)| key)
+}
+
+/// The bands of the film; a colour film is exported as one band over its range.
+pub(super) fn bands(scene: &Description) -> Vec<Band> {
+    match &scene.film.kind {
+        FilmKind::Spectral { bands } => bands.clone(),
+        FilmKind::Rgb { range_nm, .. } => vec![Band {
+            center_nm: 0.5 * (range_nm[0] + range_nm[1]),
+            width_nm: range_nm[1] - range_nm[0],
+        }],
+    }
 }
 
 /// The sensor of a scene with its view.
@@ -57,14 +72,14 @@ pub(super) fn sensor(scene: &Description, view: &View) -> Element {
         }
     };
     let sampler = Element::plugin("sampler", "independent");
-    let bands = super::bands(scene);
+    let bands = bands(scene);
     let bands = bands.iter().enumerate();
     let film = Element::plugin("film", "specfilm")
         .integer("width", scene.film.width)
         .integer("height", scene.film.height)
         .string("component_format", "float32")
         .holding(Element::plugin("rfilter", "box"))
-        .holding_all(bands.map(|(number, band)| spectra::response(number, band)));
+        .holding_all(bands.map(|(number, band)| response(number, band)));
     sensor
         .float("near_clip", 0.1)
         .parameter("float", "far_clip", "1e9")
@@ -72,13 +87,33 @@ pub(super) fn sensor(scene: &Description, view: &View) -> Element {
         .holding(film)
 }
 
+/// A band of a `specfilm`, whose channel is the integral of radiance times this response: a box of
+/// area 1, so that the channel is the band's mean radiance.
+///
+/// The film draws wavelengths from the sum of all responses, resampled at the finest spacing of any
+/// of them. With only two points, a narrow band could fall between the points of that resampling.
+fn response(number: usize, band: &Band) -> Element {
+    let width = if band.width_nm > 0.0 {
+        band.width_nm
+    } else {
+        SINGLE_WAVELENGTH_NM
+    };
+    let (low, high) = (band.center_nm - 0.5 * width, band.center_nm + 0.5 * width);
+    let values = vec![(1.0 / width).to_string(); RESPONSE_INTERVALS + 1].join(", ");
+    Element::plugin("spectrum", "regular")
+        .with("name", format!("band_{number:02}"))
+        .float("wavelength_min", low)
+        .float("wavelength_max", high)
+        .string("values", values)
+}
+
 #[cfg(test)]
 mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::export::element::Document;
     use crate::export::mitsuba::{ExportError, write};
+    use crate::plugin::element::Document;
     use crate::scene::load::parse;
     use crate::scene::world::World;
 
@@ -165,5 +200,21 @@ radiance_w_m2_sr_nm = 1
             ));
             write(&scene, &world, &out).expect("a pinhole");
         }
+    }
+
+    #[test]
+    fn a_response_has_area_one() {
+        let text = response(
+            3,
+            &Band {
+                center_nm: 550.0,
+                width_nm: 10.0,
+            },
+        )
+        .to_string();
+        assert!(text.contains("name=\"band_03\""));
+        assert!(text.contains("\"wavelength_min\" value=\"545\""));
+        assert!(text.contains("\"wavelength_max\" value=\"555\""));
+        assert_eq!(text.matches("0.1").count(), RESPONSE_INTERVALS + 1);
     }
 }

@@ -13,14 +13,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DMat4, DVec3};
 
-use crate::export::element::{Document, Element, Layout};
+use crate::plugin::element::{Document, Element, Layout};
+use crate::plugin::spectra::Spectra;
+use crate::plugin::{UNITS_PER_METRE, matrix};
 use crate::scene::description::{Description, Object, ObjectShape};
 use crate::scene::plants::Piece;
 use crate::scene::world::World;
 
-use super::plugin::matrix;
-use super::spectra::Spectra;
-use super::units::{UNITS_PER_METRE, material_id};
+use super::bsdf::material_id;
 use super::{emitter, media};
 
 /// A mesh of the world, or its mirror image in x.
@@ -61,7 +61,7 @@ impl MeshFile {
 }
 
 /// A shape or its mirror image, which a group holds.
-type Kind = (ObjectShape, bool);
+type GroupedShape = (ObjectShape, bool);
 
 /// Writes all shapes, and returns the meshes that they use.
 pub(super) fn write(
@@ -70,21 +70,19 @@ pub(super) fn write(
     world: &World,
     spectra: &mut Spectra,
 ) -> BTreeSet<MeshFile> {
-    let mut writer = Writer {
+    let mut writer = ShapeWriter {
         scene,
         world,
         meshes: BTreeSet::new(),
     };
     let mut shining = BTreeMap::new();
-    for (number, light) in scene.lights.iter().enumerate() {
+    for (light, built) in scene.with_built(&world.lights) {
         if let Some(area) = light.value.area() {
-            let emission = emitter::emission(scene, world, number);
-            let pattern = &area.pattern;
-            let pattern = (!pattern.is_even()).then_some((&*light.name, pattern, emission));
-            shining.insert(area.object, (&area.radiance, pattern));
+            let emission = emitter::emission(built);
+            shining.insert(area.object, (area, &*light.name, emission));
         }
     }
-    let mut counts: BTreeMap<Kind, usize> = BTreeMap::new();
+    let mut counts: BTreeMap<GroupedShape, usize> = BTreeMap::new();
     for (number, object) in scene.objects.iter().enumerate() {
         if !shining.contains_key(&number) {
             for (_, kind, _) in places(&object.value, world.strewn.get(&number)) {
@@ -94,13 +92,13 @@ pub(super) fn write(
     }
     let mut groups = BTreeSet::new();
     for (number, object) in scene.objects.iter().enumerate() {
-        let radiance = shining.get(&number);
+        let light = shining.get(&number);
         for (place, kind, to_world) in places(&object.value, world.strewn.get(&number)) {
             let mut id = format!("object-{}", object.name);
             if object.value.instances.is_some() || object.value.is_spread() {
                 id += &format!(".{}", place + 1);
             }
-            if radiance.is_none() && counts[&kind] > 1 {
+            if light.is_none() && counts[&kind] > 1 {
                 if groups.insert(kind) {
                     document.add(&writer.group(kind));
                 }
@@ -108,7 +106,7 @@ pub(super) fn write(
                 continue;
             }
             let emitter =
-                radiance.map(|(radiance, pattern)| emitter::area(radiance, *pattern, 1.0, spectra));
+                light.map(|(area, name, emission)| area.emitter(name, *emission, spectra));
             for (part, piece) in world.pieces.of(kind.0).iter().enumerate() {
                 let id = match part {
                     0 => id.clone(),
@@ -126,7 +124,7 @@ pub(super) fn write(
 fn places<'a>(
     object: &'a Object,
     strewn: Option<&'a Vec<(u32, DMat4)>>,
-) -> impl Iterator<Item = (usize, Kind, DMat4)> + 'a {
+) -> impl Iterator<Item = (usize, GroupedShape, DMat4)> + 'a {
     let in_one_place = strewn.is_none() && object.instances.is_none();
     let alone = in_one_place.then_some((0, object.to_world));
     let own = object.instances.iter().flatten();
@@ -154,13 +152,13 @@ fn mirror() -> DMat4 {
     DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0))
 }
 
-struct Writer<'a> {
+struct ShapeWriter<'a> {
     scene: &'a Description,
     world: &'a World,
     meshes: BTreeSet<MeshFile>,
 }
 
-impl Writer<'_> {
+impl ShapeWriter<'_> {
     /// A part of a shape; `to_world` maps the shape's own frame to the world or to its group, in
     /// metres.
     fn mesh(&mut self, id: &str, piece: &Piece, to_world: DMat4) -> Element {
@@ -185,7 +183,7 @@ impl Writer<'_> {
     }
 
     /// All parts of a shape, in millimetres.
-    fn group(&mut self, kind: Kind) -> Element {
+    fn group(&mut self, kind: GroupedShape) -> Element {
         let id = self.group_id(kind);
         let to_group = if kind.1 { mirror() } else { DMat4::IDENTITY };
         let pieces = self.world.pieces.of(kind.0);
@@ -198,7 +196,7 @@ impl Writer<'_> {
             .laid_out(Layout::Level)
     }
 
-    fn instance(&self, id: &str, kind: Kind, to_world: DMat4) -> Element {
+    fn instance(&self, id: &str, kind: GroupedShape, to_world: DMat4) -> Element {
         let to_world = if kind.1 {
             to_world * mirror()
         } else {
@@ -213,7 +211,7 @@ impl Writer<'_> {
             .placed([matrix(millimetres * to_world * metres)])
     }
 
-    fn group_id(&self, (shape, mirrored): Kind) -> String {
+    fn group_id(&self, (shape, mirrored): GroupedShape) -> String {
         let scene = self.scene;
         let name = match shape {
             ObjectShape::Mesh { mesh, material } => format!(

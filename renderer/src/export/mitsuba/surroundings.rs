@@ -5,17 +5,18 @@
 //! `reference/` registers: three maps of weights, and a table of their spectra. If there is none,
 //! the scene needs no sphere, since `constant` is Mitsuba's own.
 
-use crate::export::element::Element;
 use crate::image::{Layer, Picture};
 use crate::light::Light as Built;
 use crate::light::radiance_table::RadianceTable;
-use crate::scene::description::{Description, Light, Named};
+use crate::plugin::element::Element;
+use crate::plugin::emitter::Emitter;
+use crate::plugin::spectra::{RANGE_NM, Spectra};
+use crate::plugin::weights_file;
+use crate::scene::description::Description;
 use crate::scene::world::World;
 use crate::spectrum::Curve;
 
 use super::emitter::{far, shining};
-use super::spectra::{RANGE_NM, Spectra};
-use super::units::weights_file;
 
 /// Radius of the sphere over the distance of suns, which lie before it.
 const BEHIND_SUNS: f64 = 2.0;
@@ -25,25 +26,12 @@ pub(super) fn spectra_file(light: &str) -> String {
     format!("spectra/light-{light}.csv")
 }
 
-/// Each light of the scene with those that were built of it.
-fn built<'w>(
-    scene: &'w Description,
-    world: &'w World,
-) -> impl Iterator<Item = (&'w Named<Light>, &'w [Built])> {
-    let mut rest = &world.lights[..];
-    scene.lights.iter().map(move |light| {
-        let (own, others) = rest.split_at(light.value.parts());
-        rest = others;
-        (light, own)
-    })
-}
-
 /// The tables of the lights that have one, with the lights' names.
 pub(super) fn tables<'w>(
     scene: &'w Description,
     world: &'w World,
 ) -> impl Iterator<Item = (&'w str, RadianceTable<'w>)> {
-    built(scene, world).filter_map(|(light, own)| {
+    scene.with_built(&world.lights).filter_map(|(light, own)| {
         let table = own.iter().find_map(Built::radiance_table);
         table.map(|table| (light.name.as_str(), table))
     })
@@ -55,10 +43,9 @@ pub(super) fn emitters(scene: &Description, world: &World, spectra: &mut Spectra
         .map(|(light, table)| sky(light, &table))
         .collect();
     let constant = scene.lights.iter().filter_map(|light| {
-        if let Light::Constant(light) = &light.value {
-            Some(&light.radiance)
-        } else {
-            None
+        match light.value.emitter(&mut Spectra::default()) {
+            Emitter::Around(radiance) => radiance,
+            Emitter::Placed(_) | Emitter::Disc { .. } | Emitter::OnShape => None,
         }
     });
     if skies.is_empty() {

@@ -471,7 +471,7 @@ scatter = { on = "left", count = 25, settle = true }
         let id = format!("object-crumbs.{}", number + 1);
         let at = xml.find(&format!("id=\"{id}\"")).expect("an instance");
         let matrix = &xml[at..][..600];
-        let x = place.w_axis.x * units::UNITS_PER_METRE;
+        let x = place.w_axis.x * plugin::UNITS_PER_METRE;
         let numbers = matrix.split(|c: char| !"-.0123456789e".contains(c));
         let mut numbers = numbers.filter_map(|word| word.parse::<f64>().ok());
         assert!(

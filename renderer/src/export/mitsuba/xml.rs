@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::export::element::{Document, Element};
+use crate::plugin::element::{Document, Element};
 use crate::scene::description::Description;
 use crate::scene::world::World;
 
@@ -11,8 +11,8 @@ use super::emitter::emitter;
 use super::media::media;
 use super::sensor::sensor;
 use super::shapes::{self, MeshFile};
-use super::spectra::Spectra;
 use super::surroundings;
+use crate::plugin::spectra::Spectra;
 
 /// The text of `scene.xml`, and the meshes that it uses; spectra that go into files are added to
 /// `spectra`.
@@ -33,7 +33,7 @@ pub(super) fn scene(
     }
     let meshes = shapes::write(&mut document, scene, world, spectra);
     for light in &scene.lights {
-        if let Some(emitter) = emitter(light, world, spectra) {
+        if let Some(emitter) = emitter(&light.value, world, spectra) {
             document.add(&emitter);
         }
     }

@@ -7,7 +7,7 @@
 use exr::block::chunk::{Chunk, CompressedBlock, CompressedScanLineBlock};
 use rayon::prelude::*;
 
-use super::Layer;
+use crate::image::picture::Layer;
 
 /// Rows of a block, as the format prescribes for this compression.
 const ROWS: usize = 16;

@@ -1,7 +1,23 @@
 //! A drawing of measured and fitted spectra, and of what is left.
 
-use super::fitted::{Fitted, shown};
+use crate::measured::spectra::Leaf;
 use crate::plot::{Anchor, Axis, Canvas};
+use leafmodel::optics::inversion::Found;
+
+/// A leaf and what it was found to hold.
+pub(crate) struct Fitted<'a> {
+    pub(crate) leaf: &'a Leaf,
+    pub(crate) found: Found,
+}
+
+/// A leaf's name in messages and tables.
+pub(crate) fn shown(leaf: &Leaf) -> &str {
+    if leaf.name.is_empty() {
+        "the leaf"
+    } else {
+        &leaf.name
+    }
+}
 
 /// Leaves that are drawn; more would be a book.
 const MOST_LEAVES: usize = 12;

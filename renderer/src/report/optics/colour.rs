@@ -1,6 +1,6 @@
 //! The colours of a leaf's R and T under D65.
 
-use leafmodel::optics::{Contents, ProspectD};
+use leafmodel::optics::ReflectanceTransmittance;
 use serde_json::{Value, json};
 
 use crate::image::tone::to_srgb;
@@ -24,9 +24,8 @@ struct Colour {
 }
 
 impl Colours {
-    pub(crate) fn of(contents: &Contents) -> Self {
-        let optics =
-            |nm| ProspectD::coefficients_extrapolated(nm).reflectance_transmittance(contents);
+    /// Of R and T by wavelength in nm.
+    pub(crate) fn of(optics: impl Fn(f64) -> ReflectanceTransmittance) -> Self {
         Self {
             reflectance: Colour::of(|nm| optics(nm).reflectance),
             transmittance: Colour::of(|nm| optics(nm).transmittance),
@@ -74,7 +73,7 @@ impl Colour {
 
 #[cfg(test)]
 mod tests {
-    use leafmodel::optics::presets;
+    use leafmodel::optics::{ProspectD, presets};
 
     use super::*;
 
@@ -89,7 +88,9 @@ mod tests {
             ("smoke-tree-purple", 0x48_3a39, 0x37_1200),
         ] {
             let contents = presets::by_name(name).expect("a preset").contents;
-            let colours = Colours::of(&contents);
+            let colours = Colours::of(|nm| {
+                ProspectD::coefficients_extrapolated(nm).reflectance_transmittance(&contents)
+            });
             for (colour, wanted) in [
                 (&colours.reflectance, reflected),
                 (&colours.transmittance, transmitted),

@@ -8,11 +8,10 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::value_kind::{Number, Numbers, Vector};
 use leafmodel::document::values::{listed, wrong_length};
 
-use super::camera::COORDINATES_M;
 use super::instances::instances;
 use super::placement::{ANGLES_DEG, SCALES, turn};
-use super::report;
 use super::volume::volume;
+use crate::geometry::instance::COORDINATES_M;
 use crate::geometry::scatter::Rest;
 use crate::scene::authored::Object;
 use crate::scene::description::name_list::NamesIn;
@@ -207,7 +206,7 @@ fn check_matrix(rows: &[f64; 16], matrix: DMat4, keys: &Keys<'_>) {
             problem: "has a last row other than 0, 0, 0, 1",
             help: "write the rows one behind the other, the position at the end of the first three",
         };
-        report(keys, "matrix", error);
+        keys.report(&["matrix"], error);
         return;
     }
     let linear = DMat3::from_mat4(matrix);
@@ -219,6 +218,6 @@ fn check_matrix(rows: &[f64; 16], matrix: DMat4, keys: &Keys<'_>) {
             problem: "is singular: it flattens the object",
             help: "let its first three columns point in three independent directions",
         };
-        report(keys, "matrix", error);
+        keys.report(&["matrix"], error);
     }
 }

@@ -6,11 +6,10 @@ use leafmodel::document::context::{ENOUGH, QUOTED};
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::nearest::nearest;
-use leafmodel::document::sections::{Names, singular};
+use leafmodel::document::sections::singular;
 use leafmodel::document::source::escaped;
 use leafmodel::document::values::listed;
 
-use super::Purpose;
 use crate::scene::authored::{Authored, Light};
 use crate::scene::description::instrument::incident::{covers_par, is_dark};
 use crate::scene::description::{self, InstrumentKind, Material, Mesh, Named, ObjectShape};
@@ -27,17 +26,26 @@ pub(super) const SECTIONS: [&str; 8] = [
     "objects",
 ];
 
+/// What a scene is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// A picture: spectra must cover the wavelengths of the film.
+    Picture,
+    /// Its instruments: spectra of surfaces must cover their wavelengths. Lights do nothing.
+    Instruments,
+}
+
 /// Checks the scene as a whole; `keys` are those at its top.
 pub(super) fn check(scene: &Authored, keys: &Keys<'_>, purpose: Purpose) {
     let Some(root) = keys.reader() else {
         return;
     };
     let cx = root.cx;
-    let lights = Names::of(root, "lights", &super::SECTIONS);
-    if lights.are_missing() && purpose == Purpose::Picture {
+    let are_missing = |section| cx.names(section).is_some_and(|names| names.are_missing());
+    if are_missing("lights") && purpose == Purpose::Picture {
         cx.error_of_the_file(DocumentError::NoLight);
     }
-    if cx.names("objects").is_some_and(|names| names.are_missing()) {
+    if are_missing("objects") {
         cx.error_of_the_file(DocumentError::NoObject);
     }
     check_cards(scene, keys);
@@ -189,7 +197,7 @@ fn check_samples(scene: &Authored, keys: &Keys<'_>) {
             let path = [
                 "instruments",
                 &instrument.name,
-                instrument.value.kind.word(),
+                instrument.value.word(),
                 "object",
             ];
             keys.refuse(&path, problem, help);
@@ -218,7 +226,7 @@ fn check_incident(scene: &Authored, keys: &Keys<'_>) {
             }
             Some(_) => continue,
         };
-        let kind = instrument.value.kind.word();
+        let kind = instrument.value.word();
         let path = ["instruments", &instrument.name, kind, "incident", "light"];
         keys.refuse(&path, problem, "write a `spectrum` instead");
     }

@@ -5,7 +5,7 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::{Integer, ListOf, Number, Numbers, Vector, Word};
 
-use super::camera::COORDINATES_M;
+use crate::geometry::instance::COORDINATES_M;
 use crate::geometry::scatter::{Arrangement, Centres, Inclination, Volume};
 use crate::scene::description::Object;
 

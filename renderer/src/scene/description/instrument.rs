@@ -24,10 +24,6 @@ pub use self::incidence::Incidence;
 pub use self::incident::{Amount, Incident};
 pub use self::sample::{Gonio, Sample, Spot, SpotMiddle};
 
-/// What `constituents` of an instrument means.
-const BY_CONSTITUENT: &str = "Whether absorption is told by constituents of tissue: pigments, water \
-    and dry matter.";
-
 /// An instrument with the wavelengths at which it measures.
 #[derive(Clone, Debug)]
 pub struct Instrument {
@@ -59,18 +55,6 @@ pub enum InstrumentKind {
     Depth(DepthProfile),
     /// Fluxes of an unbounded canopy.
     Canopy(Canopy),
-}
-
-impl InstrumentKind {
-    /// Its word in scenes.
-    pub fn word(&self) -> &'static str {
-        match self {
-            Self::Sphere(_) => "sphere",
-            Self::Gonio(_) => "gonio",
-            Self::Canopy(_) => "canopy",
-            Self::Depth(_) => "depth",
-        }
-    }
 }
 
 const KINDS: [Variant<Instrument>; 4] = [
@@ -134,8 +118,17 @@ impl Instrument {
         }
     }
 
+    /// The word for its kind.
+    pub fn word(&self) -> &'static str {
+        let own = KINDS.iter().find(|kind| (kind.is)(self));
+        own.map_or("", |kind| kind.name)
+    }
+
     fn declare_kind(&mut self, keys: &mut Keys<'_>) {
-        wavelengths::wavelengths(self, keys);
+        wavelengths::declare(&mut self.wavelengths_nm, keys, |keys| {
+            bands::declare(&mut self.bands, &mut self.indices, keys);
+            !self.bands.is_empty()
+        });
         match &mut self.kind {
             InstrumentKind::Sphere(sample) => {
                 sample.declare(keys);
@@ -143,7 +136,7 @@ impl Instrument {
                     "constituents",
                     &mut sample.constituents,
                     Flag,
-                    BY_CONSTITUENT,
+                    canopy::BY_CONSTITUENT,
                 );
             }
             InstrumentKind::Canopy(canopy) => canopy.declare(keys),

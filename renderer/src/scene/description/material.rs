@@ -7,9 +7,9 @@ mod measured;
 pub mod model;
 pub mod plastic;
 pub mod solid;
+mod sources;
 
 use std::path::Path;
-use std::sync::Arc;
 
 use leafmodel::document::declared::{Declared, Kinds};
 
@@ -19,15 +19,13 @@ use self::leaf::{LeafTissue, PlainLeaf};
 use self::model::GltfSurface;
 use self::plastic::Plastic;
 use self::solid::PlainSolid;
+pub(in crate::scene) use self::sources::Sources;
 use super::reflectance::Reflectance;
 use super::tissue::Held;
 use crate::material;
-use crate::material::colour_map::{ColourMap, ColourTexture};
-use crate::material::model::Finish;
-use crate::material::palette::Palettes;
-use crate::material::solid::ReflectanceTables;
-use crate::scene::assets::{self, AssetError};
-use crate::spectrum::Curve;
+use crate::plugin::element::Element;
+use crate::plugin::surface::Exported;
+use crate::scene::assets::AssetError;
 use crate::spectrum::written::Spectrum;
 
 /// A material.
@@ -54,22 +52,6 @@ impl Default for Material {
     }
 }
 
-/// What a material is made of.
-pub(in crate::scene) struct Sources<'w> {
-    /// The material's name in the scene.
-    pub(in crate::scene) name: &'w str,
-    /// The palettes of pigments that were made.
-    pub(in crate::scene) palettes: &'w mut Palettes,
-    /// The tables of reflectances that were made.
-    pub(in crate::scene) reflectances: &'w mut ReflectanceTables,
-    /// The base colours of the mesh [`Material::colours_of`], if they are wanted.
-    pub(in crate::scene) colours: Option<&'w ColourMap>,
-    /// What its materials say besides, if that is wanted.
-    pub(in crate::scene) finishes: Option<&'w Arc<[Finish]>>,
-    /// What was changed of pictures.
-    pub(in crate::scene) notes: &'w mut Vec<String>,
-}
-
 impl Material {
     /// A matt surface with a spectrum.
     pub fn matt(spectrum: Spectrum) -> Self {
@@ -91,6 +73,27 @@ impl Material {
             Self::Leaf(of) => material::Material::Leaf(Box::new(of.built(sources)?)),
             Self::Solid(of) => material::Material::Solid(Box::new(of.built(sources)?)),
         })
+    }
+
+    /// Mitsuba's plugin for it.
+    pub(crate) fn plugin(&self, surface: &mut Exported<'_>) -> Element {
+        match self {
+            Self::Diffuse(of) => of.plugin(surface),
+            Self::Dielectric(of) => of.plugin(surface.id),
+            Self::Plastic(of) => of.plugin(surface),
+            Self::Model(_) => GltfSurface::plugin(surface),
+            Self::Leaf(of) => of.plugin(surface),
+            Self::Solid(of) => of.optics.plugin(of.held.extrapolates(), surface),
+        }
+    }
+
+    /// Whether that is a plugin of Mitsuba's own, and scatters.
+    pub(crate) fn is_stock(&self) -> bool {
+        match self {
+            Self::Diffuse(_) => true,
+            Self::Dielectric(of) => of.eta != 1.0,
+            Self::Plastic(_) | Self::Model(_) | Self::Leaf(_) | Self::Solid(_) => false,
+        }
     }
 
     /// The word for its kind.
@@ -158,43 +161,5 @@ impl Material {
             Self::Plastic(of) => Some(&of.reflectance),
             Self::Dielectric(_) | Self::Model(_) | Self::Leaf(_) | Self::Solid(_) => None,
         }
-    }
-}
-
-impl Sources<'_> {
-    fn reflectance(
-        &mut self,
-        of: &Reflectance,
-    ) -> Result<material::reflectance::Reflectance, AssetError> {
-        let map = match of {
-            Reflectance::Even(spectrum) => return Ok(Curve::from_description(spectrum).into()),
-            Reflectance::OfMesh(_) => {
-                let colours = self.colours.cloned();
-                colours.expect("a mesh whose colours are wanted was read with them")
-            }
-            Reflectance::Picture(of) => {
-                let picture = assets::reflectances(&of.file, of.layer.name())?;
-                if picture.outside > 0.0 {
-                    self.notes.push(format!(
-                        "materials.{}: {}: {:.2} % of its pixels have colours outside of Rec. 709; they come \
-                         to its border",
-                        self.name,
-                        of.file.display(),
-                        100.0 * picture.outside
-                    ));
-                }
-                let texture = ColourTexture::new(picture.width, picture.texels, [of.wrap; 2]);
-                let repeats = of.repeats.map(|count| count as f32).into();
-                ColourMap::of(texture, of.scale as f32, repeats)
-            }
-        };
-        Ok(material::reflectance::Reflectance::Picture(Box::new(map)))
-    }
-
-    fn held(held: &Held) -> Result<material::held::Held, AssetError> {
-        Ok(match held {
-            Held::Contents { contents, .. } => material::held::Held::Uniform(*contents),
-            Held::Map { file, .. } => material::held::Held::Map(assets::contents_map(file)?),
-        })
     }
 }

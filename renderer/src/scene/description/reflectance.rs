@@ -10,6 +10,8 @@ use leafmodel::document::value_kind::{FileOnly, FilePath, Word};
 
 use super::layer::ChosenLayer;
 use crate::material::colour_map::Wrap;
+use crate::plugin::element::Element;
+use crate::plugin::surface::Exported;
 use crate::scene::blocks::spectrum::SpectrumOf;
 use crate::spectrum::rgb;
 use crate::spectrum::written::Spectrum;
@@ -90,6 +92,14 @@ impl Reflectance {
                     *self = Self::OfMesh(mesh);
                 }
             }
+        }
+    }
+
+    /// The parameter `reflectance` of Mitsuba: a spectrum, or a texture that is written to files beside.
+    pub(super) fn parameter(&self, surface: &mut Exported<'_>) -> Element {
+        match self {
+            Self::Even(spectrum) => surface.spectra.element("reflectance", spectrum, 1.0),
+            Self::Picture(_) | Self::OfMesh(_) => surface.colours("reflectance"),
         }
     }
 

@@ -11,6 +11,9 @@ use leafmodel::optics::Contents;
 use leafmodel::optics::solid::{ETA, SCATTERING_PER_MM, Solid as Tissue};
 use leafmodel::plan_file::require_prospect;
 
+use crate::plugin::element::Element;
+use crate::plugin::spectra::Spectra;
+use crate::plugin::surface::{Exported, FACES};
 use crate::scene::blocks::spectrum::SpectrumOf;
 use crate::spectrum::written::Spectrum;
 
@@ -105,6 +108,25 @@ impl LeafFaces {
             impossible(keys, problem, "leave `fluorescence` out, or `optics`");
         }
     }
+
+    /// Adds them to Mitsuba's plugin of a leaf.
+    pub(crate) fn written(&self, bsdf: Element, spectra: &mut Spectra) -> Element {
+        let coats = FACES.into_iter().zip(&self.coats);
+        let bsdf = coats.fold(bsdf, |bsdf, (face, coat)| {
+            bsdf.float(&format!("{face}_eta"), coat.eta)
+                .float(&format!("{face}_alpha_across"), coat.alpha_across)
+                .float(&format!("{face}_alpha_along"), coat.alpha_along)
+        });
+        let known = [
+            ("abaxial_ratio", &self.abaxial_ratio),
+            ("abaxial_reflectance", &self.abaxial_reflectance),
+        ];
+        let known = known.into_iter();
+        let known = known.filter_map(|(name, spectrum)| Some((name, spectrum.as_ref()?)));
+        known.fold(bsdf, |bsdf, (name, spectrum)| {
+            bsdf.holding(spectra.element(name, spectrum, 1.0))
+        })
+    }
 }
 
 /// Reports what a leaf of layers cannot be.
@@ -184,6 +206,20 @@ impl Declared for SolidOptics {
     }
 }
 
+impl SolidOptics {
+    /// Mitsuba's plugin for solid tissue, grown or of a material.
+    pub(crate) fn plugin(&self, extrapolate: bool, surface: &Exported<'_>) -> Element {
+        // In `reference/`.
+        surface
+            .plugin("lamina_solid", extrapolate)
+            .float("depth_mm", self.tissue.depth_mm)
+            .float("scattering_per_mm", self.tissue.scattering_per_mm)
+            .float("eta", self.tissue.eta)
+            .float("coat_eta", self.coat.eta)
+            .float("coat_alpha", self.coat.alpha_across)
+    }
+}
+
 /// Contents of tissue per area of its surface.
 #[derive(Clone, Debug)]
 pub enum Held {
@@ -252,8 +288,8 @@ impl Held {
         keys.required_block("map", "A map of what it holds.", &[], |keys| {
             require_prospect(keys);
             let mut file = PathBuf::new();
-            let about = "A channel for each of the contents, by its name without the unit, over uv; those of \
-                betalains may be absent; the first row of the picture is v = 0.";
+            let about = "A channel for each of the contents, by its name without the unit, over uv; \
+                those that contents may leave out may be absent; the first row of the picture is v = 0.";
             keys.required("file", &mut file, MAP, about);
             *self = Self::Map { file, extrapolate };
         });

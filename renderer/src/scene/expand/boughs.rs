@@ -13,7 +13,8 @@ use leafmodel::optics::Contents;
 use leafmodel::plant::{Crumb, Foot, Organ, Plant as Grown, PlantError, Wall};
 
 use super::individuals::{age, ageless, individuals, scattered_ranks, users};
-use super::{Fault, Planted, add, walls};
+use super::planted::{Fault, Planted, add};
+use super::walls;
 use crate::geometry::shapes::Lump;
 use crate::scene::authored::Plant;
 use crate::scene::description::material::solid::PlainSolid;
@@ -45,7 +46,7 @@ const CLAY: &str = "brick-light-red";
 const CRUMB_SHAPES: u32 = 5;
 
 /// A plant's parts with the scene's numbers, and their places in the plant's frame, m.
-struct Parts {
+struct BoughParts {
     shapes: Vec<ObjectShape>,
     places: Vec<(u32, DAffine3)>,
 }
@@ -53,7 +54,7 @@ struct Parts {
 /// Grows the plants of all objects, and gives these their shapes and places.
 pub(super) fn place(scene: &mut Description, planted: &Planted) -> Result<(), Fault> {
     // What climbs on an object has a shape of its own in each place.
-    let mut known: BTreeMap<(usize, Option<usize>), Parts> = BTreeMap::new();
+    let mut known: BTreeMap<(usize, Option<usize>), BoughParts> = BTreeMap::new();
     for (number, plant) in planted.of_object.iter().enumerate() {
         let Some(plant) = *plant else {
             continue;
@@ -136,7 +137,7 @@ fn parts(
     planted: &Planted,
     (name, plant): (&str, &Plant),
     wall: Option<&Wall>,
-) -> Result<(Parts, Option<[usize; 2]>), PlantError> {
+) -> Result<(BoughParts, Option<[usize; 2]>), PlantError> {
     let mut kinds = plant.leaves.clone();
     if plant.plan.flower.is_some() {
         kinds.extend(plant.perianth.iter().flatten());
@@ -156,14 +157,11 @@ fn parts(
         .iter()
         .map(|leaves| leaves.iter().map(foot).collect::<Result<Vec<_>, _>>());
     let feet = feet.collect::<Result<Vec<_>, _>>()?;
-    let mut grown = match wall {
-        Some(wall) => Grown::grow_on(&plant.plan, &feet, Some(wall))?,
-        None => Grown::grow(&plant.plan, &feet)?,
-    };
+    let mut grown = Grown::grow(&plant.plan, &feet, wall)?;
     let extrapolate = kinds
         .iter()
         .any(|&leaf| scene.leaves[leaf].value.extrapolate);
-    let mut parts = Parts {
+    let mut parts = BoughParts {
         shapes: Vec::new(),
         places: Vec::new(),
     };
@@ -186,7 +184,7 @@ fn parts(
 /// Adds axes and organs of a plant, with their materials; the material of its soil.
 fn add_organs(
     scene: &mut Description,
-    parts: &mut Parts,
+    parts: &mut BoughParts,
     (name, plant, extrapolate): (&str, &Plant, bool),
     grown: &mut Grown,
 ) -> Option<usize> {
@@ -232,7 +230,7 @@ fn add_organs(
 /// Adds crumbs of soil, which has this material.
 fn add_crumbs(
     scene: &mut Description,
-    parts: &mut Parts,
+    parts: &mut BoughParts,
     (name, material): (&str, usize),
     crumbs: &[Crumb],
 ) {
@@ -265,7 +263,7 @@ fn add_crumbs(
 /// Adds the leaves of a plant, each individual once; the first `borne` kinds are no sepals or petals.
 fn add_leaves(
     (scene, planted): (&mut Description, &Planted),
-    parts: &mut Parts,
+    parts: &mut BoughParts,
     name: &str,
     (kinds, borne, individuals): (&[usize], usize, &[Vec<Leaf>]),
     grown: &Grown,
@@ -312,7 +310,7 @@ fn material_of(
 /// Adds a body of the plant in its own frame.
 fn add_body(
     scene: &mut Description,
-    parts: &mut Parts,
+    parts: &mut BoughParts,
     name: String,
     body: StalkMesh,
     material: usize,

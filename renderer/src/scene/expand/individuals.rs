@@ -2,7 +2,7 @@
 
 use leafmodel::blade::senescence::AgeSource;
 
-use super::{Fault, Planted, add};
+use super::planted::{Fault, Planted, add};
 use crate::scene::description::{Description, Leaf, ObjectShape};
 
 /// A leaf, and others of its kind.

@@ -112,7 +112,7 @@ fn panels(preset: RigPreset) -> (Vec<Panel>, f64) {
 }
 
 /// The camera's view of the subject: to the right, away and up.
-struct Stage {
+struct RigStage {
     subject: DVec3,
     size: f64,
     axes: DMat3,
@@ -120,7 +120,7 @@ struct Stage {
     azimuth: f64,
 }
 
-impl Stage {
+impl RigStage {
     fn new(scene: &Description, rig: &Rig) -> Self {
         let view = &scene.camera.view;
         let axes = view.axes();
@@ -229,7 +229,7 @@ pub(super) fn set_up(scene: &mut Description, lights: Vec<Named<authored::Light>
             }
             authored::Light::Rig(rig) => rig,
         };
-        let stage = Stage::new(scene, &rig);
+        let stage = RigStage::new(scene, &rig);
         let level = ON_PAPER * libm::exp2(rig.ev);
         match rig.preset {
             RigPreset::Studio | RigPreset::Tent | RigPreset::Lightbox => {
@@ -283,7 +283,7 @@ fn levelled(day: Daylight, level: f64) -> Daylight {
 }
 
 /// Adds the panels and the even light of a preset.
-fn build(scene: &mut Description, rig: &str, preset: RigPreset, stage: &Stage, level: f64) {
+fn build(scene: &mut Description, rig: &str, preset: RigPreset, stage: &RigStage, level: f64) {
     let (mut panels, even) = panels(preset);
     // A tent is open where the camera looks in, from wherever that is.
     let camera = scene.camera.view.position.extend(1.0);
@@ -320,7 +320,7 @@ fn build(scene: &mut Description, rig: &str, preset: RigPreset, stage: &Stage, l
 fn hang(
     scene: &mut Description,
     rig: &str,
-    stage: &Stage,
+    stage: &RigStage,
     panel: &Panel,
     cloth: usize,
     radiance: f64,

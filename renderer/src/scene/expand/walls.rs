@@ -3,14 +3,14 @@
 use glam::{DMat4, DVec3};
 use leafmodel::plant::Wall;
 
-use super::Planted;
+use super::planted::Planted;
 use crate::scene::authored::Plant;
 use crate::scene::description::{Description, ObjectShape};
 use crate::scene::model::Wanted;
 use crate::scene::world::meshes::build_mesh;
 
 /// The key that is wrong, why, and what to do.
-type Fault = (&'static str, String, &'static str);
+type WallFault = (&'static str, String, &'static str);
 
 /// The wall of the plant that is this object; none if it climbs on none that is given.
 pub(super) fn of(
@@ -18,7 +18,7 @@ pub(super) fn of(
     planted: &Planted,
     plant: &Plant,
     object: usize,
-) -> Result<Option<Wall>, Fault> {
+) -> Result<Option<Wall>, WallFault> {
     let Some(climbing) = plant.plan.climbing.filter(|_| !plant.walls.is_empty()) else {
         return Ok(None);
     };
@@ -44,7 +44,7 @@ fn surface(
     planted: &Planted,
     object: usize,
     to_plant: DMat4,
-) -> Result<Vec<[DVec3; 3]>, Fault> {
+) -> Result<Vec<[DVec3; 3]>, WallFault> {
     let fault = |problem: String, help| Err(("wall", problem, help));
     let wall = &scene.objects[object];
     let (&[ObjectShape::Mesh { mesh, .. }], None, None, false) = (

@@ -108,7 +108,12 @@ proptest! {
         (seed, map_size, patterned) in (any::<u64>(), 16_u32..2000, any::<bool>()),
     ) {
         let contents = Contents(PerConstituent::from_fn(|one| held[one as usize]))
-            .with(&[(Constituent::Structure, 1.0)]);
+            .with(&[
+                (Constituent::Structure, 1.0),
+                (Constituent::Proteins, 0.0),
+                (Constituent::CarbonBased, 0.0),
+                (Constituent::Extra, 0.0),
+            ]);
         let (depth_mm, scattering_per_mm, eta) = optics;
         let (coat_eta, alpha) = coat.unwrap_or((eta, 0.3));
         let solid = Solid {

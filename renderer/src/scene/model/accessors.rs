@@ -6,7 +6,7 @@ use gltf_json::accessor::{ComponentType, Type};
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root};
 
-use super::ModelError;
+use super::error::ModelError;
 
 /// Reads accessors; every count is held against the bytes that are there.
 pub(super) struct Accessors<'a> {

@@ -8,7 +8,8 @@ use gltf_json::Root;
 use gltf_json::mesh::Semantic;
 use gltf_json::validation::{Checked, Error, Validate};
 
-use super::{Files, ModelError, shown, textures};
+use super::error::{ModelError, shown};
+use super::textures;
 
 /// First bytes of a GLB file.
 const MAGIC: &[u8] = b"glTF";
@@ -37,6 +38,9 @@ fn is_usable(extension: &str) -> bool {
 
 /// Parts of a document that are not read, so that it does not matter what is wrong with them.
 const UNREAD: [&str; 3] = ["animations", "cameras", "skins"];
+
+/// Bytes of a file that a glTF file names, by its name as written there.
+pub type Files<'a> = &'a dyn Fn(&str) -> Option<&'a [u8]>;
 
 /// A glTF file that was opened: its JSON is valid as far as it is read, its buffers are not there
 /// yet.

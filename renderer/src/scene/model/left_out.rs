@@ -8,7 +8,7 @@ use gltf_json::mesh::Semantic;
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root};
 
-use super::{Wanted, shown};
+use super::error::shown;
 
 /// Most extensions that are named.
 const MOST_NAMED: usize = 10;
@@ -18,6 +18,26 @@ const HARMLESS: [&str; 2] = ["KHR_texture_transform", "KHR_mesh_quantization"];
 
 /// The extension by which materials emit more than 1, read with the light that they emit.
 const STRENGTH: &str = "KHR_materials_emissive_strength";
+
+/// What a scene uses of a model besides its triangles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wanted {
+    /// The base colours.
+    pub colours: bool,
+    /// Roughness, metal and normals, with the colours.
+    pub finishes: bool,
+    /// Emitted light.
+    pub emission: bool,
+}
+
+impl Wanted {
+    /// All that is read.
+    pub const ALL: Self = Self {
+        colours: true,
+        finishes: true,
+        emission: true,
+    };
+}
 
 /// What is left out of a document of which this is wanted, in words.
 pub(super) fn of_document(root: &Root, wanted: Wanted) -> BTreeSet<String> {

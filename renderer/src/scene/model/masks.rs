@@ -6,8 +6,8 @@ use std::collections::btree_map::Entry;
 use gltf_json::material::AlphaMode;
 use gltf_json::validation::Checked;
 
-use super::ModelError;
 use super::cut_out::{Cut, MOST_OF_ONE, MOST_TRIANGLES, Mask};
+use super::error::ModelError;
 use super::pictures::Pictures;
 use super::surfaces::Patch;
 use super::textures::{Of, texture};

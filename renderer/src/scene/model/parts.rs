@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::Vec2;
 use gltf_json::Root;
 
-use super::ModelError;
+use super::error::ModelError;
 use super::pictures::Pictures;
 use super::surfaces::Patch;
 use super::textures::{Of, Texture, texture};
@@ -98,6 +98,22 @@ impl Part {
         Some(texture)
     }
 
+    /// Its place in a map of colours, with a factor on a texture.
+    fn slot(
+        &self,
+        factor: [f32; 3],
+        texture: Option<Texture>,
+        pictures: &mut Pictures<'_, '_>,
+    ) -> Result<Slot, ModelError> {
+        let texture = texture.map(|texture| pictures.texture(texture, Stored::Srgb));
+        Ok(Slot {
+            begins: self.begins,
+            shift: self.shift,
+            factor,
+            texture: texture.transpose()?,
+        })
+    }
+
     /// Refuses numbers of its material that are below 0 or above `most`.
     fn check(&self, key: &str, values: &[f32], most: f32) -> Result<(), ModelError> {
         let Some(material) = self.material else {
@@ -135,13 +151,7 @@ pub(super) fn colours(
         let [r, g, b, _] = factor.unwrap_or([1.0; 4]);
         part.check("pbrMetallicRoughness.baseColorFactor", &[r, g, b], 1.0)?;
         let texture = part.texture(root, Of::Colour, left_out);
-        let texture = texture.map(|texture| pictures.texture(texture, Stored::Srgb));
-        slots.push(Slot {
-            begins: part.begins,
-            shift: part.shift,
-            factor: [r, g, b],
-            texture: texture.transpose()?,
-        });
+        slots.push(part.slot([r, g, b], texture, pictures)?);
     }
     Ok(ColourMap::new(slots, Vec2::ONE))
 }
@@ -170,13 +180,8 @@ pub(super) fn emission(
         }
         let texture = part.texture(root, Of::Emission, left_out);
         let texture = texture.filter(|_| is_lit);
-        let texture = texture.map(|texture| pictures.texture(texture, Stored::Srgb));
-        slots.push(Slot {
-            begins: part.begins,
-            shift: part.shift,
-            factor: factor.map(|value| value * strength),
-            texture: texture.transpose()?,
-        });
+        let factor = factor.map(|value| value * strength);
+        slots.push(part.slot(factor, texture, pictures)?);
     }
     Ok(ColourMap::new(slots, Vec2::ONE))
 }

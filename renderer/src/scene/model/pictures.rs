@@ -7,9 +7,9 @@ use std::sync::Arc;
 use gltf_json::Root;
 
 use super::accessors::view;
-use super::container::resource;
+use super::container::{Files, resource};
+use super::error::ModelError;
 use super::textures::Texture;
-use super::{Files, ModelError};
 use crate::image::{ImageError, Picture, Stored, jpeg, portable_network};
 use crate::material::colour_map::{ColourTexture, Wrap};
 

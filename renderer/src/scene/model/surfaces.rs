@@ -8,8 +8,8 @@ use gltf_json::scene::Node;
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root};
 
-use super::ModelError;
 use super::accessors::Accessors;
+use super::error::ModelError;
 use super::textures::{Of, Place, texture};
 use crate::geometry::TriangleMesh;
 

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 
 use glam::Vec3;
 
-use super::{MaterialOwner, WorldError};
+use super::error::WorldError;
+use super::placing::MaterialOwner;
 use crate::geometry::{Geometry, Instance, Ray, TriangleMesh};
 use crate::medium::{Body, Inside, Media, Medium, Phase};
 use crate::scene::description::{self, Description, MediumPhase};

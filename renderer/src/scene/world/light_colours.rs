@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 use leafmodel::optics::fluorescence::EXCITED_NM;
 use rayon::prelude::*;
 
-use super::WorldError;
+use super::error::WorldError;
 use crate::film::MOST_RADIANCE;
 use crate::image::display::recorded_colour;
 use crate::image::light_colour::LightColour;
@@ -29,16 +29,13 @@ pub(super) fn light_colours(
     built: &[Light],
     wavelengths: &WavelengthSampler,
 ) -> Vec<LightColour> {
-    let mut rest = built;
     let mut colours: Vec<LightColour> = Vec::new();
     let mut add = |name: &str, spectrum: &dyn Fn(&Share) -> f64| {
         let colour = recorded_colour(wavelengths, spectrum);
         colours.push(LightColour::new(name.to_owned(), colour));
     };
     let mut reported_rigs = BTreeSet::new();
-    for named in &scene.lights {
-        let (own, others) = rest.split_at(named.value.parts());
-        rest = others;
+    for (named, own) in scene.with_built(built) {
         let rig = of_part(&named.name);
         if rig.is_some_and(|rig| !reported_rigs.insert(rig)) {
             continue;
@@ -87,10 +84,7 @@ pub(super) fn check_brightness(
     lights: &[Light],
     wavelengths: &WavelengthSampler,
 ) -> Result<(), WorldError> {
-    let mut rest = lights;
-    for named in &scene.lights {
-        let (own, others) = rest.split_at(named.value.parts());
-        rest = others;
+    for (named, own) in scene.with_built(lights) {
         for share in wavelengths.grid().shares() {
             // What a spotlight shows depends on how far it is.
             let rest = own.iter().filter(|light| !matches!(light, Light::Spot(_)));

@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::WorldError;
+use super::error::WorldError;
 use super::meshes::OwnSurface;
 use crate::geometry::{Instance, TriangleMesh};
 use crate::light::Light;
 use crate::scene::description::Description;
-use crate::scene::description::light::Surroundings;
-use crate::scene::description::light::area::{Area, Surface};
+use crate::scene::description::light::area::Area;
+use crate::scene::description::light::{Surface, Surroundings};
 use trace::world::WorldObjects;
 
 /// The meshes with the surfaces that they bring along, their instances, and the first one of each object.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use leafmodel::optics::solid::ReflectanceTable;
 
-use super::WorldError;
+use super::error::WorldError;
 use super::meshes::OwnSurface;
 use crate::material::Material;
 use crate::material::palette::{Palette, Palettes};

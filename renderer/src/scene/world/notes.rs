@@ -5,8 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec3, Vec3};
 
-use super::MaterialOwner;
-use super::placing::Pieces;
+use super::placing::{MaterialOwner, Pieces};
 use super::seen::corners_between;
 use leafmodel::optics::Contents;
 

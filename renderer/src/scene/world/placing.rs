@@ -9,6 +9,23 @@ use crate::scene::description::{Description, InstancePlace, ObjectShape};
 use crate::scene::plants::Piece;
 use trace::world::WorldObjects;
 
+/// The owner of a material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MaterialOwner {
+    /// The scene's material with this number.
+    Scene(usize),
+    /// A material of the leaf with the number `leaf`. Its different blades come first, then
+    /// its stalks, then its hairs by kind.
+    Leaf {
+        /// Index into [`Description::leaves`].
+        leaf: usize,
+        /// Index of the material within the leaf.
+        part: usize,
+    },
+    /// The body of solid tissue with this number.
+    Solid(usize),
+}
+
 /// The parts of every shape, with meshes and materials as numbers in the world.
 #[derive(Clone, Debug, Default)]
 pub struct Pieces {

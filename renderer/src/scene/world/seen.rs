@@ -184,3 +184,27 @@ pub(super) fn corners_between(sides: [DVec3; 2], to: &DAffine3) -> [DVec3; 8] {
         to.transform_point3(DVec3::new(x, y, z))
     })
 }
+
+/// The middle of the box, along the axes of the scene, around all parts of an object in all its
+/// places, m.
+///
+/// Each part counts with its box in its own frame, so that an object with a million places costs
+/// no more than its places.
+pub(super) fn middle_of(
+    object: usize,
+    meshes: &[TriangleMesh],
+    instances: &[Instance],
+    objects: &WorldObjects,
+) -> DVec3 {
+    let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for (number, instance) in instances.iter().enumerate() {
+        if objects[number].object != object {
+            continue;
+        }
+        for corner in corners_of(instance, meshes) {
+            least = least.min(corner);
+            most = most.max(corner);
+        }
+    }
+    0.5 * (least + most)
+}

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use glam::{DAffine3, DMat4};
 
 use super::error::WorldError;
-use super::memory::Memory;
+use super::needs::Memory;
 use super::placing::Pieces;
 use crate::geometry::TriangleMesh;
 use crate::geometry::scatter::{

@@ -19,12 +19,12 @@ pub(super) struct Aperture {
     rim: f32,
     /// Distance of that rim from the opening.
     rim_distance: f32,
-    tilt: Option<Tilt>,
+    tilt: Option<LensTilt>,
 }
 
 /// A lens whose plane is not the film's.
 #[derive(Clone, Debug)]
-struct Tilt {
+struct LensTilt {
     right: Vec3,
     up: Vec3,
     normal: Vec3,
@@ -53,7 +53,7 @@ impl Aperture {
         };
         let tilt = (lens.tilt != [0.0; 2]).then(|| {
             let axes = view.axes() * lens_axes(lens.tilt);
-            Tilt {
+            LensTilt {
                 right: axes.x_axis.as_vec3(),
                 up: axes.y_axis.as_vec3(),
                 normal: axes.z_axis.as_vec3(),

@@ -1,6 +1,7 @@
 //! The reconstruction filter, by importance sampling of the offset of samples within a pixel.
 
 use glam::Vec2;
+use numerics::numeric::bisect;
 
 /// A separable filter. All samples have equal weight, so that pixels stay independent of each
 /// other.
@@ -50,15 +51,7 @@ fn deviations(share: f64) -> f64 {
     let held = |x: f64| libm::erf(x * std::f64::consts::FRAC_1_SQRT_2);
     let of = share * held(CUT);
     // By halving, as often as there are digits.
-    let (mut low, mut high) = (-CUT, CUT);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if held(middle) < of {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    let (low, high) = bisect(-CUT, CUT, 60, |x| held(x) < of);
     0.5 * (low + high)
 }
 

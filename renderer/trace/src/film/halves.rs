@@ -11,8 +11,8 @@
 const FIRST: u32 = 8;
 /// The last octave, the one before it, and all that are before that.
 const RANGES: usize = 3;
-/// Memory of a pixel for each channel, bytes, in a block of full width.
-pub(super) const BYTES: usize = RANGES * size_of::<i64>() / super::BLOCK_SIDE as usize;
+/// Memory of a row of a block for each channel, bytes.
+pub(super) const BYTES: usize = RANGES * size_of::<i64>();
 
 /// Number of the octave of a sample: 0 for samples 0 to 7, `k` for 2^(k + 2) to 2^(k + 3) − 1.
 #[inline]

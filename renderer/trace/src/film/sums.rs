@@ -145,7 +145,7 @@ impl Film {
         let features: usize = sums.iter().map(|sum| sum.bytes()).sum();
         channels * size_of::<Moments>()
             + series_of(channels) * size_of::<Squares>()
-            + channels * halves::BYTES
+            + channels * (halves::BYTES / BLOCK_SIDE as usize)
             + Coverage::BYTES
             + features
     }

@@ -3,10 +3,9 @@
 use glam::{DVec3, Mat3, Vec2, Vec3};
 
 use super::frame::Frame;
-use super::hit::Hit;
 use super::mesh::TriangleMesh;
 use super::placement::Placement;
-use super::ray::Ray;
+use super::ray::{Hit, Ray};
 
 /// Half the distance between 1 and the next `f32`: the relative error of one rounding.
 const ROUNDING: f64 = 1.0 / 16_777_216.0;

@@ -1,8 +1,7 @@
 //! Features: data of a sample besides radiance, for compositing and denoising.
 
 use crate::integrator::path::FirstHit;
-use crate::spectrum::cie;
-use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthSampler, Wavelengths};
+use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthSampler, Wavelengths, cie};
 
 /// A quantity of the first hit of a camera ray: up to three numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

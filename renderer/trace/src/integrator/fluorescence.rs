@@ -9,8 +9,8 @@
 use optics::fluorescence::EXCITED_NM;
 
 use super::path::PathResult;
+use super::path::drops::Passage;
 use super::path::lamps::sampled_light;
-use super::path::passage::Passage;
 use super::path::paths::{Leg, Paths};
 use super::path::vertex::Vertex;
 use crate::bsdf::View;

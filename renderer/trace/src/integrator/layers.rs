@@ -14,8 +14,7 @@ use crate::camera::view::View;
 use crate::film::{Film, Pixel, Series, Sum};
 use crate::integrator::features::{Quantity, Sight};
 use crate::spectrum::WavelengthSampler;
-use crate::spectrum::recorded::FilmKind;
-use crate::spectrum::recorded::spectral_channel_name;
+use crate::spectrum::recorded::{FilmKind, spectral_channel_name};
 use crate::spectrum::rgb::LUMINANCE;
 
 /// One layer: channels of a picture that belong together.

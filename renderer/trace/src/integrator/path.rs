@@ -3,7 +3,6 @@
 pub(super) mod drops;
 mod found;
 pub(super) mod lamps;
-pub(super) mod passage;
 pub(super) mod paths;
 mod result;
 mod through_leaf;
@@ -11,9 +10,9 @@ pub(super) mod vertex;
 
 use glam::{Vec2, Vec3};
 
+use self::drops::Passage;
 use self::found::{emission, from_infinity};
 use self::lamps::sampled_light;
-use self::passage::Passage;
 use self::paths::{Bounce, Leg, Paths};
 pub use self::result::{FirstHit, PathResult};
 use self::vertex::Vertex;

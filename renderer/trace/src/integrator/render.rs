@@ -10,12 +10,11 @@ pub use self::begun::{Begun, Contact, Progress};
 use self::pass::PassOfPaths;
 use crate::film::{Film, FilmError, LEAST_LUMINANCE, MOST_RADIANCE};
 use crate::integrator::effort::Effort;
-use crate::integrator::features;
-pub use crate::integrator::job::Job;
 use crate::integrator::layers::Layout;
 use crate::integrator::noise::{self, NoiseWatch};
 use crate::integrator::sample_map::SampleMap;
-use crate::integrator::trial;
+pub use crate::integrator::settings::Job;
+use crate::integrator::{features, trial};
 use crate::world::World;
 
 /// Conditions that end a render before every pixel has all the samples of its [`Job`].

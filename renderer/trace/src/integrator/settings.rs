@@ -1,6 +1,7 @@
-//! How light is followed.
+//! The size of a picture, and how light is followed.
 
 use document::declared::{Declared, Defaults};
+use serde::{Deserialize, Serialize};
 
 use crate::sampling::dimensions::MOST_EVENTS;
 
@@ -43,4 +44,17 @@ pub struct Integrator {
     /// light.
     #[key("sample_skies")]
     pub sample_skies: Option<bool>,
+}
+
+/// The size, samples and seed of a picture.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+pub struct Job {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Samples a pixel; for a part of a picture the number behind its last sample.
+    pub spp: u32,
+    /// Seed of every random number.
+    pub seed: u64,
 }

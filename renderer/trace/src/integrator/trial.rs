@@ -15,9 +15,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 
 use crate::integrator::effort::Effort;
-use crate::integrator::job::Job;
 use crate::integrator::layers::{Layout, MOST_CHANNELS};
 use crate::integrator::path::{self, PathResult};
+use crate::integrator::settings::Job;
 use crate::sampling::stream::{Pixel, Stream};
 use crate::world::World;
 

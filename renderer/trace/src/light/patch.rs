@@ -45,7 +45,7 @@ pub struct PatchSample {
 }
 
 /// How a patch is sampled from a receiver.
-enum Measure {
+enum PatchMeasure {
     /// Not at all: the receiver is on the dark side or in the plane.
     Dark,
     /// Uniform over area.
@@ -58,12 +58,12 @@ impl Patch {
     /// Samples a point of the patch that illuminates the receiver; `None` if none does.
     pub fn sample(&self, receiver: &Receiver, u: Vec2) -> Option<PatchSample> {
         let (point, pdf) = match self.measure(receiver.position) {
-            Measure::Dark => return None,
-            Measure::Area => {
+            PatchMeasure::Dark => return None,
+            PatchMeasure::Area => {
                 let point = self.at(u);
                 (point, self.pdf_by_area(receiver.position, point))
             }
-            Measure::SolidAngle => {
+            PatchMeasure::SolidAngle => {
                 let (offset, pdf) = match self {
                     Self::Rectangle(rectangle) => rectangle.sample(receiver.position, u),
                     Self::Triangle(triangle) => triangle.sample(receiver.position, u)?,
@@ -80,9 +80,9 @@ impl Patch {
     /// point of the patch.
     pub fn pdf(&self, receiver: &Receiver, point: Vec3) -> f32 {
         match self.measure(receiver.position) {
-            Measure::Dark => 0.0,
-            Measure::Area => self.pdf_by_area(receiver.position, point),
-            Measure::SolidAngle => 1.0 / self.solid_angle(receiver.position) as f32,
+            PatchMeasure::Dark => 0.0,
+            PatchMeasure::Area => self.pdf_by_area(receiver.position, point),
+            PatchMeasure::SolidAngle => 1.0 / self.solid_angle(receiver.position) as f32,
         }
     }
 
@@ -135,7 +135,7 @@ impl Patch {
         }
     }
 
-    fn measure(&self, position: Vec3) -> Measure {
+    fn measure(&self, position: Vec3) -> PatchMeasure {
         let (center, radius) = match self {
             Self::Rectangle(rectangle) => (rectangle.center(), rectangle.radius()),
             Self::Triangle(triangle) => (triangle.center(), triangle.radius()),
@@ -144,11 +144,11 @@ impl Patch {
         let height = offset.dot(self.normal());
         let size2 = 4.0 * radius * radius;
         if height <= 0.0 {
-            Measure::Dark
+            PatchMeasure::Dark
         } else if size2 < FAR * offset.length_squared() || height * height < GRAZING * size2 {
-            Measure::Area
+            PatchMeasure::Area
         } else {
-            Measure::SolidAngle
+            PatchMeasure::SolidAngle
         }
     }
 

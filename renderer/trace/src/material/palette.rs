@@ -1,4 +1,4 @@
-//! PROSPECT-D's constants for each palette of pigments of a scene.
+//! PROSPECT's constants for each palette of pigments of a scene.
 //!
 //! Scenes rarely have more than one or two palettes. Tables are made when the scene is built, once
 //! for each distinct palette, and palettes are numbered.
@@ -197,7 +197,7 @@ impl Palettes {
         if let Some(palette) = known {
             return palette.clone();
         }
-        let mut palette = Palette::new(self.palettes.len(), *pigments);
+        let mut palette = Palette::new(self.palettes.len(), pigments.clone());
         if let Some(grid) = &self.grid {
             palette = palette.on(grid);
         }

@@ -7,7 +7,6 @@
 //! from nearby and nothing flickers (LEAN mapping, \[olano2010\]).
 
 mod cells;
-mod grid;
 mod levels;
 mod stomata;
 
@@ -16,8 +15,7 @@ use std::sync::Arc;
 use glam::Vec2;
 use optics::dust::grain_albedo;
 
-use self::cells::Cells;
-use self::grid::SPREAD;
+use self::cells::{Cells, SPREAD};
 use self::levels::Levels;
 pub use self::stomata::StomataNumbers;
 use self::stomata::{Place, Stomata};

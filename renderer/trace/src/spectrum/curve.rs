@@ -1,10 +1,9 @@
 //! Spectra as functions that paths evaluate.
 
 use super::written;
-use crate::spectrum::cie;
 use crate::spectrum::grid::{Share, Wavelengths};
 use crate::spectrum::lanes::Lanes;
-use crate::spectrum::planck;
+use crate::spectrum::{cie, planck};
 
 /// A function of wavelength: constant, or linear between points and constant outside them.
 ///

@@ -16,11 +16,11 @@ use crate::spectrum::tabulated::Table;
 #[derive(Clone, Debug)]
 pub struct WavelengthSampler {
     grid: WavelengthGrid,
-    kind: Kind,
+    kind: SamplerKind,
 }
 
 #[derive(Clone, Debug)]
-enum Kind {
+enum SamplerKind {
     /// Colour: wavelengths drawn from all that the observer sees.
     Rgb {
         range_nm: [f64; 2],
@@ -81,7 +81,7 @@ impl WavelengthSampler {
         });
         Self {
             grid,
-            kind: Kind::Rgb {
+            kind: SamplerKind::Rgb {
                 range_nm,
                 weights,
                 seen,
@@ -100,7 +100,7 @@ impl WavelengthSampler {
         });
         Self {
             grid,
-            kind: Kind::Bands(bands),
+            kind: SamplerKind::Bands(bands),
         }
     }
 
@@ -126,7 +126,7 @@ impl WavelengthSampler {
         assert!(!nm.is_empty(), "there is a list");
         let sampler = Self {
             grid: WavelengthGrid::of_sets(lanes, nm),
-            kind: Kind::Sets { range_nm },
+            kind: SamplerKind::Sets { range_nm },
         };
         (sampler, first)
     }
@@ -138,15 +138,15 @@ impl WavelengthSampler {
 
     /// Whether the film records colour.
     pub fn is_rgb(&self) -> bool {
-        matches!(self.kind, Kind::Rgb { .. })
+        matches!(self.kind, SamplerKind::Rgb { .. })
     }
 
     /// How many values a path adds to the film.
     pub fn channels(&self) -> usize {
         match &self.kind {
-            Kind::Rgb { .. } => 3,
-            Kind::Bands(bands) => bands.len(),
-            Kind::Sets { .. } => self.grid.lanes,
+            SamplerKind::Rgb { .. } => 3,
+            SamplerKind::Bands(bands) => bands.len(),
+            SamplerKind::Sets { .. } => self.grid.lanes,
         }
     }
 
@@ -172,7 +172,7 @@ impl WavelengthSampler {
         values: &mut [f32],
     ) {
         match &self.kind {
-            Kind::Rgb { weights, .. } => {
+            SamplerKind::Rgb { weights, .. } => {
                 let weights = weights
                     .row::<N, 3>(wavelengths)
                     .expect("a path's wavelengths are drawn from the grid");
@@ -180,7 +180,7 @@ impl WavelengthSampler {
                     *value = (weight * *radiance).sum();
                 }
             }
-            Kind::Bands(_) | Kind::Sets { .. } => {
+            SamplerKind::Bands(_) | SamplerKind::Sets { .. } => {
                 for (value, lane) in values.iter_mut().zip(radiance.0) {
                     *value = lane;
                 }
@@ -208,14 +208,14 @@ impl WavelengthSampler {
                 std::array::from_fn(|lane| spectrum(&self.grid.share(row, lane)));
             for (channel, sum) in sums.iter_mut().enumerate() {
                 *sum += match &self.kind {
-                    Kind::Rgb { weights, .. } => {
+                    SamplerKind::Rgb { weights, .. } => {
                         let weights = weights
                             .row::<N, 3>(&wavelengths)
                             .expect("a path's wavelengths are drawn from the grid");
                         let seen = weights[channel].0.into_iter().zip(radiance);
                         seen.map(|(weight, value)| f64::from(weight) * value).sum()
                     }
-                    Kind::Bands(_) | Kind::Sets { .. } => radiance[channel],
+                    SamplerKind::Bands(_) | SamplerKind::Sets { .. } => radiance[channel],
                 };
             }
         }
@@ -225,8 +225,8 @@ impl WavelengthSampler {
     /// The bands, if the film records them.
     pub fn as_bands(&self) -> Option<&[Band]> {
         match &self.kind {
-            Kind::Bands(bands) => Some(bands),
-            Kind::Rgb { .. } | Kind::Sets { .. } => None,
+            SamplerKind::Bands(bands) => Some(bands),
+            SamplerKind::Rgb { .. } | SamplerKind::Sets { .. } => None,
         }
     }
 
@@ -241,7 +241,7 @@ impl WavelengthSampler {
         throughput: &Lanes<N>,
     ) -> f32 {
         match &self.kind {
-            Kind::Rgb { seen, .. } => {
+            SamplerKind::Rgb { seen, .. } => {
                 let [x, y, z] = seen
                     .row::<N, 3>(wavelengths)
                     .expect("a path's wavelengths are drawn from the grid")
@@ -249,16 +249,18 @@ impl WavelengthSampler {
                 x.max(y).max(z)
             }
             // Lanes beyond the bands are no one's. Of a length known to the compiler it is faster.
-            Kind::Bands(bands) if bands.len() < N => seen_by_bands(&throughput.0[..bands.len()]),
-            Kind::Bands(_) | Kind::Sets { .. } => seen_by_bands(&throughput.0),
+            SamplerKind::Bands(bands) if bands.len() < N => {
+                seen_by_bands(&throughput.0[..bands.len()])
+            }
+            SamplerKind::Bands(_) | SamplerKind::Sets { .. } => seen_by_bands(&throughput.0),
         }
     }
 
     /// First and last wavelength that can be drawn, nm.
     pub fn range_nm(&self) -> [f64; 2] {
         match &self.kind {
-            Kind::Rgb { range_nm, .. } | Kind::Sets { range_nm } => *range_nm,
-            Kind::Bands(bands) => bands.iter().fold([f64::INFINITY, 0.0], |range, band| {
+            SamplerKind::Rgb { range_nm, .. } | SamplerKind::Sets { range_nm } => *range_nm,
+            SamplerKind::Bands(bands) => bands.iter().fold([f64::INFINITY, 0.0], |range, band| {
                 [
                     range[0].min(band.center_nm - 0.5 * band.width_nm),
                     range[1].max(band.center_nm + 0.5 * band.width_nm),

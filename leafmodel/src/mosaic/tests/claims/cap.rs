@@ -2,9 +2,10 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::mosaic::shapes::lathe::lathe;
+
 use super::super::statistics::neighbourhood;
 use super::{Row, Seen, surface};
-use crate::mosaic::shapes::lathe;
 use crate::mosaic::{ControlImage, CylinderControl, Mosaic, MosaicPlan, Steered};
 
 /// The warts' cells divide every 6, 8 and 20 days.

@@ -10,7 +10,9 @@ use super::super::statistics::{
 };
 use super::{BACKGROUND, FOREGROUND, Row, Seen, grown, surface};
 use crate::blade::mottle::Mottle;
-use crate::mosaic::paint::{SheetField, TypeField};
+use crate::grow_options::GrowOptions;
+use crate::mosaic::paint::TypeField;
+use crate::mosaic::paint::sheet::SheetField;
 use crate::mosaic::shapes::sheet;
 use crate::mosaic::testing::noise_labels;
 use crate::mosaic::{Mosaic, Surface, SurfacePoint};
@@ -73,7 +75,7 @@ const NOISE_BELOW: f64 = 0.93;
 fn a_croton_yellows_by_the_borders_of_its_blotches_and_noise_does_not() {
     let leaf = lamina(1.0);
     let days = [5.0, 15.0, 20.0, 30.0];
-    let stages = Mosaic::grow_until(&leaf, &AGEING.plan(), 1, &days, &|| false);
+    let stages = GrowOptions::default().mosaics(&leaf, &AGEING.plan(), 1, &days);
     let stages: Vec<Seen> = stages.expect("a good plan").iter().map(Seen::of).collect();
     let shares: Vec<f64> = stages.iter().map(Seen::share).collect();
     assert!(shares[0] < 0.15 && shares[3] > 0.6, "{shares:?}");

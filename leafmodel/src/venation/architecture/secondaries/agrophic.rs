@@ -11,7 +11,8 @@
 
 use glam::DVec2;
 
-use super::{Laid, Row, Secondary, Site, one_side};
+use super::laid::{Laid, Secondary, Site};
+use super::row::{Row, one_side};
 use crate::venation::architecture::course::Axis;
 use crate::venation::architecture::{Architecture, Attachment, Secondaries};
 
@@ -25,21 +26,6 @@ const SPANS: [[f64; 2]; 2] = [[0.16, 0.86], [0.5, 0.9]];
 /// Their angle to the bearing secondary over that of the secondaries to the midrib, likewise: the
 /// outer comb runs out between its secondary and the lowest.
 const TURNS: [f64; 2] = [1.0, 0.62];
-
-/// Agrophic veins, each with the number of the secondary that bears it.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Agrophics {
-    /// The veins; their axis is the number of the bearing secondary.
-    pub(crate) veins: Vec<Secondary>,
-}
-
-impl Agrophics {
-    /// How many veins the poorest comb has of those asked for.
-    pub(crate) fn poorest(&self, bearers: &[usize]) -> usize {
-        let of = |&bearer: &usize| self.veins.iter().filter(|v| v.axis == bearer).count();
-        bearers.iter().map(of).min().unwrap_or(0)
-    }
-}
 
 /// The numbers of the secondaries that bear combs.
 pub(crate) fn bearers(plan: &Secondaries, veins: &[Secondary]) -> Vec<usize> {

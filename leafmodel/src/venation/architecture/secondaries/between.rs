@@ -1,6 +1,6 @@
 //! Intersecondaries: veins between two secondaries, along them for a part of their length.
 
-use super::Laid;
+use super::laid::Laid;
 use crate::venation::architecture::course::Course;
 use crate::venation::architecture::{Lots, Secondaries};
 

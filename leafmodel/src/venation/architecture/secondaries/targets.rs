@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Draft, Site};
+use super::laid::{Draft, Site};
 use crate::venation::architecture::ends::{assign, tip_cost};
 use crate::venation::architecture::ground::Ground;
 use crate::venation::architecture::margin::{Margin, Tip};

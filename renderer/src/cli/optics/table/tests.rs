@@ -1,6 +1,7 @@
 use std::path::Path;
 
 use clap::Parser;
+use leafmodel::optics::ProspectD;
 use proptest::prelude::*;
 
 use super::*;

@@ -1,11 +1,9 @@
 //! The columns of a table of instances, and the place that a row's numbers give.
 
-use std::ops::Range;
-
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
-use super::Table;
-use crate::scene::blocks::camera::COORDINATES_M;
+use super::table::{RowError, Table};
+use crate::geometry::instance::COORDINATES_M;
 use crate::scene::blocks::placement::{ANGLES_DEG, SCALES, turn};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::{ENOUGH, QUOTED};
@@ -160,50 +158,6 @@ impl Header {
             Ok(Self { columns })
         } else {
             Err(errors)
-        }
-    }
-}
-
-/// An error of a row.
-#[derive(Debug)]
-pub(super) struct RowError {
-    /// The column that is to be underlined; `None` is the whole row.
-    pub(super) column: Option<usize>,
-    pub(super) error: DocumentError,
-}
-
-/// A row with errors.
-#[derive(Debug)]
-pub(super) struct WrongRow {
-    /// Its line number, or for an array its row number, from 1.
-    pub(super) line: usize,
-    /// The row as a report shows it.
-    pub(super) shown: String,
-    /// Its errors, each with a range of bytes of `shown`.
-    pub(super) errors: Vec<(Range<usize>, DocumentError)>,
-}
-
-impl WrongRow {
-    /// A row whose fields are at these ranges of bytes of `shown`.
-    pub(super) fn new(
-        (line, shown): (usize, String),
-        header: &Header,
-        fields: &[Range<usize>],
-        errors: Vec<RowError>,
-    ) -> Self {
-        let whole = fields[0].start..fields[fields.len() - 1].end;
-        let place = |column: Option<usize>| {
-            let number = header.columns.iter().position(|own| Some(*own) == column);
-            number
-                .and_then(|number| fields.get(number))
-                .unwrap_or(&whole)
-        };
-        let errors = errors.into_iter();
-        let errors = errors.map(|RowError { column, error }| (place(column).clone(), error));
-        Self {
-            line,
-            errors: errors.collect(),
-            shown,
         }
     }
 }

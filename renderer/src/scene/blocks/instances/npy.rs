@@ -11,8 +11,8 @@
 mod header;
 
 use self::header::{Array, Field};
-use super::columns::{Header, Row, RowError, SHAPE, WrongRow};
-use super::{Rows, Table};
+use super::columns::{Header, Row, SHAPE};
+use super::table::{RowError, Rows, Table, WrongRow};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::Context;
 use leafmodel::document::source::Place;
@@ -102,7 +102,7 @@ fn wrong_row(
         shown += &format!("{} {}", field.name, field.read(bytes));
         spans.push(start..shown.len());
     }
-    WrongRow::new((number, shown), header, &spans, errors)
+    WrongRow::new((number, shown), &header.columns, &spans, errors)
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@
 //! decimal marks.
 
 use super::super::table_file::tell;
-use super::columns::{Header, HeaderError, Row, RowError, SHAPE, WrongRow};
-use super::{Rows, Table};
+use super::columns::{Header, HeaderError, Row, SHAPE};
+use super::table::{RowError, Rows, Table, WrongRow};
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::encoding::decoded;
@@ -76,7 +76,7 @@ pub(super) fn read(
             fields.clear();
             fields.push(0..shown.len());
         }
-        WrongRow::new((number, shown), &header, &fields, errors)
+        WrongRow::new((number, shown), &header.columns, &fields, errors)
     };
     table
         .bear(cx, at, rows.len())

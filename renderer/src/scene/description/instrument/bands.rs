@@ -4,8 +4,7 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::{ListOf, MapOf, Numbers, Word};
 
-use super::Instrument;
-use crate::scene::blocks::film::WAVELENGTHS_NM;
+use crate::scene::description::film::WAVELENGTHS_NM;
 
 /// A sensor whose bands are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,12 +61,15 @@ const SENSORS: [(&str, Sensor); 2] = [
 
 /// The form of a band's response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Shape {
+enum ResponseShape {
     Box,
     Gaussian,
 }
 
-const SHAPES: [(&str, Shape); 2] = [("box", Shape::Box), ("gaussian", Shape::Gaussian)];
+const SHAPES: [(&str, ResponseShape); 2] = [
+    ("box", ResponseShape::Box),
+    ("gaussian", ResponseShape::Gaussian),
+];
 
 /// Indices that can be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,14 +116,14 @@ impl Response {
     ///
     /// In a box they are Gauss' of an even response, exact for polynomials of degree 15. In a bell
     /// curve they are a standard deviation apart, and the sum is the integral to about 1e-4.
-    fn of_shape(name: &str, centre_nm: f64, fwhm_nm: f64, shape: Shape) -> Self {
+    fn of_shape(name: &str, centre_nm: f64, fwhm_nm: f64, shape: ResponseShape) -> Self {
         let offsets: Vec<(f64, f64)> = match shape {
-            Shape::Box => GAUSS
+            ResponseShape::Box => GAUSS
                 .iter()
                 .flat_map(|&(x, weight)| [(-x, weight), (x, weight)])
                 .map(|(x, weight)| (0.5 * fwhm_nm * x, 0.5 * weight))
                 .collect(),
-            Shape::Gaussian => {
+            ResponseShape::Gaussian => {
                 let sigma = fwhm_nm / (8.0 * std::f64::consts::LN_2).sqrt();
                 let nodes = (0..8).map(|i| f64::from(i) - 3.5);
                 let bell = nodes.map(|x| (sigma * x, libm::exp(-0.5 * x * x)));
@@ -155,7 +157,7 @@ impl Response {
 }
 
 /// `sensor`, `bands_nm`, `band_shape` and `indices`.
-pub(super) fn bands(instrument: &mut Instrument, keys: &mut Keys<'_>) {
+pub(super) fn declare(bands: &mut Vec<Response>, indices: &mut Vec<Index>, keys: &mut Keys<'_>) {
     let mut sensor = None;
     let about = "A sensor for whose bands figures are told: even responses of the published \
         centres and widths.";
@@ -165,7 +167,7 @@ pub(super) fn bands(instrument: &mut Instrument, keys: &mut Keys<'_>) {
         `{ red = [665, 30] }`.";
     let kind = MapOf(Numbers::<2>(Limits::above(0.0, 2500.0)));
     keys.key("bands_nm", &mut own, kind, about);
-    let mut shape = Shape::Box;
+    let mut shape = ResponseShape::Box;
     let about = "Response of the bands in `bands_nm`: even over the width, or a bell curve.";
     keys.key("band_shape", &mut shape, Word(&SHAPES), about);
     let mut asked = Vec::new();
@@ -182,11 +184,11 @@ pub(super) fn bands(instrument: &mut Instrument, keys: &mut Keys<'_>) {
         return;
     }
     let known = sensor.iter().flat_map(|sensor: &Sensor| sensor.bands);
-    instrument.bands = known
-        .map(|&(name, centre, fwhm)| Response::of_shape(name, centre, fwhm, Shape::Box))
+    *bands = known
+        .map(|&(name, centre, fwhm)| Response::of_shape(name, centre, fwhm, ResponseShape::Box))
         .collect();
     for (name, [centre, fwhm]) in &own {
-        if instrument.bands.iter().any(|band| band.name == *name) {
+        if bands.iter().any(|band| band.name == *name) {
             let problem = format!("the sensor has a band `{name}`");
             keys.refuse(&["bands_nm"], problem, "give the band another name");
         }
@@ -200,11 +202,11 @@ pub(super) fn bands(instrument: &mut Instrument, keys: &mut Keys<'_>) {
             let help = "write its middle and its width in nm, such as `red = [665, 30]`";
             keys.refuse(&["bands_nm"], problem, help);
         }
-        instrument.bands.push(band);
+        bands.push(band);
     }
-    instrument.indices = asked
+    *indices = asked
         .into_iter()
-        .filter_map(|asked| index(asked, sensor, &mut instrument.bands, keys))
+        .filter_map(|asked| index(asked, sensor, bands, keys))
         .collect();
 }
 
@@ -259,8 +261,8 @@ mod tests {
                 .sum::<f64>()
         };
         // The variance of an even response, and of a bell curve that is cut at 4 deviations.
-        assert!((of_square(Shape::Box) - 1600.0 / 12.0).abs() < 1e-9);
+        assert!((of_square(ResponseShape::Box) - 1600.0 / 12.0).abs() < 1e-9);
         let variance = 1600.0 / (8.0 * std::f64::consts::LN_2);
-        assert!((of_square(Shape::Gaussian) / variance - 1.0).abs() < 5e-3);
+        assert!((of_square(ResponseShape::Gaussian) / variance - 1.0).abs() < 5e-3);
     }
 }

@@ -10,6 +10,10 @@ use super::detector::Detector;
 use super::incidence::Incidence;
 use crate::geometry::instance::COORDINATES_M;
 
+/// What `constituents` of an instrument means.
+pub(super) const BY_CONSTITUENT: &str = "Whether absorption is told by constituents of tissue: pigments, water \
+    and dry matter.";
+
 /// Fluxes of a canopy that repeats itself without end along x and y.
 #[derive(Clone, Debug, Declared, Defaults)]
 pub struct Canopy {
@@ -28,7 +32,7 @@ pub struct Canopy {
     #[key("layers_m", HEIGHTS)]
     pub layers: Vec<f64>,
     /// Whether absorption is told by constituents of tissue.
-    #[key("constituents", about = super::BY_CONSTITUENT)]
+    #[key("constituents", about = BY_CONSTITUENT)]
     pub constituents: bool,
     /// Whether absorption is told of each instance of an object: leaf by leaf.
     #[key("instances")]

@@ -5,8 +5,7 @@ use leafmodel::document::limits::Limits;
 use leafmodel::document::number_lists::Rising;
 use leafmodel::document::value_kind::Number;
 
-use super::{Instrument, bands};
-use crate::scene::blocks::film::{Range, WAVELENGTHS_NM};
+use crate::scene::description::film::{Range, WAVELENGTHS_NM};
 
 /// Most wavelengths of an instrument: more than one for each nanometre from 400 to 2500.
 pub(super) const MOST_WAVELENGTHS: usize = 4096;
@@ -18,8 +17,13 @@ pub(super) fn usual() -> Vec<f64> {
     every(USUAL_RANGE_NM, USUAL_STEP_NM)
 }
 
-/// `wavelengths_nm`, or `range_nm` and `step_nm`.
-pub(super) fn wavelengths(instrument: &mut Instrument, keys: &mut Keys<'_>) {
+/// `wavelengths_nm`, or `range_nm` and `step_nm`, and the keys of `bands`, which says whether there are any:
+/// whoever asks for bands alone gets bands alone.
+pub(super) fn declare(
+    wavelengths_nm: &mut Vec<f64>,
+    keys: &mut Keys<'_>,
+    bands: impl FnOnce(&mut Keys<'_>) -> bool,
+) {
     let mut range = USUAL_RANGE_NM;
     let about = "First and last wavelength.";
     keys.key("range_nm", &mut range, Range, about);
@@ -47,14 +51,13 @@ pub(super) fn wavelengths(instrument: &mut Instrument, keys: &mut Keys<'_>) {
         );
         return;
     }
-    bands::bands(instrument, keys);
-    // Whoever asks for bands alone gets bands alone.
+    let has_bands = bands(keys);
     let is_asked = keys.reader().is_none_or(|block| {
         let ranged = ["range_nm", "step_nm"];
         ranged.iter().any(|key| block.table.get(key).is_some())
     });
-    instrument.wavelengths_nm = listed.unwrap_or_else(|| {
-        if is_asked || instrument.bands.is_empty() {
+    *wavelengths_nm = listed.unwrap_or_else(|| {
+        if is_asked || !has_bands {
             every(range, step)
         } else {
             Vec::new()

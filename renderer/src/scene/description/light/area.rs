@@ -2,18 +2,21 @@
 
 use std::path::PathBuf;
 
-use glam::{Affine3A, Vec2};
+use glam::Vec2;
 use leafmodel::document::coverage::require_coverage;
 use leafmodel::document::declared::{Declared, Defaults};
 use leafmodel::document::keys::Keys;
 use leafmodel::document::names::NameIn;
 
-use super::{LightError, PICTURE, Surroundings, read_picture};
+use super::surroundings::{LightError, PICTURE, Surroundings, read_picture};
 use crate::geometry::TriangleMesh;
 use crate::light::area::AreaLight;
 use crate::light::pattern::{Colours, Pattern};
 use crate::light::texels::Texels;
 use crate::material::colour_map::ColourMap;
+use crate::plugin::element::Element;
+use crate::plugin::spectra::Spectra;
+use crate::plugin::{colours, emitter, light_id, weights_file};
 use crate::scene::blocks::spectrum::SpectrumOf;
 use crate::scene::description::layer::ChosenLayer;
 use crate::spectrum::written::Spectrum;
@@ -90,15 +93,6 @@ fn check_pattern(pattern: &mut AreaPattern, keys: &mut Keys<'_>) {
     }
 }
 
-/// The surface of an object that shines.
-pub(in crate::scene) struct Surface<'w> {
-    pub(in crate::scene) mesh: &'w TriangleMesh,
-    /// Its place around the origin of rays.
-    pub(in crate::scene) to_world: Affine3A,
-    /// What the materials of its model emit.
-    pub(in crate::scene) emission: Option<&'w ColourMap>,
-}
-
 impl Area {
     pub(super) fn built(&self, mut around: Surroundings<'_>) -> Result<AreaLight, LightError> {
         let surface = around.surface.take();
@@ -137,6 +131,36 @@ impl Area {
         };
         let pattern = Pattern::new(pattern.edge, colours);
         Ok(AreaLight::with_pattern(&triangles, &uvs, radiance, pattern))
+    }
+
+    /// The emitter of the object's shape, for the light of this name; `emission` is what the materials of its
+    /// model emit.
+    pub(crate) fn emitter(
+        &self,
+        light: &str,
+        emission: Option<&ColourMap>,
+        spectra: &mut Spectra,
+    ) -> Element {
+        let even = spectra.element("radiance", &self.radiance, 1.0);
+        let pattern = &self.pattern;
+        if pattern.is_even() {
+            return emitter::area(even);
+        }
+        let texture = Element::plugin("texture", "lamina_pattern").with("name", "radiance");
+        let texture = texture.holding(even).float("edge_share", pattern.edge);
+        emitter::area(if emission.is_some() {
+            texture.holding(colours::texture(&light_id(light), "colours", emission))
+        } else if pattern.picture.is_some() {
+            // The spectra of red, green and blue under an even white of 1.
+            let primaries = rgb::Primaries::new(Curve::Constant(1.0)).curves();
+            let named = ["red", "green", "blue"].into_iter().zip(&primaries);
+            let primaries = named.map(|(name, curve)| spectra.element(name, &curve.written(), 1.0));
+            texture
+                .string("picture", weights_file(light))
+                .holding_all(primaries)
+        } else {
+            texture
+        })
     }
 }
 

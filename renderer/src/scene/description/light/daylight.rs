@@ -9,8 +9,12 @@ use leafmodel::document::value_kind::{Degrees, Number, Text};
 use toml::value::{Datetime, Offset};
 
 use crate::light::daylight::spctrl2::distance_factor;
+use crate::light::daylight::sun::HALF_DIAMETER;
 use crate::light::daylight::sun_position::{Moment, sun_position};
 use crate::light::daylight::{Daylight, ELEVATIONS_DEG};
+use crate::plugin::element::Element;
+use crate::plugin::emitter::Emitter;
+use crate::plugin::spectra::Spectra;
 use crate::spectrum::written::Spectrum;
 
 /// Years in which the position of the sun is accurate.
@@ -48,6 +52,20 @@ pub(super) fn on_level_ground(day: &Daylight) -> Spectrum {
     Spectrum::Table {
         points: points.collect(),
         extrapolate: true,
+    }
+}
+
+/// The disc of the sun; the sky is a part of what shines from everywhere.
+pub(super) fn sun(day: &Daylight, spectra: &mut Spectra) -> Emitter<'static> {
+    let irradiance = day.lights().0.irradiance().written();
+    let limb = Element::plugin("texture", "lamina_sun")
+        .with("name", "radiance")
+        .holding(spectra.element("irradiance", &irradiance, 1.0))
+        .float("half_diameter", HALF_DIAMETER);
+    Emitter::Disc {
+        towards: day.towards_sun(),
+        half: HALF_DIAMETER,
+        emitter: Element::plugin("emitter", "area").holding(limb),
     }
 }
 

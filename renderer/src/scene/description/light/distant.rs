@@ -1,5 +1,7 @@
 //! A disc at infinity.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 use leafmodel::document::declared::{Declared, Defaults};
 use leafmodel::document::error::DocumentError;
@@ -9,6 +11,8 @@ use leafmodel::document::value_kind::{Number, Vector};
 
 use crate::geometry::instance::COORDINATES_M;
 use crate::light::distant::DistantLight;
+use crate::plugin::emitter::{Emitter, area};
+use crate::plugin::spectra::Spectra;
 use crate::scene::angle::sin_cos_deg;
 use crate::scene::blocks::spectrum::SpectrumOf;
 use crate::spectrum::Curve;
@@ -34,6 +38,17 @@ impl Distant {
     pub(super) fn built(&self) -> DistantLight {
         let irradiance = Curve::from_description(&self.irradiance);
         DistantLight::new(self.towards.as_vec3(), self.angular_diameter, irradiance)
+    }
+
+    pub(super) fn emitter(&self, spectra: &mut Spectra) -> Emitter<'_> {
+        let half = 0.5 * self.angular_diameter;
+        let sin = libm::sin(half);
+        let radiance = spectra.element("radiance", &self.irradiance, 1.0 / (PI * sin * sin));
+        Emitter::Disc {
+            towards: self.towards,
+            half,
+            emitter: area(radiance),
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use leafmodel::document::declared::{Declared, Defaults};
 
-use super::{LightError, PICTURE, Surroundings, read_picture};
+use super::surroundings::{LightError, PICTURE, Surroundings, read_picture};
 use crate::light::environment::EnvironmentLight;
 use crate::scene::blocks::spectrum::SpectrumOf;
 use crate::scene::description::layer::ChosenLayer;

@@ -7,6 +7,9 @@ use leafmodel::document::keys::Keys;
 
 use crate::geometry::instance::COORDINATES_M;
 use crate::light::spot::SpotLight;
+use crate::plugin::element::Element;
+use crate::plugin::spectra::Spectra;
+use crate::plugin::{UNITS_PER_METRE, look_at};
 use crate::scene::blocks::spectrum::SpectrumOf;
 use crate::spectrum::Curve;
 use crate::spectrum::written::Spectrum;
@@ -45,6 +48,20 @@ impl Spotlight {
             self.penumbra_angle,
             Curve::from_description(&self.intensity),
         )
+    }
+
+    pub(super) fn emitter(&self, spectra: &mut Spectra) -> Element {
+        let places = [self.position, self.look_at];
+        let [origin, target] = places.map(|place| place * UNITS_PER_METRE);
+        let up = (target - origin).normalize().any_orthonormal_vector();
+        let beam = self.cone_angle - self.penumbra_angle;
+        // Intensity over the square of a distance in Mitsuba's units must equal irradiance in ours.
+        let factor = UNITS_PER_METRE * UNITS_PER_METRE;
+        Element::plugin("emitter", "spot")
+            .placed([look_at(origin, target, up)])
+            .float("cutoff_angle", self.cone_angle.to_degrees())
+            .float("beam_width", beam.max(0.0).to_degrees())
+            .holding(spectra.element("intensity", &self.intensity, factor))
     }
 }
 

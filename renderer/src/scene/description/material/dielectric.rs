@@ -5,6 +5,7 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::names::NameIn;
 
 use crate::bsdf::dielectric::Dielectric;
+use crate::plugin::element::Element;
 
 /// A smooth or rough (GGX) boundary of a transparent medium.
 #[derive(Clone, Debug, Declared, Defaults)]
@@ -28,6 +29,29 @@ impl Boundary {
         Dielectric {
             eta: self.eta as f32,
             alpha: self.roughness as f32,
+        }
+    }
+
+    pub(super) fn plugin(&self, id: &str) -> Element {
+        if self.eta == 1.0 {
+            // Mitsuba's boundary without a change of index; it is no event on a path either.
+            return Element::plugin("bsdf", "null").called(id);
+        }
+        let is_rough = self.roughness > 0.0;
+        let kind = if is_rough {
+            "roughdielectric"
+        } else {
+            "dielectric"
+        };
+        let bsdf = Element::plugin("bsdf", kind)
+            .called(id)
+            .float("int_ior", self.eta)
+            .float("ext_ior", 1.0);
+        if is_rough {
+            bsdf.string("distribution", "ggx")
+                .float("alpha", self.roughness)
+        } else {
+            bsdf
         }
     }
 

@@ -2,13 +2,16 @@
 
 use leafmodel::document::declared::{Declared, Defaults};
 use leafmodel::document::keys::Keys;
+use leafmodel::optics::contents_keys::refuse_unknown_absorption;
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plan_file::{self, require_prospect};
 
-use super::Sources;
 use super::measured::Measured;
+use super::sources::Sources;
 use crate::material;
 use crate::material::leaf::LeafMaterial;
+use crate::plugin::element::Element;
+use crate::plugin::surface::Exported;
 use crate::scene::assets::AssetError;
 use crate::scene::description::tissue::{
     Fluorescence, Held, LeafFaces, LeafOptics, extrapolate, impossible,
@@ -24,7 +27,7 @@ pub struct PlainLeaf {
     /// Its tissue, which determines R and T.
     #[key(with = Self::declare_tissue)]
     pub tissue: LeafTissue,
-    /// Which substances its pigments are.
+    /// What its constituents absorb.
     #[key("pigments", block, with = Pigments::declare)]
     pub pigments: Box<Pigments>,
     /// The properties of its faces.
@@ -122,6 +125,9 @@ impl PlainLeaf {
     }
 
     fn refuse_layers(&mut self, keys: &mut Keys<'_>) {
+        if let LeafTissue::Held(Held::Contents { contents, .. }) = &self.tissue {
+            refuse_unknown_absorption(&self.pigments, contents, keys);
+        }
         self.faces.refuse_light_of(self.fluorescence, keys);
         if self.faces.optics == LeafOptics::Layers
             && matches!(self.tissue, LeafTissue::Measured { .. })
@@ -145,5 +151,19 @@ impl PlainLeaf {
         };
         let palette = sources.palettes.of(&self.pigments);
         Ok(tissue::leaf(made, palette, &self.faces, self.fluorescence))
+    }
+
+    pub(super) fn plugin(&self, surface: &mut Exported<'_>) -> Element {
+        let bsdf = match &self.tissue {
+            LeafTissue::Held(held) => surface.leaf(held.extrapolates()),
+            LeafTissue::Measured {
+                reflectance,
+                transmittance,
+            } => surface
+                .leaf(false)
+                .holding(surface.spectra.element("reflectance", reflectance, 1.0))
+                .holding(surface.spectra.element("transmittance", transmittance, 1.0)),
+        };
+        self.faces.written(bsdf, surface.spectra)
     }
 }

@@ -38,7 +38,7 @@ impl Declared for Measured {
             if way == "reflectance" {
                 spectra_by_key(self, keys);
             } else {
-                let mut table = Table::default();
+                let mut table = LeafTable::default();
                 table.declare(keys);
                 if let Some(found) = table.spectra(keys) {
                     *self = found;
@@ -66,7 +66,7 @@ fn spectra_by_key(measured: &mut Measured, keys: &mut Keys<'_>) {
 
 /// A table with the columns of a leaf.
 #[derive(Declared, Default)]
-struct Table {
+struct LeafTable {
     #[key(
         "file",
         required,
@@ -97,7 +97,7 @@ const PATH: FilePath = FilePath::of(
     MOST_BYTES,
 );
 
-impl Table {
+impl LeafTable {
     fn spectra(&self, keys: &Keys<'_>) -> Option<Measured> {
         let block = keys.reader().filter(|_| keys.is_sound())?;
         let at = &block.node("file")?.at;

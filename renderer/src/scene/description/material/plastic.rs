@@ -3,9 +3,11 @@
 use leafmodel::document::declared::{Declared, Defaults};
 use leafmodel::document::keys::Keys;
 
-use super::Sources;
+use super::sources::Sources;
 use crate::bsdf::coat::Coat;
 use crate::material::plastic::PlasticMaterial;
+use crate::plugin::element::Element;
+use crate::plugin::surface::Exported;
 use crate::scene::assets::AssetError;
 use crate::scene::description::reflectance::Reflectance;
 
@@ -29,6 +31,15 @@ impl Plastic {
         let coat = Coat::new(self.eta as f32, alpha, alpha);
         let reflectance = sources.reflectance(&self.reflectance)?;
         Ok(PlasticMaterial::new(reflectance, coat))
+    }
+
+    pub(super) fn plugin(&self, surface: &mut Exported<'_>) -> Element {
+        // In `reference/`.
+        Element::plugin("bsdf", "lamina_plastic")
+            .called(surface.id)
+            .float("eta", self.eta)
+            .float("alpha", self.roughness)
+            .holding(self.reflectance.parameter(surface))
     }
 }
 

@@ -2,10 +2,11 @@
 
 use leafmodel::document::declared::{Declared, Defaults};
 use leafmodel::document::keys::Keys;
+use leafmodel::optics::contents_keys::refuse_unknown_absorption;
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::solid::held_contents;
 
-use super::Sources;
+use super::sources::Sources;
 use crate::material::solid::SolidMaterial;
 use crate::scene::assets::AssetError;
 use crate::scene::description::tissue::{Held, SolidOptics};
@@ -13,11 +14,12 @@ use crate::scene::tissue;
 
 /// Solid tissue of uniform contents or a map (grown bodies bring their own maps).
 #[derive(Clone, Debug, Declared, Defaults)]
+#[key(last = Self::check_contents)]
 pub struct PlainSolid {
     /// Its contents.
     #[key(with = Self::declare_held)]
     pub held: Held,
-    /// Which substances its pigments are.
+    /// What its constituents absorb.
     #[key("pigments", block, with = Pigments::declare)]
     pub pigments: Box<Pigments>,
     /// The optics of the tissue.
@@ -34,6 +36,12 @@ impl PlainSolid {
             } else {
                 self.held.declare_map(keys);
             }
+        }
+    }
+
+    fn check_contents(&mut self, keys: &mut Keys<'_>) {
+        if let Held::Contents { contents, .. } = &self.held {
+            refuse_unknown_absorption(&self.pigments, contents, keys);
         }
     }
 

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 
 use glam::{Vec2, Vec3};
 
-use super::{ImportError, MOST_CORNERS, RawMesh};
-use crate::geometry::import::shown;
+use super::raw::{ImportError, MOST_CORNERS, RawMesh, shown};
 
 /// The indices of a corner of a face, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

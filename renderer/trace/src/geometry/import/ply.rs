@@ -5,7 +5,7 @@ mod values;
 
 use glam::{Vec2, Vec3};
 
-use super::{ImportError, MOST_CORNERS, RawMesh};
+use super::raw::{ImportError, MOST_CORNERS, RawMesh};
 use header::{Element, Header, Kind};
 use values::Values;
 

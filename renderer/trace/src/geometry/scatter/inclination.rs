@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
+use numerics::numeric::bisect;
+
 use crate::sampling::beta::Beta;
 
 /// Distributions of the angle θ between leaf normals and the vertical, from 0 to π/2. Azimuths are
@@ -64,16 +66,8 @@ impl Inclination {
                 Self::Extremophile => FRAC_2_PI * (theta + fourfold),
             }
         };
-        let (mut low, mut high) = (0.0, FRAC_PI_2);
         // Each share rises from 0 to 1; 44 halvings leave 1e-13.
-        for _ in 0..44 {
-            let middle = 0.5 * (low + high);
-            if share(middle) < u {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
+        let (low, high) = bisect(0.0, FRAC_PI_2, 44, |theta| share(theta) < u);
         0.5 * (low + high)
     }
 }

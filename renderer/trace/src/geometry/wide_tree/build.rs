@@ -5,10 +5,9 @@ use numerics::memory;
 use rayon::prelude::*;
 
 use super::super::bounds::Bounds;
-use super::super::{bvh, median};
+use super::super::{binary_tree, bvh};
 use super::cut::{Cheapest, Cut, FourLevels};
-use super::pack;
-use super::{LEAF, LeafItems, MAX_DEPTH, WideNode, WideTree};
+use super::{LEAF, LeafItems, MAX_DEPTH, WideNode, WideTree, pack};
 use crate::geometry::binary_tree::{BinaryNode, upwards};
 
 impl WideTree {
@@ -49,7 +48,7 @@ impl WideTree {
             .map(|members| members.fold(Bounds::EMPTY, Bounds::union))
             .collect();
         let (tree, order) = Self::over_leaves::<Cheapest>(&bvh::binary_tree(&bounds), &bounds)
-            .or_else(|| Self::over_leaves::<FourLevels>(&median::binary_tree(&bounds), &bounds))
+            .or_else(|| Self::over_leaves::<FourLevels>(&binary_tree::by_halving(&bounds), &bounds))
             .expect("halving gives at most 30 binary levels, four of which make one level here");
         let leaves = order.into_iter().map(|leaf| packed[leaf as usize]);
         (tree, leaves.collect())

@@ -1,7 +1,7 @@
 use crate::geometry::binary_tree::BinaryNode;
 
 use super::super::testing::Numbers;
-use super::super::{bvh, median};
+use super::super::{binary_tree, bvh};
 use super::cut::{Cheapest, FourLevels};
 use super::*;
 
@@ -85,7 +85,7 @@ fn a_tree_too_deep_for_the_stack_is_not_taken_and_halving_is_shallow() {
     }
     chain.push(BinaryNode::Leaf(4999));
     assert!(WideTree::over_leaves::<Cheapest>(&chain, &boxes).is_none());
-    let binary = median::binary_tree(&boxes);
+    let binary = binary_tree::by_halving(&boxes);
     let (tree, order) =
         WideTree::over_leaves::<FourLevels>(&binary, &boxes).expect("halves are shallow");
     assert!(

@@ -17,8 +17,10 @@ use crate::bsdf::fresnel::refracted_cosine;
 use crate::geometry::frame::Frame;
 use crate::geometry::surface::SurfacePoint;
 use crate::geometry::{Geometry, Hit};
+use crate::walk;
 use crate::walk::encounter::Encounter;
 use crate::walk::facet::Facet;
+use crate::world::World;
 
 /// The drops in whose water a path is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -205,4 +207,32 @@ fn bent(w: Vec3, factor: f32) -> Option<Vec3> {
     let cosine = refracted_cosine(w.z, 1.0 / factor)?;
     let across = w.truncate() * factor;
     Some(across.extend(cosine.copysign(w.z)))
+}
+
+/// Where a path is.
+#[derive(Clone, Copy, Default)]
+pub(in crate::integrator) struct Passage {
+    /// The bodies around, in scenes with media.
+    pub(in crate::integrator) around: walk::Passage,
+    /// The drops around.
+    pub(in crate::integrator) drops: Drops,
+}
+
+impl Passage {
+    /// Where the camera stands.
+    pub(super) fn of_camera(world: &World) -> Self {
+        Self {
+            around: walk::Passage {
+                inside: world.media.around_camera,
+                flights: 0,
+            },
+            drops: Drops::default(),
+        }
+    }
+}
+
+impl AsMut<walk::Passage> for Passage {
+    fn as_mut(&mut self) -> &mut walk::Passage {
+        &mut self.around
+    }
 }

@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
+use super::drops::Passage;
 use super::lamps::sampled_light;
-use super::passage::Passage;
 use super::paths::{Bounce, Leg, Paths};
 use super::result::PathResult;
 use super::vertex::Vertex;

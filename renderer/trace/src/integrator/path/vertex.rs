@@ -2,8 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use super::drops::Cap;
-use super::passage::Passage;
+use super::drops::{Cap, Passage};
 use super::paths::{Bounce, Leg, Paths};
 use crate::bsdf::View;
 use crate::light::Receiver;

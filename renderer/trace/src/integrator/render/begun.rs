@@ -5,10 +5,10 @@ use std::time::Duration;
 
 use crate::film::{Film, FilmError};
 use crate::integrator::effort::Effort;
-use crate::integrator::job::Job;
 use crate::integrator::layers::Layout;
 use crate::integrator::noise::NoiseWatch;
 use crate::integrator::sample_map::SampleMap;
+use crate::integrator::settings::Job;
 
 /// The progress of a render.
 #[derive(Clone, Copy, Debug)]

@@ -10,6 +10,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use numerics::numeric::smooth_step;
 use optics::{Contents, ProspectD};
 
 /// What foliage holds: a green leaf of a broad-leaved tree.
@@ -52,21 +53,15 @@ impl Forest {
     /// full light, by azimuth and elevation above the horizon, rad.
     pub(super) fn seen(&self, azimuth: f64, elevation: f64) -> [f64; 2] {
         let inside = 0.5 + 0.5 * libm::cos(azimuth - self.azimuth);
-        let crowns = CROWNS[0] + (CROWNS[1] - CROWNS[0]) * smooth(inside);
+        let crowns = CROWNS[0] + (CROWNS[1] - CROWNS[0]) * smooth_step(inside);
         let uneven = noise(azimuth, elevation, 24, 1) + 0.5 * noise(azimuth, elevation, 61, 2);
         let height = crowns - elevation + EDGE * (uneven / 1.5 - 0.5);
-        let share = smooth(0.5 + height / (0.4 * EDGE));
+        let share = smooth_step(0.5 + height / (0.4 * EDGE));
         // What stands opposite the sun is seen from its bright side.
         let lit = 0.5 - 0.5 * libm::cos(azimuth - self.sun);
         let clumps = noise(azimuth, elevation, 37, 3) * (0.4 + 0.6 * lit);
         [share, SHADE + (1.0 - SHADE) * clumps]
     }
-}
-
-/// A smooth step from 0 at 0 to 1 at 1.
-fn smooth(x: f64) -> f64 {
-    let x = x.clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
 }
 
 /// Values in [0, 1] that are smooth between the points of a lattice with this many columns around
@@ -76,7 +71,7 @@ fn noise(azimuth: f64, elevation: f64, columns: u32, seed: u32) -> f64 {
     let x = (turns - turns.floor()) * f64::from(columns);
     let y = (elevation + PI) / TAU * f64::from(columns);
     let (x0, y0) = (x.floor(), y.floor());
-    let [a, b] = [smooth(x - x0), smooth(y - y0)];
+    let [a, b] = [smooth_step(x - x0), smooth_step(y - y0)];
     let at = |dx: u32, dy: u32| random((x0 as u32 + dx) % columns, y0 as u32 + dy, seed);
     let low = at(0, 0) * (1.0 - a) + at(1, 0) * a;
     let high = at(0, 1) * (1.0 - a) + at(1, 1) * a;

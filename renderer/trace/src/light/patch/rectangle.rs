@@ -33,7 +33,7 @@ pub struct Rectangle {
 }
 
 /// A rectangle relative to a point over its bright side.
-struct Seen {
+struct SeenRectangle {
     /// Borders along the first axis, relative to the foot of the perpendicular.
     x: [f64; 2],
     y: [f64; 2],
@@ -115,13 +115,13 @@ impl Rectangle {
         (way, 1.0 / solid_angle as f32)
     }
 
-    fn seen(&self, from: Vec3) -> Seen {
+    fn seen(&self, from: Vec3) -> SeenRectangle {
         let corner = offset(self.corner, from);
         let [x, y] = [0, 1].map(|i| {
             let first = corner.dot(self.axes[i].as_dvec3());
             [first, first + f64::from(self.lengths[i])]
         });
-        Seen {
+        SeenRectangle {
             x,
             y,
             height: -corner.dot(self.normal.as_dvec3()),
@@ -129,7 +129,7 @@ impl Rectangle {
     }
 }
 
-impl Seen {
+impl SeenRectangle {
     /// The complex number `(cos φ, sin φ)`, of any length, with the solid angle `φ` between the
     /// foot of the perpendicular's row `x` and the borders in y.
     fn turn(&self, x: f64) -> DVec2 {
@@ -140,7 +140,7 @@ impl Seen {
         times_conjugate(high, low)
     }
 
-    /// [`Seen::turn`] of the first border in x, and the solid angle.
+    /// [`SeenRectangle::turn`] of the first border in x, and the solid angle.
     fn solid_angle(&self) -> (DVec2, f64) {
         let first = self.turn(self.x[0]);
         let whole = times_conjugate(self.turn(self.x[1]), first);

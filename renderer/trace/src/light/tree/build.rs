@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use glam::Vec3;
 
-use super::{CHILD_BITS, Emitter, IS_LIGHT, LightTree, Node, WIDTH};
+use super::node::{CHILD_BITS, Emitter, IS_LIGHT, Node, WIDTH};
 use crate::light::sample::angle;
 
 /// Number of bins along an axis.
@@ -32,7 +32,8 @@ struct Summary {
     axes: Vec3,
 }
 
-pub(super) fn build(lights: &[Emitter]) -> LightTree {
+/// The nodes, and for each light the path from the root to it.
+pub(super) fn build(lights: &[Emitter]) -> (Vec<Node>, Vec<u64>) {
     let items = lights.iter().zip(0..);
     let mut builder = Builder {
         items: items
@@ -42,10 +43,7 @@ pub(super) fn build(lights: &[Emitter]) -> LightTree {
         trails: vec![0; lights.len()],
     };
     builder.node(0..lights.len(), 0, 0);
-    LightTree {
-        nodes: builder.nodes.into(),
-        trails: builder.trails.into(),
-    }
+    (builder.nodes, builder.trails)
 }
 
 struct Builder {

@@ -1,3 +1,4 @@
+use glam::Vec3;
 use proptest::prelude::*;
 
 use super::*;

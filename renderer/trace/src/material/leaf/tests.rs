@@ -1,14 +1,12 @@
 use optics::pigments::{AnthocyaninMix, ChlorophyllMix};
-use optics::presets;
-use optics::{Contents, Pigments};
+use optics::{Contents, Pigments, presets};
 
 use super::*;
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::palette::Palettes;
 use crate::simd::Level;
-use crate::spectrum::Lanes;
-use crate::spectrum::WavelengthSampler;
 use crate::spectrum::recorded::FilmKind;
+use crate::spectrum::{Lanes, WavelengthSampler};
 use glam::Vec3;
 
 fn at(nm: f32) -> Wavelengths<4> {

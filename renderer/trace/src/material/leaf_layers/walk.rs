@@ -113,7 +113,10 @@ impl<'a, const N: usize> Walk<'a, N> {
                 | Constituent::Betaxanthins
                 | Constituent::Brown
                 | Constituent::Water
-                | Constituent::DryMatter => coefficients[lane].absorption[constituent] as f32,
+                | Constituent::DryMatter
+                | Constituent::Proteins
+                | Constituent::CarbonBased
+                | Constituent::Extra => coefficients[lane].absorption[constituent] as f32,
             })
         });
         let stride = match held {

@@ -7,10 +7,10 @@ use crate::simd;
 
 /// Maps of `K` numbers a texel, from the finest to one texel; each level averages the one before.
 #[derive(Clone, Debug)]
-pub(super) struct Levels<const K: usize>(Vec<Level<K>>);
+pub(super) struct Levels<const K: usize>(Vec<ReliefLevel<K>>);
 
 #[derive(Clone, Debug)]
-struct Level<const K: usize> {
+struct ReliefLevel<const K: usize> {
     width: usize,
     height: usize,
     /// `K` for each texel.
@@ -26,12 +26,12 @@ impl<const K: usize> Levels<K> {
             width * height * K,
             "a map fills its rectangle"
         );
-        let mut levels = vec![Level {
+        let mut levels = vec![ReliefLevel {
             width,
             height,
             numbers: numbers.into_boxed_slice(),
         }];
-        while let Some(next) = levels.last().and_then(Level::half) {
+        while let Some(next) = levels.last().and_then(ReliefLevel::half) {
             levels.push(next);
         }
         Self(levels)
@@ -67,7 +67,7 @@ impl<const K: usize> Levels<K> {
 
     /// The levels below and above one, and the share of the upper.
     #[inline]
-    fn between(&self, level: f32) -> (&Level<K>, &Level<K>, f32) {
+    fn between(&self, level: f32) -> (&ReliefLevel<K>, &ReliefLevel<K>, f32) {
         let last = self.0.len() - 1;
         // Not a number, of a ray without width, is the finest level.
         let level = if level > 0.0 {
@@ -85,7 +85,7 @@ fn mix<const K: usize>(a: &[f32; K], b: &[f32; K], share: f32) -> [f32; K] {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share)
 }
 
-impl<const K: usize> Level<K> {
+impl<const K: usize> ReliefLevel<K> {
     fn texels(&self) -> &[[f32; K]] {
         self.numbers.as_chunks().0
     }

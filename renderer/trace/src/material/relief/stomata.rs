@@ -9,7 +9,7 @@ use std::f32::consts::{PI, TAU};
 
 use glam::{IVec2, Vec2};
 
-use super::grid::{SPREAD, smooth};
+use super::cells::{SPREAD, smooth};
 use crate::sampling::mixer;
 
 /// Jitter of scattered stomata, and of those in rows across and along, in cells of the grid.

@@ -1,7 +1,6 @@
 //! The header of a PLY file: its elements and their properties.
 
-use super::super::ImportError;
-use crate::geometry::import::shown;
+use crate::geometry::import::raw::{ImportError, shown};
 use crate::geometry::stored_number::StoredNumber;
 
 /// Longest header that is read, bytes; useful headers are much shorter.

@@ -1,8 +1,7 @@
 //! The values of a PLY file, one after the other.
 
-use super::super::ImportError;
 use super::header::{Body, Format, Kind};
-use crate::geometry::import::shown;
+use crate::geometry::import::raw::{ImportError, shown};
 use crate::geometry::stored_number::StoredNumber;
 
 /// A place in the values of a file.
