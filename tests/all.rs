@@ -10,6 +10,7 @@ mod format;
 mod golden;
 mod instruments;
 mod layers;
+mod leaf_by_angle;
 mod lights;
 mod limits;
 mod media;

@@ -4,7 +4,7 @@
 use glam::{Vec2, Vec3};
 use renderer::bsdf::coat_table::{Bloom, CoatTable};
 use renderer::bsdf::dielectric::Dielectric;
-use renderer::bsdf::leaf::{Coat, LeafBsdf, Tissue};
+use renderer::bsdf::leaf::{Coat, LeafBsdf, LeafShape, Tissue};
 use renderer::bsdf::metallic_roughness::MetallicRoughness;
 use renderer::bsdf::{Bsdf, View};
 use renderer::geometry::frame::Frame;
@@ -404,9 +404,11 @@ fn assert_closed(name: &str, bsdf: &Bsdf<'_, 8>) {
 #[ignore = "slow: 10 s"]
 fn light_near_a_tilted_triangle_is_drawn_as_its_density_says_and_keeps_its_energy() {
     let coats = [Coat::new(1.45, 0.3, 0.3), Coat::new(1.4, 0.45, 0.3)];
-    let tissue = Tissue::new(&coats, Lanes::splat(0.55), Lanes::splat(0.45), Lanes::ONE);
-    assert_closed("leaf", &Bsdf::Leaf(LeafBsdf::new(&coats, tissue)));
-    let opaque = LeafBsdf::new(&coats, Tissue::opaque(Lanes::splat(0.9)));
+    let shape = LeafShape::measured();
+    let [r, t, ratio] = [0.55, 0.45, 1.0].map(Lanes::splat);
+    let tissue = Tissue::new(&coats, &shape, r, t, ratio);
+    assert_closed("leaf", &Bsdf::Leaf(LeafBsdf::new(&coats, &shape, tissue)));
+    let opaque = LeafBsdf::new(&coats, &LeafShape::EVEN, Tissue::opaque(Lanes::splat(0.9)));
     assert_closed("plastic", &Bsdf::Leaf(opaque));
     assert_closed("diffuse", &Bsdf::Diffuse(Lanes::splat(0.8)));
     let coats = [1.5, f32::INFINITY].map(|eta| {
@@ -445,8 +447,10 @@ fn a_mesh_without_normals_scatters_as_its_bsdf_alone_to_the_bit() {
         surface: &surface,
     };
     let coats = [Coat::new(1.45, 0.3, 0.3), Coat::new(1.4, 0.45, 0.3)];
-    let tissue = Tissue::new(&coats, Lanes::splat(0.55), Lanes::splat(0.45), Lanes::ONE);
-    let bsdf: Bsdf<'_, 8> = Bsdf::Leaf(LeafBsdf::new(&coats, tissue));
+    let shape = LeafShape::measured();
+    let [r, t, ratio] = [0.55, 0.45, 1.0].map(Lanes::splat);
+    let tissue = Tissue::new(&coats, &shape, r, t, ratio);
+    let bsdf: Bsdf<'_, 8> = Bsdf::Leaf(LeafBsdf::new(&coats, &shape, tissue));
     for number in 0..2000 {
         let mut stream = Stream::new(9, number, 0, 0);
         let [x, y, z, lobe] = stream.next4();

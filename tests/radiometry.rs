@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use glam::Vec3;
 use renderer::film::Pixel;
 use support::picture::{mean_and_error, mean_of, means_and_errors, picture_of};
 
@@ -275,8 +276,8 @@ radiance_w_m2_sr_nm = 1
 
 #[test]
 fn a_leaf_between_sun_and_camera_glows_with_its_transmittance() {
-    // Lit at normal incidence and seen at normal incidence from behind: f = c(A,B) (1 − E_A)(1 −
-    // E_B) / π, which for two equal coats is T (1 − E) / ((1 − Ē) π).
+    // Lit at normal incidence and seen at normal incidence from behind: for two equal coats
+    // f = T (1 − E) / (P m π), with P m the mean of (1 − q x)² over what passes of diffuse light.
     let blocks = "
 [materials.leaf.leaf]
 abaxial_ratio = 1
@@ -299,7 +300,20 @@ towards = [0, 0, 1]
         "position_m = [0, 0, -1]\nlook_at_m = [0, 0, 0]\nup = [0, 1, 0]\nvertical_fov_deg = 1";
     let coat = renderer::bsdf::leaf::Coat::new(1.45, 0.3, 0.3);
     let albedo = coat.albedo();
-    let expected = 0.4 / PI * f64::from((1.0 - albedo.normal()) / (1.0 - albedo.mean()));
+    let passed = f64::from(1.0 - albedo.normal());
+    let steepness = 3.783 / libm::sqrt(1.6) * (1.0 - libm::pow(0.4 / passed, 0.125));
+    let steps = 20_000;
+    let mean: f64 = (0..steps)
+        .map(|step| {
+            let mu = (f64::from(step) + 0.5) / f64::from(steps);
+            let sine = libm::sqrt(1.0 - mu * mu);
+            let reflected = albedo.at(Vec3::new(sine as f32, 0.0, mu as f32));
+            let slant = 1.0 - libm::sqrt(1.0 - (1.0 - mu * mu) / (1.45 * 1.45));
+            let through = (1.0 - steepness * slant).powi(2);
+            2.0 * mu * f64::from(1.0 - reflected) * through / f64::from(steps)
+        })
+        .sum();
+    let expected = 0.4 / PI * passed / mean;
     assert_agrees(
         "backlit",
         mean_and_error(&scene(camera, "", blocks), 0, 8),

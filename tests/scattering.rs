@@ -1,12 +1,12 @@
 //! The BSDFs: drawn as their densities say, reciprocal, without gain or loss.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::{Vec2, Vec3};
 use renderer::bsdf::Bsdf;
 use renderer::bsdf::coat_table::{Bloom, CoatTable};
 use renderer::bsdf::dielectric::Dielectric;
-use renderer::bsdf::leaf::{Coat, LeafBsdf, Tissue};
+use renderer::bsdf::leaf::{Coat, LeafBsdf, LeafShape, Tissue};
 use renderer::bsdf::metallic_roughness::MetallicRoughness;
 use renderer::sampling::stream::Stream;
 use renderer::spectrum::Lanes;
@@ -17,27 +17,27 @@ use support::picture::picture_of;
 const POINTS: u32 = 1 << 15;
 
 fn coats(alpha: f32) -> [Coat; 2] {
-    Coat::pair([
+    [
         Coat::new(1.45, alpha, alpha),
         Coat::new(1.4, (1.5 * alpha).min(1.0), alpha),
-    ])
+    ]
+}
+
+/// A measured leaf of these spectra.
+fn measured(coats: &[Coat; 2], [r, t, ratio]: [Lanes<8>; 3]) -> LeafBsdf<'_, 8> {
+    static SHAPE: LazyLock<LeafShape> = LazyLock::new(LeafShape::measured);
+    LeafBsdf::new(coats, &SHAPE, Tissue::new(coats, &SHAPE, r, t, ratio))
 }
 
 fn leaf(coats: &[Coat; 2], reflectance: f32, transmittance: f32) -> LeafBsdf<'_, 8> {
     // Lanes differ, so that a lane that leaks into another one is seen.
     let fade = Lanes::from_fn(|lane| 1.0 - 0.05 * lane as f32);
-    let r = fade * reflectance;
-    LeafBsdf::new(
-        coats,
-        Tissue::new(coats, r, fade * transmittance, Lanes::splat(1.3)),
-    )
+    let [r, t] = [fade * reflectance, fade * transmittance];
+    measured(coats, [r, t, Lanes::splat(1.3)])
 }
 
 fn lossless(coats: &[Coat; 2]) -> LeafBsdf<'_, 8> {
-    LeafBsdf::new(
-        coats,
-        Tissue::new(coats, Lanes::splat(0.55), Lanes::splat(0.45), Lanes::ONE),
-    )
+    measured(coats, [0.55, 0.45, 1.0].map(Lanes::splat))
 }
 
 /// What a leaf scatters from `wo`, in one lane, with its values falsified by a factor.
@@ -101,10 +101,10 @@ fn unlike_coats_leave_both_reflectances_and_the_transmittance_as_they_are_and_lo
         [Coat::new(2.5, 0.9, 0.9), none()],
         [Coat::new(1.3, 0.3, 0.3), Coat::new(1.6, 0.6, 0.2)],
     ];
-    for coats in pairs.map(Coat::pair) {
+    for coats in pairs {
         for (r, t, ratio) in [(0.25, 0.5, 1.2), (0.3, 0.05, 2.0), (0.45, 0.4, 1.0)] {
             let [r, t, ratio] = [r, t, ratio].map(Lanes::splat);
-            let leaf: LeafBsdf<'_, 8> = LeafBsdf::new(&coats, Tissue::new(&coats, r, t, ratio));
+            let leaf = measured(&coats, [r, t, ratio]);
             for (wo, r) in [(Vec3::Z, r), (Vec3::NEG_Z, r * ratio)] {
                 let found = scattered(&leaf, wo, 0, 1.0);
                 for (found, expected) in [(found.reflected, r), (found.transmitted, t)] {
@@ -121,8 +121,7 @@ fn unlike_coats_leave_both_reflectances_and_the_transmittance_as_they_are_and_lo
                 }
             }
         }
-        let white = Tissue::new(&coats, Lanes::splat(0.6), Lanes::splat(0.4), Lanes::ONE);
-        let white: LeafBsdf<'_, 8> = LeafBsdf::new(&coats, white);
+        let white = measured(&coats, [0.6, 0.4, 1.0].map(Lanes::splat));
         for wo in directions() {
             let total = scattered(&white, wo, 0, 1.0).total();
             assert!((total - 1.0).abs() < 1e-3, "{wo}: {total}");
@@ -191,7 +190,11 @@ fn the_leaf_is_reciprocal() {
 
 /// A body below a coat, the same on both sides.
 fn coated(coats: &[Coat; 2], reflectance: f32) -> LeafBsdf<'_, 8> {
-    LeafBsdf::new(coats, Tissue::opaque(Lanes::splat(reflectance)))
+    LeafBsdf::new(
+        coats,
+        &LeafShape::EVEN,
+        Tissue::opaque(Lanes::splat(reflectance)),
+    )
 }
 
 #[test]
@@ -235,8 +238,10 @@ fn a_body_below_a_coat_is_reciprocal() {
 fn equal_faces_look_the_same_from_both_sides() {
     let coat = Coat::new(1.45, 0.3, 0.2);
     let coats = [coat.clone(), coat];
-    let tissue = Tissue::<8>::new(&coats, Lanes::splat(0.3), Lanes::splat(0.2), Lanes::ONE);
-    let leaf = LeafBsdf::new(&coats, tissue);
+    let tissue = [0.3, 0.2, 1.0].map(Lanes::splat);
+    let [r, t, ratio] = tissue;
+    let tissue = Tissue::<8>::new(&coats, &LeafShape::EVEN, r, t, ratio);
+    let leaf = LeafBsdf::new(&coats, &LeafShape::EVEN, tissue);
     for i in 0..1000 {
         let [a, b, c, d] = Stream::new(4, 0, 0, i).next4();
         let wo = renderer::sampling::warp::cosine_hemisphere(Vec2::new(a, b));

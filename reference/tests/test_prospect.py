@@ -18,7 +18,7 @@ import mitsuba as mi
 import numpy as np
 from mitsuba_leaves import COATS, GREEN, TABLE, WAVELENGTHS, leaf, throughputs
 
-from lamina.mitsuba import leaf_bsdf, prospect
+from lamina.mitsuba import prospect, tissue
 from validation import pigments
 from validation.program import program
 
@@ -171,7 +171,7 @@ def test_exported_palettes_are_the_documented_pigments() -> None:
     off = np.abs(other[:, 2] - published["chlorophyll"] * ratio)[known].max()
     assert known.sum() > 300 and off < 1e-12, off
     # The plugin reads the same table.
-    kind = leaf_bsdf.Double
+    kind = tissue.Double
     contents = {**GREEN, "anthocyanins": 9.0}
     absorbed = {name: np.interp(WAVELENGTHS, nm, column[name]) for name in prospect.ABSORBERS}
     total = sum(contents.get(name, 0.0) * k for name, k in absorbed.items())
@@ -186,7 +186,7 @@ def test_exported_palettes_are_the_documented_pigments() -> None:
 
 
 def test_contents_give_back_prospect() -> None:
-    kind = leaf_bsdf.Double
+    kind = tissue.Double
     r, t = prospect.Prospect(TABLE, kind, False).spectra(kind(*WAVELENGTHS), GREEN)
     got, error = throughputs(leaf(COATS[1]), (0.0, 0.0, 1.0))
     want = np.array([np.array(r).ravel(), np.array(t).ravel()])

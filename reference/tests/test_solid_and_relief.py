@@ -17,7 +17,7 @@ import mitsuba as mi
 import numpy as np
 from mitsuba_leaves import GREEN, TABLE, VIEWS, WAVELENGTHS, hit, spectrum, throughputs
 
-from lamina.mitsuba import half_space, leaf_bsdf, prospect, relief_bsdf
+from lamina.mitsuba import half_space, leaf_bsdf, prospect, relief_bsdf, tissue
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -57,7 +57,7 @@ def solid(alpha: float, coat_eta: float, eta: float = 1.38) -> mi.BSDF:
 
 
 def test_solid_gives_back_the_half_space() -> None:
-    kind = leaf_bsdf.Double
+    kind = tissue.Double
     model = prospect.Prospect(TABLE, kind, False)
     held = {name: 0.01 * value for name, value in GREEN.items()} | {"water": 0.01}
     held |= dict.fromkeys(prospect.OPTIONAL, 0.0)

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +34,8 @@ NODES_CAP = 96
 NODES_TURN = 128
 # √μ of the outermost column, in place of 0.
 GRAZING = 1e-4
+# Index of the tissue into which light is refracted.
+INDEX_WITHIN = 1.45
 
 
 @dataclass(frozen=True)
@@ -67,35 +70,22 @@ class Coat:
         return _normal(self)
 
     @property
-    def mean(self) -> float:
-        """(1/π) ∫ E μ dω over the hemisphere."""
-        return _means(self)[0]
-
-    @property
-    def steep(self) -> float:
-        """(1/π) ∫ E μ² dω over the hemisphere."""
-        return _means(self)[1]
+    def passing(self) -> Passing:
+        """What passes of diffuse light."""
+        return _passing(self)
 
 
 @dataclass(frozen=True)
-class Through:
-    """How light goes through the leaf at one face: the page's κ and P."""
+class Passing:
+    """Diffuse light that passes a coat: P, and the means of x and of its square."""
 
-    kappa: float
-    passed: float
+    share: Any
+    x: Any
+    xx: Any
 
-
-def through(coats: tuple[Coat, ...]) -> tuple[Through, ...]:
-    """κ and P of the adaxial and the abaxial face."""
-    upright = [1.0 - coat.normal for coat in coats]
-    passed = [1.0 - coat.mean for coat in coats]
-    most = max(up / mean for up, mean in zip(upright, passed, strict=True))
-    faces = []
-    for coat, up, mean in zip(coats, upright, passed, strict=True):
-        less = up / most
-        slope = (mean - less) / (mean - (2.0 / 3.0 - coat.steep))
-        faces.append(Through(slope, less))
-    return tuple(faces)
+    def m(self, q: Any) -> Any:
+        """m of a steepness."""
+        return 1.0 - 2.0 * q * self.x + q * q * self.xx
 
 
 def fresnel(cos_i: Array, eta: float) -> Array:
@@ -179,7 +169,7 @@ def _normal(coat: Coat) -> float:
 
 
 @lru_cache(maxsize=64)
-def _means(coat: Coat) -> tuple[float, float]:
+def _passing(coat: Coat) -> Passing:
     nodes, weights = legendre_nodes(48)
     root = 0.5 * (nodes + 1.0)
     mu = root * root
@@ -189,5 +179,9 @@ def _means(coat: Coat) -> tuple[float, float]:
     m, a = (grid.ravel() for grid in np.meshgrid(mu, azimuth, indexing="ij"))
     sine = np.sqrt(1.0 - m * m)
     e = albedo(coat, sine * np.cos(a), sine * np.sin(a), m).reshape(len(mu), -1).mean(axis=1)
-    part = e * 4.0 * root**3 * 0.5 * weights
-    return float(np.sum(part)), float(np.sum(part * mu))
+    part = (1.0 - e) * 4.0 * root**3 * 0.5 * weights
+    share = float(np.sum(part))
+    x = 1.0 - np.sqrt(1.0 - (1.0 - mu * mu) / INDEX_WITHIN**2)
+    # A perfect mirror lets nothing pass.
+    over = max(share, 1e-30)
+    return Passing(share, float(np.sum(part * x)) / over, float(np.sum(part * x * x)) / over)

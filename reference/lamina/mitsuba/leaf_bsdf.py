@@ -30,12 +30,12 @@ import mitsuba as mi
 import numpy as np
 import OpenImageIO as oiio
 
-from lamina.mitsuba import facet
-from lamina.mitsuba.coat import COUNT_AZIMUTH, COUNT_MU, Coat, Through, through
+from lamina.mitsuba import facet, tissue
+from lamina.mitsuba.coat import COUNT_AZIMUTH, COUNT_MU, Coat
 from lamina.mitsuba.lookup import Table, bits, cell, nearest
 from lamina.mitsuba.prospect import CONTENTS, OPTIONAL, Prospect
+from lamina.mitsuba.tissue import Double, Tissue, across, slanted
 
-Double = dr.float64_array_t(mi.UnpolarizedSpectrum)
 FACES = ("adaxial", "abaxial")
 
 
@@ -108,90 +108,6 @@ def five_numbers(uv: Any, wavelengths: Any) -> list[Any]:
     return drawn[:5]
 
 
-class Tissue:
-    """The coefficients c(f_o, f_i) at the wavelengths of a hit, and what sampling needs."""
-
-    def __init__(
-        self, r: Any, t: Any, below: Any, coats: tuple[Coat, ...], ways: tuple[Through, ...]
-    ) -> None:
-        top, bottom = coats
-        self.ways = ways
-        upper, lower = self.ways
-        passed = 1.0 - top.normal
-        bound = min(1.0, lower.passed / upper.passed)
-        self.t_ab = dr.minimum(t / passed, bound)
-        self.r_a = dr.clip((r - top.normal) / passed, 0.0, 1.0 - self.t_ab)
-        self.through = self.t_ab / lower.passed
-        self.t_ba = self.through * upper.passed
-        a_b = dr.maximum(0.0, 1.0 - below - t) / (1.0 - bottom.normal)
-        self.r_b = dr.clip(1.0 - self.t_ba - a_b, 0.0, 1.0 - self.t_ba)
-        self.back_a = self.r_a / (1.0 - top.mean)
-        self.back_b = self.r_b / (1.0 - bottom.mean)
-
-    def passing(self, t: Any, coats: tuple[Coat, ...]) -> None:
-        """Lets through what entered elsewhere; reflectances stay."""
-        top = coats[0]
-        upper, lower = self.ways
-        back = upper.passed / lower.passed
-        most = dr.minimum(1.0 - self.r_a, (1.0 - self.r_b) / back)
-        self.t_ab = dr.minimum(t / (1.0 - top.normal), most)
-        self.t_ba = self.t_ab * back
-        self.through = self.t_ab / lower.passed
-
-    def cut(self, face: int, coats: tuple[Coat, ...]) -> None:
-        """Leaves one face with half of the tissue; the page's section "A closed blade"."""
-        p = [way.passed for way in self.ways]
-        k = [float(1.0 / np.sqrt(share) - np.sqrt(share)) for share in p]
-        t = dr.minimum(dr.sqrt(self.t_ab * self.t_ba), 0.999)
-        r = [self.r_a, self.r_b]
-        rest = dr.rcp(1.0 - t * t)
-        s = [(r[i] - t * r[1 - i]) * rest for i in (0, 1)]
-        q = [(k[i] - t * k[1 - i]) * rest for i in (0, 1)]
-        a = 1.0 + t * q[0] * q[1]
-        b = t * (s[0] * q[1] + s[1] * q[0])
-        c = t * (s[0] * s[1] - 1.0)
-        root_of = dr.sqrt(dr.maximum(b * b - 4.0 * a * c, 0.0))
-        tau = dr.select(b > 0.0, -2.0 * c / (root_of + b), (root_of - b) / (2.0 * a))
-        tau = dr.clip(tau, 0.0, float(np.sqrt(min(p))))
-        root = float(np.sqrt(p[face]))
-        sigma = dr.clip(s[face] + q[face] * tau, 0.0, 1.0 - root * tau)
-        rho = dr.clip(sigma - k[face] * tau, 0.0, dr.maximum(1.0 - tau / root, 0.0))
-        outside, inside = (rho, tau / root), (sigma, tau * root)
-        (self.r_a, self.t_ab), (self.r_b, self.t_ba) = (
-            (outside, inside) if face == 0 else (inside, outside)
-        )
-        cut = Through(0.0, 1.0)
-        self.ways = (self.ways[0], cut) if face == 0 else (cut, self.ways[1])
-        self.through = self.t_ab / self.ways[1].passed
-        means = [1.0 - coats[0].mean, 1.0] if face == 0 else [1.0, 1.0 - coats[1].mean]
-        self.back_a, self.back_b = self.r_a / means[0], self.r_b / means[1]
-
-    def c(self, same: Any, adaxial: Any) -> Any:
-        """c for two directions: on the same face or not, and on which one."""
-        return dr.select(same, dr.select(adaxial, self.back_a, self.back_b), self.through)
-
-    def turned(self, mu_o: Any, mu_i: Any, adaxial: Any, means: tuple[Any, ...]) -> Any:
-        """f_turned but for both 1 − E and 1/π; `means` are the faces' 1 − Ē."""
-        value = dr.zeros(Double)
-        for number, (way, t) in enumerate(zip(self.ways, (self.t_ab, self.t_ba), strict=True)):
-            if way.kappa > 0.0:
-                share = way.kappa * way.kappa * (1.0 - mu_o) * (1.0 - mu_i)
-                own = t * Double(share / means[number])
-                value = dr.select(adaxial == (number == 0), own, value)
-        return value
-
-    def less(self, mu: Any, adaxial: Any) -> Any:
-        """1 − κ (1 − μ) of a face."""
-        upper, lower = self.ways
-        return 1.0 - dr.select(adaxial, upper.kappa, lower.kappa) * (1.0 - mu)
-
-    def chances(self, adaxial: Any) -> tuple[Any, Any]:
-        """What the tissue reflects and lets through seen from a face: mean over wavelengths."""
-        r = dr.select(adaxial, dr.mean(self.r_a), dr.mean(self.r_b))
-        t = dr.select(adaxial, dr.mean(self.t_ab), dr.mean(self.t_ba))
-        return mi.Float(r), mi.Float(t)
-
-
 class LeafBSDF(mi.BSDF):
     """Two faces, one transmittance, a rough coat on each."""
 
@@ -222,6 +138,7 @@ class LeafBSDF(mi.BSDF):
         self.abaxial_reflectance = None
         if "abaxial_reflectance" in props:
             self.abaxial_reflectance = props.get_texture("abaxial_reflectance")
+        self.shape = tissue.shape()
         if self.kind == "measured":
             self.reflectance = props.get_texture("reflectance")
             self.transmittance = props.get_texture("transmittance")
@@ -241,6 +158,11 @@ class LeafBSDF(mi.BSDF):
                 }
             else:
                 raise ValueError(f"tissue = {self.kind}, not contents, map or measured")
+            mean = self.contents if self.kind == "contents" else self.map.mean
+            dry = sum(mean[name] for name in ("dry_matter", "proteins", "carbon_based"))
+            self.shape = tissue.shape(mean["structure"], mean["water"], dry)
+        if all(coat.eta == 1.0 for coat in self.coats):
+            self.shape = tissue.EVEN
 
         sides = mi.BSDFFlags.FrontSide | mi.BSDFFlags.BackSide
         varying = mi.BSDFFlags.SpatiallyVarying
@@ -267,21 +189,15 @@ class LeafBSDF(mi.BSDF):
         return self.prospect.spectra(si.wavelengths, contents)
 
     def tissue(self, si: Any, active: Any) -> Tissue:
-        """The tissue's coefficients at a hit."""
+        """The tissue at a hit."""
         r, t = self.spectra(si, active)
         below = self.ratio(si, r, t, active) * r
         if self.abaxial_reflectance is not None:
             below = Double(self.abaxial_reflectance.eval(si, active))
-        # Of leaves that were not measured nothing says how much light from below they let through.
-        ways = tuple(Through(0.0, 1.0 - coat.mean) for coat in self.coats)
-        if self.kind == "measured":
-            ways = through(self.coats)
-        tissue = Tissue(r, t, below, self.coats, ways)
+        found = tissue.leaf(r, t, below, self.coats, self.shape, self.kind == "measured")
         if self.spread is not None:
-            tissue.passing(self.spread_transmittance(si, *self.spread), self.coats)
-        if self.half is not None:
-            tissue.cut(self.half, self.coats)
-        return tissue
+            found.lets_through(self.spread_transmittance(si, *self.spread), self.coats[0])
+        return found if self.half is None else found.half(self.half)
 
     def spread_transmittance(self, si: Any, spread_u: float, spread_v: float) -> Any:
         """T at one place from which light at the hit comes, drawn for each wavelength's length."""
@@ -402,9 +318,9 @@ class LeafBSDF(mi.BSDF):
 
     # Mitsuba's interface
 
-    def lobes(self, e: Any, tissue: Tissue, adaxial: Any) -> tuple[Any, Any]:
+    def lobes(self, e: Any, found: Tissue, adaxial: Any) -> tuple[Any, Any]:
         """Probability of the coat's lobe, and of reflection if it is the tissue's."""
-        r, t = tissue.chances(adaxial)
+        r, t = found.chances(adaxial)
         both = r + t
         weight = e + (1.0 - e) * both
         coat = dr.select(weight > 0.0, e / dr.select(weight > 0.0, weight, 1.0), 0.0)
@@ -423,19 +339,18 @@ class LeafBSDF(mi.BSDF):
 
         e_view = self.coat_albedo(view, adaxial)
         e_light = self.coat_albedo(light, cos_light > 0.0)
-        tissue = self.tissue(si, active)
-        less = tissue.less(view.z, adaxial) * tissue.less(light.z, cos_light > 0.0)
-        c = tissue.c(same, adaxial) * Double(dr.select(same, 1.0, less))
-        means = tuple(
-            max(1.0 - coat.mean - way.passed, 1e-30)
-            for coat, way in zip(self.outer, tissue.ways, strict=True)
+        found = self.tissue(si, active)
+        slants = slanted(view.z), slanted(light.z), across(view, light)
+        base = dr.select(
+            same,
+            found.back(adaxial, found.passing, *slants),
+            found.through(adaxial, found.passing, *slants),
         )
-        c += dr.select(same, tissue.turned(view.z, light.z, adaxial, means), 0.0)
-        base = c * Double((1.0 - e_view) * (1.0 - e_light) * light.z / dr.pi)
+        base *= Double((1.0 - e_view) * (1.0 - e_light) * light.z / dr.pi)
         coat = dr.select(same, self.coat_times_cosine(view, light, adaxial), 0.0)
         value = mi.UnpolarizedSpectrum(base) + coat
 
-        p_coat, p_back = self.lobes(e_view, tissue, adaxial)
+        p_coat, p_back = self.lobes(e_view, found, adaxial)
         pdf = (1.0 - p_coat) * dr.select(same, p_back, 1.0 - p_back) * light.z / dr.pi
         pdf = pdf + dr.select(same, p_coat * self.coat_pdf(view, light, adaxial), 0.0)
         return dr.select(active, value, 0.0), dr.select(active, pdf, 0.0)
@@ -448,9 +363,8 @@ class LeafBSDF(mi.BSDF):
         adaxial = cos_view > 0.0
         axes = self.axes(si)
         view = self.mirrored(dr.select(active, si.wi, mi.Vector3f(0, 0, 1)), axes)
-        tissue = self.tissue(si, active)
         e = self.coat_albedo(view, adaxial)
-        p_coat, p_back = self.lobes(e, tissue, adaxial)
+        p_coat, p_back = self.lobes(e, self.tissue(si, active), adaxial)
 
         in_coat = sample1 < p_coat
         reflected = sample1 - p_coat < (1.0 - p_coat) * p_back

@@ -22,9 +22,10 @@ import drjit as dr
 import mitsuba as mi
 
 from lamina.mitsuba import facet
-from lamina.mitsuba.leaf_bsdf import Double, LeafBSDF
+from lamina.mitsuba.leaf_bsdf import LeafBSDF
 from lamina.mitsuba.lookup import Table
 from lamina.mitsuba.relief_bsdf import GIVEN_BACK, LEAST_FACING, RoughCoat, albedos
+from lamina.mitsuba.tissue import Double
 
 ETA = 1.5
 LEAST_ALPHA = 0.02
@@ -123,9 +124,9 @@ class ModelBSDF(mi.BSDF):
 
         def base(coat: RoughCoat) -> Any:
             passed = (1.0 - coat.albedo(view.z)) * (1.0 - coat.albedo(mu))
-            return Double(passed * mu / (dr.pi * (1.0 - coat.mean)))
+            return Double(passed * mu / (dr.pi * coat.passing.share))
 
-        mean, held = c + (1.0 - c) / 21.0, Double(1.0 - seen.mirror.mean)
+        mean, held = c + (1.0 - c) / 21.0, Double(seen.mirror.passing.share)
         later = mean * mean * (1.0 - held) / (1.0 - mean * held)
         back = Double(dr.rcp(1.0 - 0.5 * GIVEN_BACK * (1.0 - seen.z.z)))
         rest = (1.0 - m) * c * base(seen.coat) + m * later * base(seen.mirror)

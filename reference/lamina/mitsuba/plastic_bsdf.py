@@ -19,8 +19,9 @@ import mitsuba as mi
 import numpy as np
 
 from lamina.mitsuba.coat import Coat
-from lamina.mitsuba.leaf_bsdf import Double, LeafBSDF
+from lamina.mitsuba.leaf_bsdf import LeafBSDF
 from lamina.mitsuba.lookup import Table
+from lamina.mitsuba.tissue import Double, Tissue, body
 
 
 class PlasticBSDF(LeafBSDF):
@@ -30,10 +31,8 @@ class PlasticBSDF(LeafBSDF):
         mi.BSDF.__init__(self, props)
         alpha = props.get("alpha")
         self.coats = (Coat(props.get("eta"), alpha, alpha),) * 2
-        self.half, self.outer = None, self.coats
-        self.abaxial_reflectance = None
+        self.outer = self.coats
         self.albedo = Table(np.stack([coat.table for coat in self.coats]))
-        self.spread = None
         self.kind = "plastic"
         self.reflectance = props.get_texture("reflectance")
 
@@ -47,15 +46,9 @@ class PlasticBSDF(LeafBSDF):
         ]
         self.m_flags = self.m_components[0] | self.m_components[1] | self.m_components[2]
 
-    def spectra(self, si: Any, active: Any) -> tuple[Any, Any]:
-        """R of a leaf whose tissue has this r, and T = 0."""
-        coat = self.coats[0].normal
-        r = Double(self.reflectance.eval(si, active))
-        return coat + (1.0 - coat) * r, Double(0.0)
-
-    def ratio(self, si: Any, r: Any, t: Any, active: Any) -> Any:
-        """Both sides are alike."""
-        return Double(1.0)
+    def tissue(self, si: Any, active: Any) -> Tissue:
+        """The body at a hit."""
+        return body(Double(self.reflectance.eval(si, active)), self.coats[0])
 
     def to_string(self) -> str:
         """For messages."""

@@ -11,6 +11,7 @@ are not part of it.
 
 from __future__ import annotations
 
+from dataclasses import astuple
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -20,10 +21,11 @@ import mitsuba as mi
 import numpy as np
 
 from lamina.exr import read_channels
-from lamina.mitsuba import facet, solid_bsdf
-from lamina.mitsuba.coat import Coat
-from lamina.mitsuba.leaf_bsdf import FACES, Double, LeafBSDF
+from lamina.mitsuba import facet, solid_bsdf, tissue
+from lamina.mitsuba.coat import Coat, Passing
+from lamina.mitsuba.leaf_bsdf import FACES, LeafBSDF
 from lamina.mitsuba.lookup import Table, cell
+from lamina.mitsuba.tissue import Double, across, slanted
 
 MOMENTS = [f"{face}.{of}" for face in FACES for of in ("x", "y", "xx", "yy")]
 # Roughnesses at which albedos are computed; between them they are interpolated.
@@ -37,12 +39,13 @@ GIVEN_BACK = 0.5
 
 @lru_cache(maxsize=4)
 def albedos(eta: float) -> tuple[np.ndarray, np.ndarray]:
-    """E over roughness and √μ, and Ē over roughness, of coats alike in all directions."""
+    """E over roughness and √μ, and P, x̄ and x²'s mean over roughness, of coats alike in all
+    directions."""
     coats = [Coat(eta, float(alpha), float(alpha)) for alpha in ALPHAS]
     step = (coats[0].table.shape[0] - 1) // (COUNT_MU - 1)
     return (
         np.stack([coat.table[::step, 0] for coat in coats]),
-        np.array([coat.mean for coat in coats]),
+        np.array([astuple(coat.passing) for coat in coats]),
     )
 
 
@@ -90,9 +93,11 @@ class RoughCoat:
         low, high = float(ALPHAS[0]), float(ALPHAS[-1])
         place = (alpha - low) / (high - low) * (len(ALPHAS) - 1.0)
         self.row, self.share = cell(mi.Float, place, len(ALPHAS))
-        self.mean = self.there * dr.lerp(
-            means.at(mi.Float, self.row), means.at(mi.Float, self.row + 1), self.share
+        at = [3 * self.row + number for number in range(3)]
+        share, x, xx = (
+            dr.lerp(means.at(mi.Float, i), means.at(mi.Float, i + 3), self.share) for i in at
         )
+        self.passing = Passing(1.0 - self.there * (1.0 - share), x, xx)
 
     def albedo(self, mu: Any) -> Any:
         """E at a cosine."""
@@ -125,8 +130,9 @@ class RoughCoat:
 def chosen(condition: Any, a: RoughCoat, b: RoughCoat) -> RoughCoat:
     """One of two coats."""
     coat = RoughCoat.__new__(RoughCoat)
-    for name in ("alpha_x", "alpha_y", "row", "share", "mean", "there"):
+    for name in ("alpha_x", "alpha_y", "row", "share", "there"):
         setattr(coat, name, dr.select(condition, getattr(a, name), getattr(b, name)))
+    coat.passing = tissue.chosen(condition, a.passing, b.passing)
     if a.eta != b.eta:
         raise ValueError("both coats must have one refractive index")
     coat.eta, coat.table = a.eta, a.table
@@ -204,27 +210,15 @@ class ReliefBSDF(LeafBSDF):
 
         e_view = own.albedo(seen.z)
         e_light = dr.select(same, own.albedo(cosine), other.albedo(cosine))
-        tissue = self.tissue(si, active)
-        reflected = dr.select(adaxial, tissue.r_a, tissue.r_b) / Double(1.0 - own.mean)
-        kept = [
-            way.passed / (1.0 - coat.mean)
-            for way, coat in zip(tissue.ways, self.outer, strict=True)
-        ]
-        passed_a, passed_b = (1.0 - coat_a.mean) * kept[0], (1.0 - coat_b.mean) * kept[1]
-        through = dr.minimum(tissue.t_ab / Double(passed_b), tissue.t_ba / Double(passed_a))
-        upper = tissue.less(seen.z, adaxial)
-        lower = tissue.less(cosine, ~adaxial)
-        # What a face does not let through at grazing angles it sends back.
-        means = [
-            dr.maximum((1.0 - coat.mean) * (1.0 - part), 1e-30)
-            for coat, part in zip((coat_a, coat_b), kept, strict=True)
-        ]
-        own_kappa = dr.select(adaxial, tissue.ways[0].kappa, tissue.ways[1].kappa)
-        turned = own_kappa * own_kappa * (1.0 - seen.z) * (1.0 - cosine)
-        turned *= dr.select(adaxial, passed_b / means[0], passed_a / means[1])
-        reflected = reflected + through * Double(turned)
-        base = dr.select(same, reflected, through * Double(upper * lower))
-        base = base * Double((1.0 - e_view) * (1.0 - e_light) * back * cosine / dr.pi)
+        found = self.tissue(si, active)
+        passing = coat_a.passing, coat_b.passing
+        slants = slanted(seen.z), slanted(cosine)
+        base = dr.select(
+            same,
+            found.back(adaxial, passing, *slants, across(seen, lit)),
+            found.through(adaxial, passing, *slants, across(view, light)),
+        )
+        base *= Double((1.0 - e_view) * (1.0 - e_light) * back * cosine / dr.pi)
         coat = dr.select(same, own.times_cosine(seen, lit), 0.0)
         value = mi.UnpolarizedSpectrum(base) + coat
         pdf = 0.5 * dr.abs(light.z) / dr.pi

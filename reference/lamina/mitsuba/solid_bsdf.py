@@ -25,9 +25,10 @@ import numpy as np
 
 from lamina.mitsuba import half_space, leaf_bsdf
 from lamina.mitsuba.coat import Coat
-from lamina.mitsuba.leaf_bsdf import ContentsMap, Double, LeafBSDF
+from lamina.mitsuba.leaf_bsdf import ContentsMap, LeafBSDF
 from lamina.mitsuba.lookup import Table, cell
 from lamina.mitsuba.prospect import CONTENTS, OPTIONAL, Prospect
+from lamina.mitsuba.tissue import Double, Tissue, body, under_coat
 
 
 class SolidBSDF(LeafBSDF):
@@ -37,8 +38,7 @@ class SolidBSDF(LeafBSDF):
         mi.BSDF.__init__(self, props)
         alpha = props.get("coat_alpha")
         self.coats = (Coat(props.get("coat_eta"), alpha, alpha),) * 2
-        self.half, self.outer = None, self.coats
-        self.abaxial_reflectance = None
+        self.outer = self.coats
         self.albedo = Table(np.stack([coat.table for coat in self.coats]))
         self.depth = float(props.get("depth_mm"))
         self.scattering = float(props.get("scattering_per_mm"))
@@ -47,8 +47,6 @@ class SolidBSDF(LeafBSDF):
         extrapolate = bool(props.get("extrapolate", False))
         table = Path(str(resolve(str(props.get("prospect")))))
         self.prospect = Prospect(table, Double, extrapolate)
-        # A half-space lets nothing through that could spread.
-        self.spread = None
         self.kind = str(props.get("tissue"))
         if self.kind == "map":
             self.map = ContentsMap(Path(str(resolve(str(props.get("map"))))))
@@ -70,14 +68,11 @@ class SolidBSDF(LeafBSDF):
         ]
         self.m_flags = self.m_components[0] | self.m_components[1] | self.m_components[2]
 
-    def spectra(self, si: Any, active: Any) -> tuple[Any, Any]:
-        """R of the half-space at a hit, at its wavelengths, and T = 0."""
+    def tissue(self, si: Any, active: Any) -> Tissue:
+        """The body at a hit."""
         contents = self.contents if self.kind == "contents" else self.map.at(si.uv)
-        return self.reflectance(si.wavelengths, contents), Double(0.0)
-
-    def ratio(self, si: Any, r: Any, t: Any, active: Any) -> Any:
-        """Both sides are alike."""
-        return Double(1.0)
+        coat = self.coats[0]
+        return body(under_coat(self.reflectance(si.wavelengths, contents), coat), coat)
 
     def reflectance(self, wavelengths: Any, contents: dict[str, Any]) -> Any:
         """R of tissue with these contents at `wavelengths` (nm)."""

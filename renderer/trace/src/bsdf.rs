@@ -37,6 +37,7 @@ pub mod ggx;
 mod known;
 pub mod leaf;
 pub mod leaf_face;
+pub mod leaf_shape;
 pub mod leaf_tissue;
 pub mod metallic_roughness;
 pub mod relief;

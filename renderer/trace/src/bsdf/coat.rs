@@ -5,6 +5,7 @@ use glam::Vec3;
 use crate::bsdf::directional_albedo::DirectionalAlbedo;
 use crate::bsdf::fresnel;
 use crate::bsdf::ggx::Ggx;
+use crate::bsdf::leaf_shape::Passed;
 
 /// The rough dielectric coat of one face, with its tables.
 #[derive(Clone, Debug)]
@@ -12,10 +13,6 @@ pub struct Coat {
     pub(super) ggx: Ggx,
     eta: f32,
     pub(super) albedo: DirectionalAlbedo,
-    /// `κ`: how much less light of grazing directions goes through the leaf than passes the coat.
-    slope: f32,
-    /// `P`, the mean of what goes on through the leaf of light that is alike from all directions.
-    through_mean: f32,
 }
 
 impl Coat {
@@ -26,33 +23,7 @@ impl Coat {
             alpha_y: alpha_along,
         };
         let albedo = DirectionalAlbedo::new(ggx, eta);
-        Self {
-            ggx,
-            eta,
-            slope: 0.0,
-            through_mean: 1.0 - albedo.mean(),
-            albedo,
-        }
-    }
-
-    /// The coats of a measured leaf, through which as much light goes either way at normal incidence.
-    ///
-    /// What goes through is reciprocal only if light from above is to light from below as `(1 − E⊥) /
-    /// P` of the upper coat is to that of the lower. The coat of which this is less lets less light of
-    /// grazing directions through, and sends that back.
-    pub fn pair(mut coats: [Self; 2]) -> [Self; 2] {
-        let upright = coats.each_ref().map(|coat| 1.0 - coat.albedo.normal());
-        let ratio = [0, 1].map(|side| upright[side] / coats[side].passed_mean());
-        if ratio[0] == ratio[1] {
-            return coats;
-        }
-        let side = usize::from(ratio[1] < ratio[0]);
-        let coat = &mut coats[side];
-        let passed = coat.passed_mean();
-        let most = passed - coat.albedo.passed_steeply();
-        coat.slope = ((passed - upright[side] / ratio[1 - side]) / most).clamp(0.0, 1.0);
-        coat.through_mean = passed - coat.slope * most;
-        coats
+        Self { ggx, eta, albedo }
     }
 
     /// No coat.
@@ -62,7 +33,7 @@ impl Coat {
 
     /// Whether the coat reflects anything.
     #[inline]
-    pub(super) fn shines(&self) -> bool {
+    pub fn shines(&self) -> bool {
         self.eta != 1.0
     }
 
@@ -93,21 +64,10 @@ impl Coat {
         coat_lobe(self.ggx, self.eta, wo, lambda, wi)
     }
 
-    /// Fraction of light of this cosine that the tissue would let through and sends back, `κ (1 − µ)`.
+    /// What passes of light that is alike from all directions.
     #[inline]
-    pub(super) fn turned(&self, mu: f32) -> f32 {
-        self.slope * (1.0 - mu)
-    }
-
-    /// `P`.
-    pub(super) fn through_mean(&self) -> f32 {
-        self.through_mean
-    }
-
-    /// One over the mean of what is turned back, 0 if nothing is.
-    pub(super) fn over_turned_mean(&self) -> f32 {
-        let mean = self.passed_mean() - self.through_mean;
-        if mean > 0.0 { 1.0 / mean } else { 0.0 }
+    pub(super) fn passed(&self) -> Passed {
+        self.albedo.passed()
     }
 
     /// `1 − Ē`.

@@ -7,10 +7,11 @@ use std::sync::Arc;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::directional_albedo::{lattice_on_disc, reflected_share};
+use super::directional_albedo::{lattice_on_disc, reflected_share, slants};
 use super::fresnel;
 use super::ggx::Ggx;
 use super::known::Known;
+use super::leaf_shape::Passed;
 
 const ALPHA_NODES: usize = 16;
 const MU_NODES: usize = 33;
@@ -19,7 +20,7 @@ const ALPHAS: [f32; 2] = [0.02, 1.0];
 /// Points of the rank-1 lattice for one entry: Fibonacci numbers.
 const LATTICE: (u32, u32) = (1597, 987);
 
-/// `E(µ)` and `Ē` of isotropic coats of one refractive index, over roughness.
+/// `E(µ)` of isotropic coats of one refractive index, over roughness.
 ///
 /// `E` is convex in µ, and linear interpolation never lies below it, so a leaf under the coat never
 /// sends out more than comes in.
@@ -27,7 +28,6 @@ const LATTICE: (u32, u32) = (1597, 987);
 pub struct CoatTable {
     /// `[roughness][µ]`.
     rows: Box<[[f32; MU_NODES]]>,
-    means: Box<[f32]>,
 }
 
 /// Crystals of wax on a face, which scatter all light that they meet (glaucous bloom).
@@ -40,8 +40,8 @@ pub struct Bloom {
     tau: f32,
     /// `Ē_w`.
     mean: f32,
-    /// `1 − Ē` of bloom over coat, for each roughness of the table.
-    passed: Box<[f32]>,
+    /// What passes bloom and coat, for each roughness of the table.
+    passed: Box<[Passed]>,
 }
 
 impl Bloom {
@@ -50,11 +50,12 @@ impl Bloom {
         let mut bloom = Self {
             tau,
             mean: 0.0,
-            passed: table.means.iter().map(|mean| 1.0 - mean).collect(),
+            passed: Box::default(),
         };
+        bloom.passed = table.passed(&bloom, |_| 1.0);
         if tau > 0.0 {
-            bloom.mean = 1.0 - mean_over(|mu| 1.0 - bloom.sent_back(mu));
-            bloom.passed = table.passed_means(&bloom, |_| 1.0);
+            let [passed, ..] = slants(|mu| 1.0 - bloom.sent_back(mu));
+            bloom.mean = 1.0 - passed;
         }
         bloom
     }
@@ -67,17 +68,6 @@ impl Bloom {
         }
         0.5 * (1.0 - libm::expf(-self.tau / mu.max(1e-4)))
     }
-}
-
-/// `∫ 2 f µ dµ` by the midpoint rule in √µ.
-fn mean_over(f: impl Fn(f32) -> f32) -> f32 {
-    let steps = 400;
-    let term = |i: usize| {
-        let x = (i as f32 + 0.5) / steps as f32;
-        // µ = x², 2 µ dµ = 4 x³ dx.
-        f64::from(f(x * x) * 4.0 * x * x * x) / f64::from(steps as u32)
-    };
-    (0..steps).map(term).sum::<f64>() as f32
 }
 
 /// A row of the table at a cosine.
@@ -134,20 +124,18 @@ impl CoatTable {
             })
         };
         let rows: Vec<[f32; MU_NODES]> = (0..ALPHA_NODES).into_par_iter().map(row).collect();
-        Self {
-            means: rows.iter().map(mean_of).collect(),
-            rows: rows.into(),
-        }
+        Self { rows: rows.into() }
     }
 
-    /// Means over diffuse light of `1 − E` of bloom over coat times a weight at each cosine, for
-    /// each roughness of the table.
-    pub(super) fn passed_means(&self, bloom: &Bloom, weight: impl Fn(f32) -> f32) -> Box<[f32]> {
+    /// What passes bloom and coat of diffuse light with a weight at each cosine, for each roughness
+    /// of the table.
+    pub(super) fn passed(&self, bloom: &Bloom, weight: impl Fn(f32) -> f32) -> Box<[Passed]> {
         let passed = |row: &[f32; MU_NODES], mu: f32| {
             (1.0 - along(row, mu)) * (1.0 - bloom.sent_back(mu)) * weight(mu)
         };
         let rows = self.rows.iter();
-        rows.map(|row| mean_over(|mu| passed(row, mu))).collect()
+        rows.map(|row| Passed::of_sums(slants(|mu| passed(row, mu))))
+            .collect()
     }
 
     /// The coat of this roughness under a bloom; beyond the table's range that of its end.
@@ -214,16 +202,16 @@ impl LocalCoat<'_> {
         from_wo * from_wi * FRAC_1_PI / self.bloom.mean
     }
 
-    /// `1 − Ē` of coat and bloom.
+    /// What passes coat and bloom of light that is alike from all directions.
     #[inline]
-    pub fn passed_mean(&self) -> f32 {
+    pub fn passed(&self) -> Passed {
         self.along_roughness(&self.bloom.passed)
     }
 
     /// The value at the coat's roughness of a list with one for each roughness of the table.
     #[inline]
-    pub(super) fn along_roughness(&self, values: &[f32]) -> f32 {
-        values[self.row] * (1.0 - self.share) + values[self.row + 1] * self.share
+    pub(super) fn along_roughness(&self, values: &[Passed]) -> Passed {
+        values[self.row].towards(values[self.row + 1], self.share)
     }
 
     /// The lobe's value and its sampling density for two directions on the side +z.
@@ -244,16 +232,6 @@ fn mu_of(node: usize) -> f32 {
     x * x
 }
 
-/// `∫ 2 E µ dµ` of the row as interpolated.
-fn mean_of(row: &[f32; MU_NODES]) -> f32 {
-    let piece = |i: usize| {
-        let [low, high] = [f64::from(mu_of(i)), f64::from(mu_of(i + 1))];
-        let [at_low, at_high] = [f64::from(row[i]), f64::from(row[i + 1])];
-        2.0 * (high - low) * (at_low * (2.0 * low + high) + at_high * (low + 2.0 * high)) / 6.0
-    };
-    (0..MU_NODES - 1).map(piece).sum::<f64>() as f32
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -271,7 +249,7 @@ mod tests {
             let none = Bloom::new(0.0, &table);
             let coat = table.coat(1.45, [alpha; 2], &none);
             assert!(
-                (1.0 - coat.passed_mean() - own.mean()).abs() < 1e-3,
+                (1.0 - coat.passed().mean - own.mean()).abs() < 1e-3,
                 "{alpha}"
             );
             for mu in [0.05_f32, 0.2, 0.5, 1.0] {

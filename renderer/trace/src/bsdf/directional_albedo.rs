@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::bsdf::fresnel;
 use crate::bsdf::ggx::Ggx;
 use crate::bsdf::known::Known;
+use crate::bsdf::leaf_shape::{Passed, slant};
 use crate::sampling::warp;
 
 /// `E(ω)`, the share of light from ω that the coat's lobe reflects, and its mean `Ē`.
@@ -24,8 +25,7 @@ pub struct DirectionalAlbedo {
     /// `sin² φ` of each azimuth, from 0 to 1; a single one if the coat is isotropic.
     azimuths: Box<[f32]>,
     mean: f32,
-    /// `2/π ∫ E µ² dω`, the mean weighted once more with the cosine.
-    steep: f32,
+    passed: Passed,
 }
 
 const MU_NODES: usize = 129;
@@ -52,7 +52,10 @@ impl DirectionalAlbedo {
                 values: Box::new([[0.0; MU_NODES]]),
                 azimuths: Box::new([0.0]),
                 mean: 0.0,
-                steep: 0.0,
+                passed: {
+                    let [_, slanting, squared] = slants(|_| 1.0);
+                    Passed::of_sums([1.0, slanting, squared])
+                },
             };
         }
         let azimuths = azimuths_of(ggx);
@@ -75,18 +78,23 @@ impl DirectionalAlbedo {
         let mean = mean_of(&values, &azimuths, |[low, high], [at_low, at_high]| {
             2.0 * (high - low) * (at_low * (2.0 * low + high) + at_high * (low + 2.0 * high)) / 6.0
         });
-        let steep = mean_of(&values, &azimuths, |[low, high], [at_low, at_high]| {
-            let middle = 0.5 * (low + high);
-            let sum = at_low * low * low
-                + 2.0 * (at_low + at_high) * middle * middle
-                + at_high * high * high;
-            2.0 * (high - low) * sum / 6.0
-        });
+        let weighted = |power: i32| {
+            mean_of(&values, &azimuths, |[low, high], [at_low, at_high]| {
+                let at = |share: f64| {
+                    let mu = low + (high - low) * share;
+                    let reflected = at_low + (at_high - at_low) * share;
+                    2.0 * mu * reflected * f64::from(slant(mu as f32)).powi(power)
+                };
+                (high - low) * gauss(at)
+            })
+        };
+        let [all, slanting, squared] = slants(|_| 1.0);
+        let passed = Passed::of_sums([all - mean, slanting - weighted(1), squared - weighted(2)]);
         Self {
             values,
             azimuths,
             mean,
-            steep,
+            passed,
         }
     }
 
@@ -121,9 +129,9 @@ impl DirectionalAlbedo {
         self.mean
     }
 
-    /// `1/π ∫ (1 − E) µ² dω`.
-    pub(super) fn passed_steeply(&self) -> f32 {
-        2.0 / 3.0 - self.steep
+    /// What passes of light that is alike from all directions.
+    pub fn passed(&self) -> Passed {
+        self.passed
     }
 }
 
@@ -150,6 +158,28 @@ fn between(azimuths: &[f32], sin2: f32) -> (usize, f32) {
     let below = above.clamp(1, azimuths.len() - 1) - 1;
     let [low, high] = [azimuths[below], azimuths[below + 1]];
     (below, ((sin2 - low) / (high - low)).clamp(0.0, 1.0))
+}
+
+/// Mean over [0, 1], exact for polynomials of degree 5 (Gauss and Legendre).
+fn gauss(f: impl Fn(f64) -> f64) -> f64 {
+    let away = 0.5 * libm::sqrt(0.6);
+    (5.0 * (f(0.5 - away) + f(0.5 + away)) + 8.0 * f(0.5)) / 18.0
+}
+
+/// `∫ 2 w µ dµ`, `∫ 2 w x µ dµ` and `∫ 2 w x² µ dµ` of a weight by cosine.
+pub(super) fn slants(weight: impl Fn(f32) -> f32) -> [f32; 3] {
+    let steps = 400;
+    let mut sums = [0.0_f64; 3];
+    for step in 0..steps {
+        // Midpoints in √µ: µ = y², 2 µ dµ = 4 y³ dy.
+        let y = (step as f32 + 0.5) / steps as f32;
+        let (mu, x) = (y * y, slant(y * y));
+        let share = weight(mu) * 4.0 * y * y * y;
+        for (sum, factor) in sums.iter_mut().zip([1.0, x, x * x]) {
+            *sum += f64::from(share * factor) / f64::from(steps);
+        }
+    }
+    sums.map(|sum| sum as f32)
 }
 
 fn mu_of(node: f32) -> f32 {

@@ -9,6 +9,7 @@ use std::f32::consts::FRAC_1_PI;
 use optics::plate::layer_absorptance;
 
 use super::coat_table::{Bloom, CoatTable, LocalCoat};
+use super::leaf_shape::Passed;
 use crate::spectrum::Lanes;
 
 const NODES: usize = 24;
@@ -18,12 +19,12 @@ const MOST_TAU: f32 = 8.0;
 /// What dust of any thickness over a coat of any roughness lets pass, if its grains absorb nothing.
 #[derive(Clone, Debug)]
 pub struct DustTable {
-    /// `mean of (1 − E_d)(1 − E)` over diffuse light, for each optical thickness and then each
+    /// What passes by `(1 − E_d)(1 − E)` of diffuse light, for each optical thickness and then each
     /// roughness of the coat's table.
     ///
     /// It is convex in τ, so that linear interpolation never lies below it and a leaf under the dust
     /// never sends out more than comes in.
-    passed: Box<[Box<[f32]>]>,
+    passed: Box<[Box<[Passed]>]>,
 }
 
 /// Dust at one place.
@@ -32,8 +33,8 @@ pub struct LocalDust {
     tau: f32,
     /// Mean of `E_d` over diffuse light.
     pub sent_mean: f32,
-    /// Mean of `(1 − E_d)(1 − E)` with the coat's `E`.
-    pub passed_mean: f32,
+    /// What passes by `(1 − E_d)(1 − E)` with the coat's `E`.
+    pub passed: Passed,
 }
 
 /// `E_d`.
@@ -50,7 +51,7 @@ fn tau_of(node: usize) -> f32 {
 impl DustTable {
     /// The table over a coat under its bloom.
     pub fn new(table: &CoatTable, bloom: &Bloom) -> Self {
-        let row = |node: usize| table.passed_means(bloom, |mu| 1.0 - sent(tau_of(node), mu));
+        let row = |node: usize| table.passed(bloom, |mu| 1.0 - sent(tau_of(node), mu));
         Self {
             passed: (0..NODES).map(row).collect(),
         }
@@ -67,7 +68,7 @@ impl DustTable {
         LocalDust {
             tau,
             sent_mean: 0.5 * layer_absorptance(f64::from(tau)) as f32,
-            passed_mean: passed(node) * (1.0 - share) + passed(node + 1) * share,
+            passed: passed(node).towards(passed(node + 1), share),
         }
     }
 }

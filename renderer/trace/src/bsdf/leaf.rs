@@ -7,6 +7,9 @@ use std::f32::consts::FRAC_1_PI;
 use glam::{Vec2, Vec3};
 
 pub use crate::bsdf::coat::Coat;
+pub use crate::bsdf::leaf_shape::LeafShape;
+use crate::bsdf::leaf_shape::slant;
+use crate::bsdf::leaf_tissue::TissueView;
 pub use crate::bsdf::leaf_tissue::{Tissue, usual_abaxial_ratio};
 use crate::bsdf::sample::{BsdfSample, Scattered};
 use crate::sampling::warp;
@@ -17,6 +20,7 @@ use crate::spectrum::Lanes;
 pub struct LeafBsdf<'a, const N: usize> {
     /// Adaxial and abaxial.
     coats: &'a [Coat; 2],
+    shape: &'a LeafShape,
     tissue: Tissue<N>,
 }
 
@@ -29,12 +33,8 @@ pub struct LeafView<'a, const N: usize> {
     wo: Vec3,
     /// Λ of the coat for the view.
     lambda: f32,
-    /// `f` of reflected and of transmitted diffuse light, without the factor for the coat on the
-    /// side of `wi`.
-    reflecting: Lanes<N>,
-    through: Lanes<N>,
-    /// The same of light that is turned back at grazing angles instead of let through.
-    turned: Lanes<N>,
+    /// Without the factor for the coat on the side of `wi`.
+    tissue: TissueView<N>,
     /// Probabilities of the coat, of tissue reflection and of transmission.
     lobes: [f32; 3],
 }
@@ -46,13 +46,17 @@ fn above(w: Vec3) -> Vec3 {
 impl<'a, const N: usize> LeafBsdf<'a, N> {
     /// Tissue under the adaxial and the abaxial coat for which it was made.
     #[inline]
-    pub fn new(coats: &'a [Coat; 2], tissue: Tissue<N>) -> Self {
-        Self { coats, tissue }
+    pub fn new(coats: &'a [Coat; 2], shape: &'a LeafShape, tissue: Tissue<N>) -> Self {
+        Self {
+            coats,
+            shape,
+            tissue,
+        }
     }
 
-    /// Its adaxial and abaxial coat.
-    pub(super) fn coats(&self) -> &'a [Coat; 2] {
-        self.coats
+    /// How what it scatters depends on angle.
+    pub(super) fn shape(&self) -> &'a LeafShape {
+        self.shape
     }
 
     /// Its tissue.
@@ -74,15 +78,13 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
         let [coat, _] = coats;
         let albedo = coat.reflected(wo);
         let passed = 1.0 - albedo;
-        let reflectance = self.tissue.reflectance[side];
-        let transmittance = self.tissue.transmittance[side];
-        let turned = coat.turned(wo.z.abs());
-        let reflected = passed * (reflectance + transmittance * turned).mean();
-        let transmitted = passed * (1.0 - turned) * transmittance.mean();
+        let means = coats.map(Coat::passed);
+        let x = slant(wo.z.abs());
+        let tissue = self.tissue.seen(self.shape, side, means.each_ref(), x, 1.0);
+        let [reflected, transmitted] = tissue.shares.map(|share| passed * share.mean());
         let total = albedo + reflected + transmitted;
         let share = if total > 0.0 { 1.0 / total } else { 0.0 };
-        // c(A, B) is the same in both directions.
-        let through = self.tissue.transmittance[0] * (1.0 / self.coats[1].through_mean());
+        let factor = Lanes::splat(passed * FRAC_1_PI);
         LeafView {
             coats,
             wo,
@@ -91,9 +93,7 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
             } else {
                 0.0
             },
-            reflecting: reflectance * (passed * FRAC_1_PI / coat.passed_mean()),
-            through: through * (passed * (1.0 - turned) * FRAC_1_PI),
-            turned: transmittance * (passed * turned * coat.over_turned_mean() * FRAC_1_PI),
+            tissue: tissue.scaled(factor, factor),
             lobes: [albedo, reflected, transmitted].map(|lobe| lobe * share),
         }
     }
@@ -118,9 +118,10 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
     /// side.
     pub fn albedo(&self, wo: Vec3) -> Lanes<N> {
         let side = usize::from(wo.z < 0.0);
-        let coat = self.coats[side].albedo.mean();
-        (self.tissue.reflectance[side] + self.tissue.transmittance[side]) * (1.0 - coat)
-            + Lanes::splat(coat)
+        let coat = &self.coats[side];
+        let passed = coat.passed();
+        self.tissue.diffuse(self.shape, side, &passed) * passed.mean
+            + Lanes::splat(coat.albedo.mean())
     }
 }
 
@@ -135,14 +136,15 @@ impl<const N: usize> LeafView<'_, N> {
         let [shining, reflected, transmitted] = self.lobes;
         let mu = wi.z.abs();
         let cosine = mu * FRAC_1_PI;
+        let (x, across) = (slant(mu), -self.wo.truncate().dot(wi.truncate()));
         if self.wo.z * wi.z < 0.0 {
             return Scattered {
-                f: self.through * ((1.0 - other.reflected(wi)) * (1.0 - other.turned(mu))),
+                f: self.tissue.let_through(x, across) * (1.0 - other.reflected(wi)),
                 pdf: transmitted * cosine,
             };
         }
         let diffuse = Scattered {
-            f: (self.reflecting + self.turned * coat.turned(mu)) * (1.0 - coat.reflected(wi)),
+            f: self.tissue.sent_back(x, across) * (1.0 - coat.reflected(wi)),
             pdf: reflected * cosine,
         };
         if !coat.shines() {

@@ -66,7 +66,7 @@ fn metal_mean<const N: usize>(colour: Lanes<N>) -> Lanes<N> {
 /// of it does where nothing is absorbed.
 fn leaving_later<const N: usize>(colour: Lanes<N>, mirror: &LocalCoat<'_>) -> Lanes<N> {
     let mean = metal_mean(colour);
-    let held = mirror.passed_mean();
+    let held = mirror.passed().mean;
     mean * mean * (1.0 - held) / (Lanes::ONE - mean * held)
 }
 
@@ -82,7 +82,7 @@ impl<'a, const N: usize> MetallicRoughness<'a, N> {
 
     /// Fraction of diffuse light that it reflects.
     pub fn albedo(&self) -> Lanes<N> {
-        let [passed, held] = [&self.coat, &self.mirror].map(LocalCoat::passed_mean);
+        let [passed, held] = [&self.coat, &self.mirror].map(|coat| coat.passed().mean);
         let body = self.colour * passed + Lanes::splat(1.0 - passed);
         let at_once = metal_mean(self.colour) * (1.0 - held);
         let metal = at_once + leaving_later(self.colour, &self.mirror) * held;
@@ -109,8 +109,8 @@ impl<'a, const N: usize> MetallicRoughness<'a, N> {
         let factor = given_back(frame.normal.z) * FRAC_1_PI;
         Some(MetallicView {
             lambda: self.coat.ggx.lambda(outward),
-            body: body * (factor / self.coat.passed_mean()),
-            again: again * (factor / self.mirror.passed_mean()),
+            body: body * (factor / self.coat.passed().mean),
+            again: again * (factor / self.mirror.passed().mean),
             shining: if total > 0.0 { shining / total } else { 0.0 },
             surface: self.clone(),
             wo,

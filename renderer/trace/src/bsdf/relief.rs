@@ -9,10 +9,11 @@ use std::f32::consts::FRAC_1_PI;
 
 use glam::{Vec2, Vec3};
 
-use super::coat::Coat;
 use super::coat_table::LocalCoat;
-use super::dust::{LocalDust, between};
+use super::dust::LocalDust;
 use super::leaf::LeafBsdf;
+use super::leaf_shape::{Passed, slant};
+use super::leaf_tissue::TissueView;
 use super::sample::{BsdfSample, Scattered};
 use crate::sampling::warp;
 use crate::spectrum::Lanes;
@@ -57,8 +58,6 @@ pub struct ReliefView<'a, const N: usize> {
     /// Normal of the other face.
     other: Vec3,
     coats: [LocalCoat<'a>; 2],
-    /// The coats of the leaf without relief, which say what is turned back at grazing angles.
-    plain: [&'a Coat; 2],
     /// Dust of the side of the view, and of the other.
     dusts: [Option<LocalDust>; 2],
     grains: Lanes<N>,
@@ -67,17 +66,17 @@ pub struct ReliefView<'a, const N: usize> {
     lambda: f32,
     /// What the bloom sends back of light from `wo`.
     sent_back: f32,
-    reflecting: Lanes<N>,
-    through: Lanes<N>,
-    turned: Lanes<N>,
+    /// With bloom, dust and what the horizon takes, but for the side of `wi`.
+    tissue: TissueView<N>,
     lobes: [f32; 3],
 }
 
 impl ReliefFace<'_> {
     /// What a face passes of diffuse light from within, once it has left the tissue for good.
-    fn passed_mean(&self) -> f32 {
-        self.dust.map_or(self.coat.passed_mean(), |dust| {
-            dust.passed_mean / (1.0 - dust.sent_mean)
+    fn passed(&self) -> Passed {
+        self.dust.map_or(self.coat.passed(), |dust| Passed {
+            mean: dust.passed.mean / (1.0 - dust.sent_mean),
+            ..dust.passed
         })
     }
 }
@@ -182,53 +181,36 @@ impl<'a, const N: usize> ReliefBsdf<'a, N> {
         let dusted =
             |dust: Option<LocalDust>| dust.map_or(Lanes::ZERO, |dust| grains * dust.sent_mean);
         let onward = onward(own.dust, grains, outward.z);
-        let [to_own, to_other] = [own, other].map(ReliefFace::passed_mean);
-        // The part of it that is not turned back is taken for that of the leaf without relief.
-        let coats = self.leaf.coats();
-        let plain = [&coats[side], &coats[1 - side]];
-        let kept = plain.map(|coat| coat.through_mean() / coat.passed_mean());
-        let [from_own, from_other] = [to_own * kept[0], to_other * kept[1]];
-        let tissue = self.leaf.tissue();
-        let (own_reflectance, t) = tissue.seen(side);
-        let (other_reflectance, _) = tissue.seen(1 - side);
-        let r = [own_reflectance, other_reflectance];
-        let (reflectance, [t_own, t_other]) = between(r, t, dusts.map(dusted));
-        // The coats differ from those for which the tissue was made. The lesser of the two keeps
-        // light from either side within bounds, and both directions alike.
-        let mut through = t_own;
-        for lane in 0..N {
-            through.0[lane] = (t_own.0[lane] / from_other).min(t_other.0[lane] / from_own);
+        let means = [own, other].map(ReliefFace::passed);
+        let mut sent = dusts.map(dusted);
+        if side == 1 {
+            sent.reverse();
         }
+        // The coats differ from those for which the tissue was made.
+        let tissue = self.leaf.tissue().between(sent);
+        let (shape, x) = (self.leaf.shape(), slant(outward.z));
+        let leaving = other.dust.map_or(1.0, |dust| 1.0 - dust.sent_mean);
+        let tissue = tissue.seen(shape, side, means.each_ref(), x, leaving);
         // Bloom and dust are sampled as the tissue is.
         let missed = own.dust.map_or(1.0, |dust| dust.missed(outward.z));
         let shining = (albedo - sent_back) * missed * missed;
         let grainy = own
             .dust
             .map_or(0.0, |dust| grains.mean() * dust.sent(outward.z));
-        let turned = plain[0].turned(outward.z);
-        let crossing = passed * (through * onward).mean() * from_other;
-        let reflected =
-            passed * (reflectance * onward).mean() + crossing * turned + sent_back + grainy;
-        let transmitted = crossing * (1.0 - turned);
+        let [back, on] = tissue.shares.map(|share| passed * (share * onward).mean());
+        let (reflected, transmitted) = (back + sent_back + grainy, on);
         let total = shining + reflected + transmitted;
         let share = if total > 0.0 { 1.0 / total } else { 0.0 };
         let other_normal = normal_of(other.slope);
-        let back = [frame.normal.z, other_normal.z].map(given_back);
+        let factors = [frame.normal.z, other_normal.z]
+            .map(|cosine| onward * (passed * FRAC_1_PI * given_back(cosine)));
         Some(ReliefView {
             wo,
             outward,
             frame,
             other: other_normal,
             lambda: own.coat.ggx.lambda(outward),
-            reflecting: reflectance * onward * (passed * FRAC_1_PI * back[0] / to_own),
-            through: through * onward * (passed * (1.0 - turned) * FRAC_1_PI * back[1]),
-            turned: if turned > 0.0 {
-                let mean = (to_own - from_own) / from_other;
-                through * onward * (passed * turned * FRAC_1_PI * back[0] / mean)
-            } else {
-                Lanes::ZERO
-            },
-            plain,
+            tissue: tissue.scaled(factors[0], factors[1]),
             dusts,
             grains,
             onward,
@@ -264,17 +246,18 @@ impl<const N: usize> ReliefView<'_, N> {
         let mu = local.z.abs();
         if through {
             let onward = onward(self.dusts[1], self.grains, mu);
+            let across = -self.wo.truncate().dot(wi.truncate());
             return Scattered {
-                f: self.through
+                f: self.tissue.let_through(slant(mu), across)
                     * onward
-                    * ((1.0 - other.reflected(mu)) * (1.0 - self.plain[1].turned(mu)) * tilted),
+                    * ((1.0 - other.reflected(mu)) * tilted),
                 pdf: transmitted * cosine,
             };
         }
         let sent_back = coat.sent_back(mu);
         let bloom = coat.bloom(self.sent_back, sent_back);
-        let turned = self.turned * self.plain[0].turned(mu);
-        let below = (self.reflecting + turned) * (1.0 - coat.reflected(mu));
+        let across = -self.outward.truncate().dot(local.truncate());
+        let below = self.tissue.sent_back(slant(mu), across) * (1.0 - coat.reflected(mu));
         let mut f = (below + self.onward * bloom) * tilted;
         let mut missed = 1.0;
         if let Some(dust) = &self.dusts[0] {

@@ -5,7 +5,7 @@ pub mod fluorescence;
 use glam::Vec2;
 use optics::ProspectD;
 
-use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue, usual_abaxial_ratio};
+use crate::bsdf::leaf::{Coat, LeafBsdf, LeafShape, Tissue, usual_abaxial_ratio};
 use crate::material::contents_texture::{Around, ContentsTexture};
 use crate::material::held::Held;
 use crate::material::leaf_layers::LeafLayers;
@@ -26,6 +26,8 @@ pub struct LeafMaterial {
     abaxial: Option<Abaxial>,
     /// Adaxial and abaxial coat.
     coats: [Coat; 2],
+    /// How what it scatters depends on angle.
+    shape: LeafShape,
     /// The tissue's optics, tabulated, if the leaf is uniform.
     uniform: Option<Table>,
     /// How far light that it lets through spreads sideways; not used without a map of contents.
@@ -57,6 +59,7 @@ struct Half {
     face: usize,
     /// Its own and none.
     coats: [Coat; 2],
+    shape: LeafShape,
 }
 
 /// The tissue of a leaf, which determines its reflectance and transmittance.
@@ -109,11 +112,13 @@ impl LeafMaterial {
         Self {
             palette,
             abaxial,
-            coats: match &tissue {
-                // Of other leaves nothing says how much light from below they let through.
-                LeafTissue::Held(_) => coats,
-                LeafTissue::Measured { .. } => Coat::pair(coats),
+            shape: match &tissue {
+                // Leaves of canopy models have no coats, and scatter as Lambert's law says.
+                _ if !coats.iter().any(Coat::shines) => LeafShape::EVEN,
+                LeafTissue::Held(held) => LeafShape::of(&held.mean()),
+                LeafTissue::Measured { .. } => LeafShape::measured(),
             },
+            coats,
             tissue,
             uniform: None,
             spread: None,
@@ -173,7 +178,8 @@ impl LeafMaterial {
         debug_assert!(self.relief.is_none(), "a relief is added to the half");
         let mut coats = self.coats.clone();
         coats[1 - face] = Coat::none();
-        self.half = Some(Half { face, coats });
+        let shape = self.shape.cut(1 - face);
+        self.half = Some(Half { face, coats, shape });
         self
     }
 
@@ -280,7 +286,8 @@ impl LeafMaterial {
             .as_ref()
             .and_then(|table| table.row(wavelengths));
         let tissue = row.map_or_else(|| self.tissue_of(site, wavelengths), Tissue::from_lanes);
-        LeafBsdf::new(self.outer_coats(), tissue)
+        let shape = self.half.as_ref().map_or(&self.shape, |half| &half.shape);
+        LeafBsdf::new(self.outer_coats(), shape, tissue)
     }
 
     pub(super) fn tissue_at<const N: usize>(
@@ -397,7 +404,12 @@ impl<const N: usize> Task for TissueAt<'_, N> {
         let below = abaxial(known, [reflectance, transmittance], |known| {
             known.lanes(wavelengths)
         });
-        let mut tissue = Tissue::of_faces(&leaf.coats, [reflectance, below], transmittance);
+        let mut tissue = Tissue::of_faces(
+            &leaf.coats,
+            &leaf.shape,
+            [reflectance, below],
+            transmittance,
+        );
         if let Some(through) = through {
             tissue = tissue.passing(&leaf.coats, through);
         }

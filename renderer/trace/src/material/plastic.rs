@@ -6,7 +6,7 @@
 
 use super::leaf::Site;
 use super::reflectance::Reflectance;
-use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue};
+use crate::bsdf::leaf::{Coat, LeafBsdf, LeafShape, Tissue};
 use crate::spectrum::{WavelengthGrid, Wavelengths};
 
 /// A body below a coat.
@@ -44,6 +44,6 @@ impl PlasticMaterial {
         wavelengths: &Wavelengths<N>,
     ) -> LeafBsdf<'_, N> {
         let reflectance = self.reflectance.at(site, wavelengths);
-        LeafBsdf::new(&self.coats, Tissue::opaque(reflectance))
+        LeafBsdf::new(&self.coats, &LeafShape::EVEN, Tissue::opaque(reflectance))
     }
 }

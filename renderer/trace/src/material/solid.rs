@@ -9,7 +9,7 @@ use glam::Vec2;
 use optics::ProspectD;
 use optics::solid::{ReflectanceTable, Solid};
 
-use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue};
+use crate::bsdf::leaf::{Coat, LeafBsdf, LeafShape, Tissue};
 use crate::material::held::Held;
 use crate::material::palette::{Palette, coarse};
 use crate::spectrum::{Lanes, Table, WavelengthGrid, Wavelengths};
@@ -104,13 +104,19 @@ impl SolidMaterial {
             .as_ref()
             .and_then(|table| table.row(wavelengths));
         let tissue = row.map_or_else(|| self.tissue_at(uv, wavelengths), Tissue::from_lanes);
-        LeafBsdf::new(&self.coats, tissue)
+        LeafBsdf::new(&self.coats, &LeafShape::EVEN, tissue)
     }
 
     fn tissue_at<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Tissue<N> {
         let contents = self.held.at(uv);
         let absorption = self.palette.lanes(wavelengths).absorption(&contents);
         let reflectance = absorption.map(|absorbed| self.reflectance(f64::from(absorbed)) as f32);
-        Tissue::new(&self.coats, Lanes(reflectance), Lanes::ZERO, Lanes::ONE)
+        Tissue::new(
+            &self.coats,
+            &LeafShape::EVEN,
+            Lanes(reflectance),
+            Lanes::ZERO,
+            Lanes::ONE,
+        )
     }
 }

@@ -3,7 +3,7 @@ use std::f32::consts::{PI, TAU};
 use super::*;
 use crate::bsdf::coat_table::{Bloom, CoatTable};
 use crate::bsdf::dust::DustTable;
-use crate::bsdf::leaf::{Coat, Tissue, usual_abaxial_ratio};
+use crate::bsdf::leaf::{Coat, LeafShape, Tissue, usual_abaxial_ratio};
 use crate::spectrum::{Curve, library};
 
 const ALPHA: f32 = 0.3;
@@ -17,11 +17,16 @@ fn with_leaf<T>(
 ) -> T {
     let coats = [Coat::new(eta, ALPHA, ALPHA), Coat::new(eta, 0.45, 0.45)];
     let [r, t] = [Lanes([r]), Lanes([t])];
-    let tissue = Tissue::new(&coats, r, t, usual_abaxial_ratio(r, t));
+    let shape = if eta == 1.0 {
+        LeafShape::EVEN
+    } else {
+        LeafShape::measured()
+    };
+    let tissue = Tissue::new(&coats, &shape, r, t, usual_abaxial_ratio(r, t));
     let table = CoatTable::of(eta);
     let bloom = Bloom::new(tau, &table);
     then(&ReliefBsdf {
-        leaf: LeafBsdf::new(&coats, tissue),
+        leaf: LeafBsdf::new(&coats, &shape, tissue),
         faces: slopes.map(|slope| ReliefFace {
             slope,
             coat: table.coat(eta, [alpha; 2], &bloom),
@@ -150,8 +155,9 @@ fn samples_have_the_density_and_the_value_that_they_say() {
 #[test]
 fn a_level_face_is_the_plain_leaf() {
     let coats = [Coat::new(1.45, ALPHA, ALPHA), Coat::new(1.45, 0.45, 0.45)];
-    let tissue = Tissue::new(&coats, Lanes([0.1]), Lanes([0.08]), Lanes([1.5]));
-    let plain = LeafBsdf::new(&coats, tissue);
+    let shape = LeafShape::measured();
+    let tissue = Tissue::new(&coats, &shape, Lanes([0.1]), Lanes([0.08]), Lanes([1.5]));
+    let plain = LeafBsdf::new(&coats, &shape, tissue);
     let table = CoatTable::of(1.45);
     let bloom = Bloom::new(0.0, &table);
     let bsdf = ReliefBsdf {

@@ -104,8 +104,7 @@ impl LeafMaterial {
                 }
             }
         }
-        let tissue = self.tissue_at(uv, wavelengths).to_lanes();
-        let [r_a, r_b, t_ab, t_ba] = tissue;
+        let [r_a, r_b, t_ab, t_ba, ..] = self.tissue_at(uv, wavelengths).to_lanes();
         let absorbed = [(r_a, t_ab), (r_b, t_ba)].map(|(r, t)| {
             let rest = Lanes::ONE - r - t;
             Lanes(rest.0.map(|rest| rest.max(0.0)))
