@@ -22,5 +22,6 @@ mod random_plans;
 mod reported_errors;
 mod scattering;
 mod sensitivities;
+mod sensors;
 mod solid_tissue;
 mod white_balance;

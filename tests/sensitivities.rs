@@ -59,7 +59,7 @@ fn seen(text: &str, folder: &Path) -> (Picture, Observer) {
     let picture = develop(&caption, &job, &rendered.expect("a small film"));
     let observer = match scene.film.kind {
         FilmKind::Rgb { observer, .. } => observer,
-        FilmKind::Spectral { .. } => panic!("a film of colour"),
+        FilmKind::Spectral { .. } | FilmKind::Sensor(_) => panic!("a film of colour"),
     };
     (picture, observer)
 }

@@ -18,6 +18,7 @@ this package.
 """
 
 from lamina.checking import Problem, check
+from lamina.envi import to_envi
 from lamina.grown import Grown, frames, grow
 from lamina.measured import instruments, read_figures, to_netcdf
 from lamina.parts import render_in_parts
@@ -44,6 +45,7 @@ __all__ = [
     "render_in_parts",
     "run",
     "sweep",
+    "to_envi",
     "to_netcdf",
     "version",
 ]

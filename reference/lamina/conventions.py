@@ -11,6 +11,17 @@ WAVELENGTH = {
     "standard_name": "radiation_wavelength",
     "long_name": "wavelength in a vacuum",
 }
+BANDS = {
+    "band_name": {
+        "standard_name": "sensor_band_identifier",
+        "long_name": "name of the band",
+    },
+    "band_width": {
+        "units": "nm",
+        "standard_name": "sensor_band_spectral_width",
+        "long_name": "full width of the band, of a curve at half of its maximum",
+    },
+}
 PIXELS = {
     "y": {"units": "1", "long_name": "row of pixels, from the top"},
     "x": {"units": "1", "long_name": "column of pixels, from the left"},

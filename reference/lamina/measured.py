@@ -15,6 +15,7 @@ import xarray as xr
 
 from lamina.extras import require
 from lamina.program import Folders, LaminaError, Value, allowing, overrides, run
+from lamina.rendered import read
 
 Row = dict[str, object]
 
@@ -191,13 +192,14 @@ def dataset(rows: list[Row], about: Mapping[str, object]) -> xr.Dataset:
 
 
 def main() -> None:
-    """`lamina-netcdf`: a table of `lamina instruments` as NetCDF."""
+    """`lamina-netcdf`: a table of `lamina instruments`, or a picture, as NetCDF."""
     parser = argparse.ArgumentParser(
         prog="lamina-netcdf",
-        description="Writes figures of `lamina instruments` as NetCDF, units as attributes. Of a "
-        "table of several instruments, each goes to a file STEM-NAME.nc.",
+        description="Writes figures of `lamina instruments`, or a picture of `lamina render`, as "
+        "NetCDF by the CF conventions. Of a table of several instruments, each goes to a file "
+        "STEM-NAME.nc.",
     )
-    parser.add_argument("figures", type=Path, help="file of `lamina instruments`, .json or .csv")
+    parser.add_argument("figures", type=Path, help="file of `lamina instruments`, .json or .csv, or .exr")
     parser.add_argument("--out", type=Path, required=True, help="file to write, .nc")
     parser.add_argument("--only", action="append", help="this instrument only")
     given = parser.parse_args()
@@ -213,10 +215,14 @@ def to_netcdf(
 ) -> list[Path]:
     """Writes a table of `lamina instruments` as NetCDF and gives the files that are written.
 
-    One instrument goes to `out`, each of several to a file `STEM-NAME.nc`. Raises ValueError for
-    an instrument that is not there.
+    One instrument goes to `out`, each of several to a file `STEM-NAME.nc`. A picture, a file with
+    the ending `.exr`, goes to `out` with all that `read` gives. Raises ValueError for an instrument
+    that is not there.
     """
     require("netcdf", "NetCDF")
+    if Path(figures).suffix == ".exr":
+        read(figures).to_netcdf(out)
+        return [Path(out)]
     found = read_figures(figures)
     chosen = list(only) if only else list(found)
     for name in chosen:

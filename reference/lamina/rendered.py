@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tempfile
+import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import numpy as np
 import OpenImageIO as oiio
 import xarray as xr
 
-from lamina.conventions import PIXELS, WAVELENGTH, about, without_fill_values
+from lamina.conventions import BANDS, PIXELS, WAVELENGTH, about, without_fill_values
 from lamina.program import Folders, Value, allowing, overrides, run
 
 # Spectral EXR layout of Fichet, Pacanowski and Wilkie (JCGT 10:3, 2021): emissive, unpolarised; the
@@ -82,7 +83,8 @@ def read(file: str | Path) -> xr.Dataset:
 
     Dimensions are `y` and `x` (pixels, from the top left corner), and `wavelength` (nm) for a
     spectral film, `channel` (R, G, B) for a colour film, `axis` (X, Y, Z) for places and
-    directions. `radiance` and `radiance_variance`, or `colour` and `colour_variance`: means over
+    directions. Along `wavelength` lie the full widths of the bands in nm, `band_width`, and a
+    sensor's names of them, `band_name`. `radiance` and `radiance_variance`, or `colour` and `colour_variance`: means over
     samples and the variances of those means, by batches of samples; `luminance_variance`:
     that of the mean luminance (of a spectral film, of the mean over bands), with what their even
     spread gains; then `coverage`, `depth`, `normal`, `position`,
@@ -153,4 +155,22 @@ def read(file: str | Path) -> xr.Dataset:
         },
         attrs={**about(name, software, made), "software": software, **told},
     )
+    if "wavelength" in picture.dims:
+        picture = picture.assign_coords(bands_of(picture))
     return without_fill_values(picture)
+
+
+def bands_of(picture: xr.Dataset) -> dict[str, tuple[str, object, dict[str, str]]]:
+    """Coordinates along the wavelengths: full widths of the bands, and a sensor's names of them."""
+    if "bands" in picture.attrs:
+        # A name may have spaces.
+        rows = [line.rsplit(" ", 2) for line in str(picture.attrs["bands"]).splitlines()]
+        rows.sort(key=lambda row: float(row[1]))
+        names, _, widths = zip(*rows, strict=True)
+        return {
+            "band_name": ("wavelength", np.array(names), BANDS["band_name"]),
+            "band_width": ("wavelength", np.array(widths, dtype=float), BANDS["band_width"]),
+        }
+    film = tomllib.loads(str(picture.attrs.get("scene", ""))).get("film", {}).get("spectral", {})
+    widths = np.full(picture.sizes["wavelength"], float(film.get("band_width_nm", 10)))
+    return {"band_width": ("wavelength", widths, BANDS["band_width"])}

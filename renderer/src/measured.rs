@@ -24,7 +24,8 @@ pub mod known;
 mod leaf;
 mod masks;
 mod misnomers;
-pub mod sensitivities;
+pub mod responses;
+
 pub mod series;
 pub mod spectra;
 pub mod units;

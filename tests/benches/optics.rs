@@ -60,7 +60,7 @@ fn optics(criterion: &mut Criterion) {
 fn drawn<const N: usize>(film: &FilmKind) -> (Wavelengths<N>, Palette) {
     let sampler = WavelengthSampler::new(film);
     let palette = Palettes::on(sampler.grid()).of(&Pigments::default());
-    (sampler.draw(0.3), palette)
+    (sampler.draw(0.3, 0), palette)
 }
 
 fn each<const N: usize>(palette: &Palette, wavelengths: &Wavelengths<N>, leaves: &[Texel]) {

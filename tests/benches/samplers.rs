@@ -47,7 +47,7 @@ fn sampling(criterion: &mut Criterion) {
     group.bench_function("wavelengths", |bencher| {
         bencher.iter(|| {
             for [u, ..] in black_box(&numbers) {
-                black_box(colour.draw::<8>(*u));
+                black_box(colour.draw::<8>(*u, 0));
             }
         });
     });

@@ -8,7 +8,7 @@ use crate::codec;
 use crate::integrator::caption::Caption;
 use crate::integrator::effort::Effort;
 use crate::integrator::render::{Begun, Job};
-use crate::spectrum::recorded::{Band, FilmKind};
+use crate::spectrum::recorded::{Band, FilmKind, MOST_BANDS};
 
 /// The version of the program, without which bits are not promised.
 pub const PROGRAM: &str = env!("CARGO_PKG_VERSION");
@@ -122,8 +122,9 @@ impl Heading {
             FilmKind::Spectral { bands } => {
                 let is_finite =
                     |band: &Band| band.center_nm.is_finite() && band.width_nm.is_finite();
-                (1..=32).contains(&bands.len()) && bands.iter().all(is_finite)
+                (1..=MOST_BANDS).contains(&bands.len()) && bands.iter().all(is_finite)
             }
+            FilmKind::Sensor(sensor) => sensor.bands().len() <= MOST_BANDS,
         };
         (is_sound && has_bands).then_some((heading, progress))
     }

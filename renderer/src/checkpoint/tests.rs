@@ -163,7 +163,7 @@ fn the_film_and_the_lights_are_reported_as_they_were() {
     assert_eq!(kept.picture, own.picture);
     let observer = |kind: &FilmKind| match kind {
         FilmKind::Rgb { observer, .. } => observer.clone(),
-        FilmKind::Spectral { .. } => panic!("a film of colour"),
+        FilmKind::Spectral { .. } | FilmKind::Sensor(_) => panic!("a film of colour"),
     };
     assert_eq!(observer(&kept.kind), observer(&own.kind));
     assert_eq!(observer(&kept.kind).name(), "sony-a7r-iii");

@@ -10,7 +10,7 @@ use crate::integrator::caption::Caption;
 use crate::integrator::features::Quantity;
 use crate::integrator::layers::{FilmLayer, Layout, Source};
 use crate::integrator::render::{Job, Rendered};
-use crate::scene::description::FilmKind;
+use crate::scene::description::{Band, FilmKind};
 use crate::scene::fingerprint::fnv1a;
 use crate::spectrum::WavelengthSampler;
 use crate::spectrum::observer::Observer;
@@ -189,6 +189,21 @@ fn attributes(caption: &Caption, job: &Job, rendered: &Rendered) -> Vec<(String,
         }
         FilmKind::Spectral { .. } => {
             attributes.extend(spectral_attributes());
+        }
+        FilmKind::Sensor(sensor) => {
+            let bands = sensor.bands().iter().zip(sensor.boxes());
+            let lines = bands.map(
+                |(
+                    band,
+                    Band {
+                        center_nm,
+                        width_nm,
+                    },
+                )| { format!("{} {center_nm:.6} {width_nm:.3}", band.name()) },
+            );
+            attributes.extend(spectral_attributes());
+            attributes.push(text("lamina:sensor", sensor.about().to_owned()));
+            attributes.push(text("lamina:bands", lines.collect::<Vec<_>>().join("\n")));
         }
     }
     attributes

@@ -28,6 +28,7 @@ pub mod observer;
 pub mod planck;
 pub mod recorded;
 pub mod rgb;
+pub mod sensor;
 pub mod table;
 pub mod tabulated;
 pub mod wavelengths;

@@ -5,6 +5,7 @@ use crate::camera::view::{Projection, View};
 use crate::plugin::element::Element;
 use crate::plugin::{UNITS_PER_METRE, look_at};
 use crate::scene::description::{Band, Description, FilmKind};
+use crate::spectrum::sensor::Response;
 
 /// Number of intervals of a band's response.
 const RESPONSE_INTERVALS: usize = 64;
@@ -30,10 +31,11 @@ pub(super) fn foreign_key(view: &View) -> Option<&'static str> {
     foreign.next().filter(|_| *radius > 0.0).map(|(key, _)| key)
 }
 
-/// The bands of the film; a colour film is exported as one band over its range.
+/// The middles and widths of the film's bands; a colour film is exported as one band over its range.
 pub(super) fn bands(scene: &Description) -> Vec<Band> {
     match &scene.film.kind {
         FilmKind::Spectral { bands } => bands.clone(),
+        FilmKind::Sensor(sensor) => sensor.boxes(),
         FilmKind::Rgb { range_nm, .. } => vec![Band {
             center_nm: 0.5 * (range_nm[0] + range_nm[1]),
             width_nm: range_nm[1] - range_nm[0],
@@ -72,14 +74,18 @@ pub(super) fn sensor(scene: &Description, view: &View) -> Element {
         }
     };
     let sampler = Element::plugin("sampler", "independent");
-    let bands = bands(scene);
-    let bands = bands.iter().enumerate();
+    let responses: Vec<Element> = match &scene.film.kind {
+        FilmKind::Sensor(sensor) => (0..).zip(sensor.bands()).map(curve).collect(),
+        FilmKind::Spectral { .. } | FilmKind::Rgb { .. } => {
+            (0..).zip(&bands(scene)).map(response).collect()
+        }
+    };
     let film = Element::plugin("film", "specfilm")
         .integer("width", scene.film.width)
         .integer("height", scene.film.height)
         .string("component_format", "float32")
         .holding(Element::plugin("rfilter", "box"))
-        .holding_all(bands.map(|(number, band)| response(number, band)));
+        .holding_all(responses);
     sensor
         .float("near_clip", 0.1)
         .parameter("float", "far_clip", "1e9")
@@ -92,14 +98,38 @@ pub(super) fn sensor(scene: &Description, view: &View) -> Element {
 ///
 /// The film draws wavelengths from the sum of all responses, resampled at the finest spacing of any
 /// of them. With only two points, a narrow band could fall between the points of that resampling.
-fn response(number: usize, band: &Band) -> Element {
+fn response((number, band): (usize, &Band)) -> Element {
     let width = if band.width_nm > 0.0 {
         band.width_nm
     } else {
         SINGLE_WAVELENGTH_NM
     };
     let (low, high) = (band.center_nm - 0.5 * width, band.center_nm + 0.5 * width);
-    let values = vec![(1.0 / width).to_string(); RESPONSE_INTERVALS + 1].join(", ");
+    regular(
+        number,
+        [low, high],
+        vec![1.0 / width; RESPONSE_INTERVALS + 1],
+    )
+}
+
+/// As [`response`], of a sensor's band: its curve at the middle of each of 1024 parts.
+fn curve((number, band): (usize, &Response)) -> Element {
+    const PARTS: usize = 1024;
+    let [low, high] = band.range_nm();
+    let width = (high - low) / PARTS as f64;
+    let values = (0..PARTS).map(|part| band.at(low + (part as f64 + 0.5) * width));
+    let values: Vec<f64> = values.collect();
+    // The area that Mitsuba's lines between the values have.
+    let ends = 0.5 * (values[0] + values[PARTS - 1]);
+    let area = width * (values.iter().sum::<f64>() - ends);
+    let values = values.into_iter().map(|value| value / area).collect();
+    regular(number, [low + 0.5 * width, high - 0.5 * width], values)
+}
+
+/// The response of a band by values at even steps of wavelength, nm.
+fn regular(number: usize, [low, high]: [f64; 2], values: Vec<f64>) -> Element {
+    let values: Vec<String> = values.iter().map(ToString::to_string).collect();
+    let values = values.join(", ");
     Element::plugin("spectrum", "regular")
         .with("name", format!("band_{number:02}"))
         .float("wavelength_min", low)
@@ -204,17 +234,33 @@ radiance_w_m2_sr_nm = 1
 
     #[test]
     fn a_response_has_area_one() {
-        let text = response(
+        let text = response((
             3,
             &Band {
                 center_nm: 550.0,
                 width_nm: 10.0,
             },
-        )
+        ))
         .to_string();
         assert!(text.contains("name=\"band_03\""));
         assert!(text.contains("\"wavelength_min\" value=\"545\""));
         assert!(text.contains("\"wavelength_max\" value=\"555\""));
         assert_eq!(text.matches("0.1").count(), RESPONSE_INTERVALS + 1);
+        let sensor =
+            crate::spectrum::sensor::Sensor::by_name("sentinel-2a").expect("it is shipped");
+        for band in sensor.bands() {
+            let text = curve((0, band)).to_string();
+            let [low, high] = ["_min\" value=\"", "_max\" value=\""].map(|key| number(&text, key));
+            let values = text
+                .split("\"values\" value=\"")
+                .nth(1)
+                .expect("there are values");
+            let values = values.split('"').next().expect("they end").split(", ");
+            let values: Vec<f64> = values.map(|value| value.parse().expect(value)).collect();
+            let step = (high - low) / (values.len() - 1) as f64;
+            let pairs = values.windows(2);
+            let area: f64 = pairs.map(|pair| 0.5 * step * (pair[0] + pair[1])).sum();
+            assert!((area - 1.0).abs() < 1e-9, "{area}");
+        }
     }
 }

@@ -1,6 +1,10 @@
 //! `[film.rgb]` and `[film.spectral]`.
 
+mod named;
 mod sensitivities;
+mod sensor;
+
+use std::sync::Arc;
 
 use leafmodel::document::context::Context;
 use leafmodel::document::declared::Declared;
@@ -13,17 +17,17 @@ use leafmodel::document::tree::{Node, Value};
 use leafmodel::document::value_kind::{Kind, Number};
 use leafmodel::document::values::{integers_at, list, number, numbers_at};
 
+use self::named::NameOrFile;
 use self::sensitivities::{LEAST_SHARE, Sensitivities};
 use crate::film::MOST_SAMPLES;
 use crate::spectrum::cie;
 use crate::spectrum::observer::Observer;
-use crate::spectrum::recorded::{Band, FilmKind};
+use crate::spectrum::recorded::{Band, FilmKind, MOST_BANDS};
 
 /// Range of wavelengths of the renderer, nm.
 pub(in crate::scene) const WAVELENGTHS_NM: Limits = Limits::closed(360.0, 2500.0);
 /// Most pixels along one side; both sides at most give 2^28 pixels.
 const MOST_PIXELS: u64 = 16384;
-const MOST_BANDS: usize = 32;
 
 /// What is recorded, and how well.
 #[derive(Clone, Debug, Declared)]
@@ -73,7 +77,7 @@ const KINDS: [Variant<Film>; 2] = [
                 let kind = Sensitivities {
                     range_nm: *range_nm,
                 };
-                keys.key("sensitivities", observer, kind, about);
+                keys.key("sensitivities", observer, NameOrFile(kind), about);
                 warn_of_unseen(*range_nm, observer, keys);
             }
             set_range(film, keys);
@@ -87,18 +91,10 @@ const KINDS: [Variant<Film>; 2] = [
             kind: FilmKind::Spectral { bands: Vec::new() },
             ..Film::usual()
         },
-        is: |film| matches!(film.kind, FilmKind::Spectral { .. }),
+        is: |film| matches!(film.kind, FilmKind::Spectral { .. } | FilmKind::Sensor(_)),
         declare: |film, keys| {
             film.declare(keys);
-            if let FilmKind::Spectral { bands } = &mut film.kind {
-                let mut width_nm = bands.first().map_or(10.0, |band| band.width_nm);
-                let limits = Number(Limits::closed(0.0, 200.0));
-                let about = "Full width of every band; 0 is a single wavelength.";
-                keys.key("band_width_nm", &mut width_nm, limits, about);
-                let about = "Middles of the bands. The whole band must lie within 360 to 2500 \
-                    nm.";
-                keys.required("bands_nm", bands, Bands { width_nm }, about);
-            }
+            film.declare_bands(keys);
             set_range(film, keys);
         },
     },
@@ -137,6 +133,43 @@ impl Film {
     }
 }
 
+impl Film {
+    /// The bands: boxes, or those of a sensor.
+    fn declare_bands(&mut self, keys: &mut Keys<'_>) {
+        let (mut bands, mut sensor) = match &self.kind {
+            FilmKind::Sensor(sensor) => (Vec::new(), Some(Arc::clone(sensor))),
+            FilmKind::Spectral { bands } => (bands.clone(), None),
+            FilmKind::Rgb { .. } => return,
+        };
+        let current = if sensor.is_some() {
+            "sensor"
+        } else {
+            "bands_nm"
+        };
+        for chosen in keys.one_of(&["bands_nm", "sensor"], Some(current)) {
+            if chosen == "sensor" {
+                let about = "A sensor, by whose responses its bands are recorded: one by name, or a \
+                    table of wavelength in nm and a column of relative responses for each band.";
+                keys.optional("sensor", &mut sensor, NameOrFile(sensor::OfFilm), about);
+                if let Some(sensor) = &sensor {
+                    self.kind = FilmKind::Sensor(Arc::clone(sensor));
+                }
+            } else {
+                let mut width_nm = bands.first().map_or(10.0, |band| band.width_nm);
+                let limits = Number(Limits::closed(0.0, 200.0));
+                let about = "Full width of every band of `bands_nm`; 0 is a single wavelength.";
+                keys.key("band_width_nm", &mut width_nm, limits, about);
+                let about = "Middles of the bands. The whole band must lie within 360 to 2500 \
+                    nm.";
+                keys.needed("bands_nm", &mut bands, Bands { width_nm }, about);
+                self.kind = FilmKind::Spectral {
+                    bands: std::mem::take(&mut bands),
+                };
+            }
+        }
+    }
+}
+
 /// The keys of `[film]`.
 pub(in crate::scene) fn film(film: &mut Film, keys: &mut Keys<'_>) {
     keys.kind(film, &KINDS);
@@ -149,6 +182,7 @@ fn set_range(film: &Film, keys: &Keys<'_>) {
     };
     let range = match &film.kind {
         FilmKind::Rgb { range_nm, .. } => Some(*range_nm),
+        FilmKind::Sensor(sensor) => Some(sensor.range_nm()),
         FilmKind::Spectral { bands } if bands.is_empty() => None,
         FilmKind::Spectral { bands } => {
             let ends = bands.iter().map(|band| {
@@ -244,7 +278,7 @@ struct Bands {
 }
 
 impl Bands {
-    const WANTED: &str = "a list of 1 to 32 numbers";
+    const WANTED: &str = "a list of 1 to 1024 numbers";
 
     fn limits(self) -> Limits {
         let [(low, _), (high, _)] = WAVELENGTHS_NM.ends();
@@ -279,7 +313,7 @@ impl Kind for Bands {
             of: Box::new(Type::Number(WAVELENGTHS_NM)),
             least: 1,
             most: MOST_BANDS,
-            wanted: "the middles of 1 to 32 bands, rising",
+            wanted: "the middles of 1 to 1024 bands, rising",
         }
     }
 }

@@ -44,6 +44,8 @@ pub struct Sight<'a, const N: usize> {
     pub sampler: &'a WavelengthSampler,
     /// Light for the albedo's colour, see [`white`].
     pub white: &'a Spectrum,
+    /// Sum of the albedo over the channels of all other groups.
+    pub others: f32,
     /// Whether the film records features of this sample. If not, numbers only need to be finite
     /// where the true ones are.
     pub recorded: bool,
@@ -64,8 +66,8 @@ impl<const N: usize> Sight<'_, N> {
 
     /// Mean over the bands, of which each has a wavelength of its own.
     fn mean(&self, share: Lanes<N>) -> f32 {
-        let bands = self.sampler.channels();
-        share.0.iter().take(bands).sum::<f32>() / bands as f32
+        let sum = self.others + self.sampler.sum_of_seen(self.wavelengths, &share);
+        sum / self.sampler.channels() as f32
     }
 }
 
@@ -101,9 +103,10 @@ mod tests {
         };
         let sight = Sight {
             hit: &hit,
-            wavelengths: &sampler.draw::<4>(0.5),
+            wavelengths: &sampler.draw::<4>(0.5, 0),
             sampler: &sampler,
             white: &white(&sampler),
+            others: 0.0,
             recorded: true,
         };
         let [mean, ..] = Quantity::MeanAlbedo.of(&sight);

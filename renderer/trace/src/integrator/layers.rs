@@ -14,7 +14,7 @@ use crate::camera::view::View;
 use crate::film::{Film, Pixel, Series, Sum};
 use crate::integrator::features::{Quantity, Sight};
 use crate::spectrum::WavelengthSampler;
-use crate::spectrum::recorded::{FilmKind, spectral_channel_name};
+use crate::spectrum::recorded::{Band, FilmKind, MOST_BANDS, spectral_channel_name};
 use crate::spectrum::rgb::LUMINANCE;
 
 /// One layer: channels of a picture that belong together.
@@ -208,8 +208,8 @@ fn alpha(pixel: &Pixel<'_>) -> f64 {
     pixel.alpha()
 }
 
-/// Greatest number of channels of a film: 32 bands.
-pub const MOST_CHANNELS: usize = 32;
+/// Greatest number of channels of a film.
+pub const MOST_CHANNELS: usize = MOST_BANDS;
 
 /// Greatest number of features of a sample.
 pub const MOST_FEATURES: usize = {
@@ -245,13 +245,17 @@ impl FilmLayer {
 
     /// Full names of its channels on a film of this kind.
     pub fn channel_names(&self, kind: &FilmKind) -> Vec<String> {
+        let of_bands = |bands: &[Band]| {
+            let names = bands
+                .iter()
+                .map(|band| spectral_channel_name(band.center_nm));
+            names.collect()
+        };
         let own: Vec<String> = match (self.channels, kind) {
             (Channels::Named(names), _) => names.iter().map(ToString::to_string).collect(),
             (Channels::OfFilm, FilmKind::Rgb { .. }) => ["R", "G", "B"].map(str::to_owned).into(),
-            (Channels::OfFilm, FilmKind::Spectral { bands }) => bands
-                .iter()
-                .map(|band| spectral_channel_name(band.center_nm))
-                .collect(),
+            (Channels::OfFilm, FilmKind::Spectral { bands }) => of_bands(bands),
+            (Channels::OfFilm, FilmKind::Sensor(sensor)) => of_bands(&sensor.boxes()),
         };
         let whole = |own: String| match self.name {
             "" => own,

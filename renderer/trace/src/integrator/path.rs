@@ -30,12 +30,12 @@ use crate::walk::encounter::Encounter;
 use crate::walk::{Ahead, Arrival, Collision, Scatterer, Walk};
 use crate::world::{World, WorldObjects};
 
-/// Adds to `result` what a path through a random place in a pixel finds; `stream` gives the random
-/// numbers. Returns its wavelengths.
+/// Adds to `result` what a path through a random place in a pixel finds at the wavelengths of a group of
+/// channels; `stream` gives the random numbers. Returns its wavelengths.
 pub fn of_pixel<const N: usize>(
     world: &World,
     effort: Effort,
-    [x, y]: [u32; 2],
+    ([x, y], group): ([u32; 2], usize),
     stream: &mut Stream,
     result: &mut PathResult<N>,
 ) -> Wavelengths<N> {
@@ -49,7 +49,7 @@ pub fn of_pixel<const N: usize>(
         third
     };
     let lens_x = third;
-    let wavelengths = world.wavelengths.draw::<N>(wavelength);
+    let wavelengths = world.wavelengths.draw::<N>(wavelength, group);
     let offset = world.filter.sample(Vec2::new(film_x, film_y));
     let place = Vec2::new(x as f32, y as f32) + offset;
     let seen = world.camera.ray(place, Vec2::new(lens_x, lens_y));

@@ -234,14 +234,17 @@ impl Trial<'_> {
             let mut sums = vec![0.0_f64; channels];
             let numbers = Pixel::new(seed, x, y, 0);
             for sample in 0..SAMPLES {
-                let mut stream = numbers.stream(sample);
-                let mut found = PathResult::<N>::NOTHING;
-                let wavelengths =
-                    path::of_pixel(self.world, effort, [x, y], &mut stream, &mut found);
                 let values = &mut values[..channels];
                 let sampler = &self.world.wavelengths;
-                sampler.film_values(&wavelengths, &found.radiance, values);
-                rays += u64::from(found.rays);
+                for group in 0..sampler.groups() {
+                    let mut stream = numbers.stream(sample);
+                    let mut found = PathResult::<N>::NOTHING;
+                    let of = ([x, y], group);
+                    let wavelengths =
+                        path::of_pixel(self.world, effort, of, &mut stream, &mut found);
+                    sampler.film_values(&wavelengths, &found.radiance, values);
+                    rays += u64::from(found.rays);
+                }
                 // The film rejects such a sample, too.
                 if values.iter().all(|value| value.is_finite()) {
                     for (sum, &value) in sums.iter_mut().zip(values.iter()) {

@@ -246,7 +246,7 @@ mod tests {
             range_nm: [400.0, 2500.0],
             observer: Observer::Cie1931,
         });
-        let wavelengths = grid.draw::<8>(0.3);
+        let wavelengths = grid.draw::<8>(0.3, 0);
         let mut palettes = Palettes::on(grid.grid());
         let palette = palettes.of(&Pigments::default());
         let leaves: [Texel; 8] = std::array::from_fn(|number| {

@@ -1,6 +1,6 @@
 //! The wavelengths of paths, and the sets of them from which a picture draws.
 
-/// Number of sets of wavelengths from which the paths of a picture choose.
+/// Number of sets of wavelengths from which the paths of a picture choose; of each group of bands.
 pub const ROWS: usize = 256;
 
 /// Marks wavelengths that are in no row of the picture's grid.
@@ -65,8 +65,12 @@ pub struct WavelengthGrid {
 }
 
 impl WavelengthGrid {
-    pub(super) fn new(lanes: usize, mut share: impl FnMut(usize, usize) -> Share) -> Self {
-        let places = (0..ROWS).flat_map(|row| (0..lanes).map(move |lane| (row, lane)));
+    pub(super) fn new(
+        lanes: usize,
+        groups: usize,
+        mut share: impl FnMut(usize, usize) -> Share,
+    ) -> Self {
+        let places = (0..groups * ROWS).flat_map(|row| (0..lanes).map(move |lane| (row, lane)));
         let shares: Vec<Share> = places.map(|(row, lane)| share(row, lane)).collect();
         Self {
             lanes,

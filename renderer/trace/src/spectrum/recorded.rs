@@ -1,8 +1,11 @@
 //! What a film records: colour or bands.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use super::observer::Observer;
+use super::sensor::Sensor;
 
 /// Colour or bands.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -16,10 +19,15 @@ pub enum FilmKind {
     },
     /// Mean spectral radiance over each band.
     Spectral {
-        /// The bands, 1 to 32.
+        /// The bands, 1 to [`MOST_BANDS`].
         bands: Vec<Band>,
     },
+    /// Spectral radiance by the bands of a sensor, each its mean by the band's response.
+    Sensor(Arc<Sensor>),
 }
+
+/// Most bands of a film.
+pub const MOST_BANDS: usize = 1024;
 
 /// A box-shaped band.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]

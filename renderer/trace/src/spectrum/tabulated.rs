@@ -115,7 +115,7 @@ mod tests {
                 spectrum.tabulate(sampler.grid());
             }
             for row in 0..ROWS {
-                let drawn = sampler.draw::<8>((row as f32 + 0.5) / ROWS as f32);
+                let drawn = sampler.draw::<8>((row as f32 + 0.5) / ROWS as f32, 0);
                 let table = spectrum.lanes(&drawn);
                 let straight = |lane: &usize| {
                     let [first, last] = sampler.grid().share(row, *lane).edges_nm;

@@ -4,6 +4,8 @@
 //! shares of the distribution, so some 0.2 nm apart in a colour picture. Everything that depends on
 //! wavelength alone is tabulated for them ([`Table`]) and never computed along a path. Tables of
 //! spectra hold means over the shares, so that no line is too narrow to be met.
+//!
+//! More bands than a path has lanes are carried in groups, each of which has [`ROWS`] sets of its own.
 
 use super::density::{Distribution, LANES, Shares};
 use super::recorded::{Band, FilmKind};
@@ -30,11 +32,17 @@ enum SamplerKind {
         /// that a throughput of 1 gives 1 on average.
         seen: Table,
     },
-    /// Bands: one lane per band.
-    Bands(Vec<Band>),
+    /// Bands, one lane for each, and all that they see.
+    Bands {
+        bands: Vec<Band>,
+        range_nm: [f64; 2],
+    },
     /// Sets of given wavelengths, which no film records.
     Sets { range_nm: [f64; 2] },
 }
+
+/// Most lanes of a path, and so the number of bands in a group.
+const MOST_LANES: usize = 32;
 
 /// Number of lanes for this many bands.
 fn lanes_of(bands: usize) -> usize {
@@ -42,7 +50,7 @@ fn lanes_of(bands: usize) -> usize {
         0..=4 => 4,
         5..=8 => 8,
         9..=16 => 16,
-        _ => 32,
+        _ => MOST_LANES,
     }
 }
 
@@ -51,7 +59,20 @@ impl WavelengthSampler {
     pub fn new(film: &FilmKind) -> Self {
         match film {
             FilmKind::Rgb { range_nm, observer } => Self::rgb(*range_nm, observer),
-            FilmKind::Spectral { bands } => Self::bands(bands.clone()),
+            FilmKind::Spectral { bands } => Self::bands(bands.clone(), |row, band| {
+                let share = (row as f64 + 0.5) / ROWS as f64;
+                let middle = bands[band].center_nm + (share - 0.5) * bands[band].width_nm;
+                Share::around(middle, bands[band].width_nm / ROWS as f64)
+            }),
+            FilmKind::Sensor(sensor) => {
+                let responses = sensor.bands().iter();
+                let shares: Vec<_> = responses.map(|response| response.shares(ROWS)).collect();
+                let mut sampler = Self::bands(sensor.boxes(), |row, band| shares[band][row]);
+                if let SamplerKind::Bands { range_nm, .. } = &mut sampler.kind {
+                    *range_nm = sensor.range_nm();
+                }
+                sampler
+            }
         }
     }
 
@@ -60,7 +81,7 @@ impl WavelengthSampler {
         // samples of a pixel are stratified over the rows, and the eight wavelengths of each sample
         // over the whole range.
         let shares = Shares(Distribution::of(range_nm, observer));
-        let grid = WavelengthGrid::new(LANES, |row, lane| shares.share(row, lane));
+        let grid = WavelengthGrid::new(LANES, 1, |row, lane| shares.share(row, lane));
         let srgb_at = |nm: f64| observer.srgb_at(nm);
         let channels_at = |nm: f64| observer.channels_at(nm);
         let weights = Table::by_place(&grid, |row, lane| {
@@ -89,18 +110,25 @@ impl WavelengthSampler {
         }
     }
 
-    fn bands(bands: Vec<Band>) -> Self {
-        // Lanes beyond the last band go through the bands again. Nobody reads them, but they count where a
-        // path decides by the mean over its lanes.
-        let grid = WavelengthGrid::new(lanes_of(bands.len()), |row, lane| {
-            let band = bands[lane % bands.len()];
-            let share = (row as f64 + 0.5) / ROWS as f64;
-            let middle = band.center_nm + (share - 0.5) * band.width_nm;
-            Share::around(middle, band.width_nm / ROWS as f64)
+    /// Bands, with the part of each that a row of its group represents.
+    fn bands(bands: Vec<Band>, share: impl Fn(usize, usize) -> Share) -> Self {
+        let groups = bands.len().div_ceil(MOST_LANES);
+        // Lanes beyond the last band of a group go through its bands again. Nobody reads them, but they
+        // count where a path decides by the mean over its lanes.
+        let grid = WavelengthGrid::new(lanes_of(bands.len()), groups, |row, lane| {
+            let first = row / ROWS * MOST_LANES;
+            let count = MOST_LANES.min(bands.len() - first);
+            share(row % ROWS, first + lane % count)
+        });
+        let range_nm = bands.iter().fold([f64::INFINITY, 0.0], |range, band| {
+            [
+                range[0].min(band.center_nm - 0.5 * band.width_nm),
+                range[1].max(band.center_nm + 0.5 * band.width_nm),
+            ]
         });
         Self {
             grid,
-            kind: SamplerKind::Bands(bands),
+            kind: SamplerKind::Bands { bands, range_nm },
         }
     }
 
@@ -145,23 +173,42 @@ impl WavelengthSampler {
     pub fn channels(&self) -> usize {
         match &self.kind {
             SamplerKind::Rgb { .. } => 3,
-            SamplerKind::Bands(bands) => bands.len(),
+            SamplerKind::Bands { bands, .. } => bands.len(),
             SamplerKind::Sets { .. } => self.grid.lanes,
         }
     }
 
-    /// Wavelengths for one path; `u` in [0, 1) chooses the row.
+    /// Number of groups of channels; each sample of a picture has a path for each.
+    pub fn groups(&self) -> usize {
+        match &self.kind {
+            SamplerKind::Rgb { .. } | SamplerKind::Sets { .. } => 1,
+            SamplerKind::Bands { bands, .. } => bands.len().div_ceil(MOST_LANES),
+        }
+    }
+
+    /// The bands that a path of these wavelengths sees, by number; wavelengths that are not drawn
+    /// count as those of the first group.
+    #[inline]
+    fn seen(bands: &[Band], row: usize) -> std::ops::Range<usize> {
+        let first = row / ROWS * MOST_LANES;
+        let first = if first < bands.len() { first } else { 0 };
+        first..bands.len().min(first + MOST_LANES)
+    }
+
+    /// Wavelengths for one path of a group of channels; `u` in [0, 1) chooses the row.
     ///
     /// # Panics
     ///
     /// If `N` is not the grid's number of lanes.
     #[inline]
-    pub fn draw<const N: usize>(&self, u: f32) -> Wavelengths<N> {
-        let rows = self.grid.rows();
-        self.grid.set(((u * rows as f32) as usize).min(rows - 1))
+    pub fn draw<const N: usize>(&self, u: f32, group: usize) -> Wavelengths<N> {
+        let rows = self.grid.rows() / self.groups();
+        self.grid
+            .set(group * rows + ((u * rows as f32) as usize).min(rows - 1))
     }
 
-    /// The film values of radiance at drawn wavelengths: linear sRGB, or radiance per band.
+    /// Sets the film values of radiance at drawn wavelengths: linear sRGB, or radiance per band of
+    /// their group.
     ///
     /// `values` has [`WavelengthSampler::channels`] entries.
     #[inline]
@@ -180,12 +227,31 @@ impl WavelengthSampler {
                     *value = (weight * *radiance).sum();
                 }
             }
-            SamplerKind::Bands(_) | SamplerKind::Sets { .. } => {
+            SamplerKind::Bands { bands, .. } => {
+                let seen = Self::seen(bands, wavelengths.row());
+                for (value, lane) in values[seen].iter_mut().zip(radiance.0) {
+                    *value = lane;
+                }
+            }
+            SamplerKind::Sets { .. } => {
                 for (value, lane) in values.iter_mut().zip(radiance.0) {
                     *value = lane;
                 }
             }
         }
+    }
+
+    /// The sum over the channels that a path of these wavelengths sees.
+    pub fn sum_of_seen<const N: usize>(
+        &self,
+        wavelengths: &Wavelengths<N>,
+        values: &Lanes<N>,
+    ) -> f32 {
+        let count = match &self.kind {
+            SamplerKind::Bands { bands, .. } => Self::seen(bands, wavelengths.row()).len(),
+            SamplerKind::Rgb { .. } | SamplerKind::Sets { .. } => N,
+        };
+        values.0.iter().take(count).sum()
     }
 
     /// The film values of light of this spectrum, a function of the shares of the range, over all
@@ -206,26 +272,39 @@ impl WavelengthSampler {
             let wavelengths = self.grid.set::<N>(row);
             let radiance: [f64; N] =
                 std::array::from_fn(|lane| spectrum(&self.grid.share(row, lane)));
-            for (channel, sum) in sums.iter_mut().enumerate() {
-                *sum += match &self.kind {
-                    SamplerKind::Rgb { weights, .. } => {
-                        let weights = weights
-                            .row::<N, 3>(&wavelengths)
-                            .expect("a path's wavelengths are drawn from the grid");
-                        let seen = weights[channel].0.into_iter().zip(radiance);
-                        seen.map(|(weight, value)| f64::from(weight) * value).sum()
+            match &self.kind {
+                SamplerKind::Rgb { weights, .. } => {
+                    let weights = weights
+                        .row::<N, 3>(&wavelengths)
+                        .expect("a path's wavelengths are drawn from the grid");
+                    for (sum, weights) in sums.iter_mut().zip(weights) {
+                        let seen = weights.0.into_iter().zip(radiance);
+                        *sum += seen
+                            .map(|(weight, value)| f64::from(weight) * value)
+                            .sum::<f64>();
                     }
-                    SamplerKind::Bands(_) | SamplerKind::Sets { .. } => radiance[channel],
-                };
+                }
+                SamplerKind::Bands { bands, .. } => {
+                    let seen = Self::seen(bands, row);
+                    for (sum, value) in sums[seen].iter_mut().zip(radiance) {
+                        *sum += value;
+                    }
+                }
+                SamplerKind::Sets { .. } => {
+                    for (sum, value) in sums.iter_mut().zip(radiance) {
+                        *sum += value;
+                    }
+                }
             }
         }
-        sums.into_iter().map(|sum| sum / rows as f64).collect()
+        let of_each = (rows / self.groups()) as f64;
+        sums.into_iter().map(|sum| sum / of_each).collect()
     }
 
     /// The bands, if the film records them.
     pub fn as_bands(&self) -> Option<&[Band]> {
         match &self.kind {
-            SamplerKind::Bands(bands) => Some(bands),
+            SamplerKind::Bands { bands, .. } => Some(bands),
             SamplerKind::Rgb { .. } | SamplerKind::Sets { .. } => None,
         }
     }
@@ -249,23 +328,24 @@ impl WavelengthSampler {
                 x.max(y).max(z)
             }
             // Lanes beyond the bands are no one's. Of a length known to the compiler it is faster.
-            SamplerKind::Bands(bands) if bands.len() < N => {
-                seen_by_bands(&throughput.0[..bands.len()])
+            SamplerKind::Bands { bands, .. } => {
+                let count = Self::seen(bands, wavelengths.row()).len();
+                if count < N {
+                    seen_by_bands(&throughput.0[..count])
+                } else {
+                    seen_by_bands(&throughput.0)
+                }
             }
-            SamplerKind::Bands(_) | SamplerKind::Sets { .. } => seen_by_bands(&throughput.0),
+            SamplerKind::Sets { .. } => seen_by_bands(&throughput.0),
         }
     }
 
     /// First and last wavelength that can be drawn, nm.
     pub fn range_nm(&self) -> [f64; 2] {
         match &self.kind {
-            SamplerKind::Rgb { range_nm, .. } | SamplerKind::Sets { range_nm } => *range_nm,
-            SamplerKind::Bands(bands) => bands.iter().fold([f64::INFINITY, 0.0], |range, band| {
-                [
-                    range[0].min(band.center_nm - 0.5 * band.width_nm),
-                    range[1].max(band.center_nm + 0.5 * band.width_nm),
-                ]
-            }),
+            SamplerKind::Rgb { range_nm, .. }
+            | SamplerKind::Bands { range_nm, .. }
+            | SamplerKind::Sets { range_nm } => *range_nm,
         }
     }
 }

@@ -2,18 +2,8 @@
 
 use std::sync::Arc;
 
-use leafmodel::document::context::{Context, QUOTED};
-use leafmodel::document::error::DocumentError;
-use leafmodel::document::keys::Keys;
-use leafmodel::document::nearest::nearest;
-use leafmodel::document::reader::Block;
-use leafmodel::document::schema::Type;
-use leafmodel::document::source::{Place, escaped};
-use leafmodel::document::tree::{Node, Table, Value};
-use leafmodel::document::value_kind::{FilePath, Kind, NamedFile};
-use leafmodel::document::values::{listed, wrong_type};
-
-use crate::measured::sensitivities;
+use super::named::Tabled;
+use crate::measured::responses;
 use crate::scene::blocks::table_file::TableFile;
 use crate::spectrum::observer::{CHANNELS, Camera, NotACamera, Observer};
 
@@ -21,9 +11,7 @@ use crate::spectrum::observer::{CHANNELS, Camera, NotACamera, Observer};
 pub(super) const LEAST_SHARE: f64 = 0.95;
 
 /// Share of a channel's greatest sensitivity that may be left where a table ends.
-const MOST_AT_END: f64 = 0.05;
-
-const WANTED: &str = "the name of a camera or \"cie-1931\", or `{ file = \"….csv\" }`";
+pub(super) const MOST_AT_END: f64 = 0.05;
 
 /// Sensitivities of a film that records these wavelengths, nm.
 #[derive(Clone, Copy, Debug)]
@@ -31,86 +19,30 @@ pub(super) struct Sensitivities {
     pub(super) range_nm: [f64; 2],
 }
 
-impl Kind for Sensitivities {
+impl Tabled for Sensitivities {
     type Of = Observer;
 
-    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<Observer> {
-        self.form(cx, node, key, key.to_owned())
+    const WANTED: &str = "the name of a camera or \"cie-1931\", or `{ file = \"….csv\" }`";
+    const ABOUT_FILE: &str =
+        "A table of wavelength in nm and the sensitivities of red, green and blue.";
+
+    fn names() -> impl Iterator<Item = &'static str> {
+        Observer::names()
     }
 
-    fn read_in(&self, block: &Block<'_>, node: &Node, key: &str) -> Option<Observer> {
-        self.form(block.cx, node, key, block.path_of(key))
+    fn by_name(name: &str) -> Option<Observer> {
+        Observer::by_name(name)
     }
 
-    fn write(&self, value: &Observer) -> Value {
-        if Observer::names().any(|name| name == value.name()) {
-            return Value::Text(value.name().to_owned());
-        }
-        let file = Value::Text(value.name().to_owned());
-        Value::Table(Table::of([("file", file)]))
+    fn name(value: &Observer) -> &str {
+        value.name()
     }
 
-    fn describe(&self) -> Type {
-        let form = Keys::describe(|keys| {
-            keys.one_of(&["file"], None);
-            keys.optional("file", &mut None, FILE, ABOUT_FILE);
-        });
-        let names = Observer::names().map(str::to_owned).collect();
-        Type::AnyOf(vec![Type::Word(names), Type::Table(form)], WANTED)
-    }
-}
-
-const FILE: FilePath = FilePath::of("the path of a CSV file", &["csv", "tsv", "txt"], 1 << 20);
-const ABOUT_FILE: &str =
-    "A table of wavelength in nm and the sensitivities of red, green and blue.";
-
-impl Sensitivities {
-    fn form(self, cx: &Context, node: &Node, key: &str, path: String) -> Option<Observer> {
-        match &node.value {
-            Value::Text(name) => {
-                let found = Observer::by_name(name);
-                if found.is_none() {
-                    let error = DocumentError::UnknownWord {
-                        key: key.to_owned(),
-                        word: escaped(name, QUOTED),
-                        nearest: nearest(name, Observer::names()).map(str::to_owned),
-                        known: listed(Observer::names()),
-                    };
-                    cx.error(&node.at, error);
-                }
-                found
-            }
-            Value::Table(table) => {
-                let mut observer = None;
-                let form = Block::new(cx, table, path, node.at.clone());
-                Keys::read(form, None, |keys| {
-                    keys.one_of(&["file"], None);
-                    let mut named = None;
-                    keys.optional("file", &mut named, FILE, ABOUT_FILE);
-                    let at = keys.reader().and_then(|form| form.node("file"));
-                    observer = named
-                        .zip(at)
-                        .and_then(|(file, node)| self.of_file(cx, &file, &node.at));
-                });
-                observer
-            }
-            Value::Integer(_)
-            | Value::Number(_)
-            | Value::Flag(_)
-            | Value::Other(..)
-            | Value::List(_) => {
-                wrong_type(cx, node, key, WANTED);
-                None
-            }
-        }
-    }
-
-    fn of_file(self, cx: &Context, named: &NamedFile, at: &Place) -> Option<Observer> {
-        let file = TableFile::read(cx, &named.file, &named.written, at)?;
-        let rows = file.sound(sensitivities::read(&file.text))?;
-        match Camera::new(&named.written, rows) {
+    fn of_file(self, file: &TableFile<'_>, path: &str) -> Option<Observer> {
+        let rows = file.sound(responses::sensitivities(&file.text))?;
+        match Camera::new(path, rows) {
             Ok(camera) => {
-                self.check(&camera, &file)?;
+                self.check(&camera, file)?;
                 Some(Observer::Camera(Arc::new(camera)))
             }
             Err(problem) => {
@@ -124,7 +56,9 @@ impl Sensitivities {
             }
         }
     }
+}
 
+impl Sensitivities {
     /// Refuses a camera with a channel that sees nothing on the film, and warns of what is left out.
     fn check(self, camera: &Camera, file: &TableFile<'_>) -> Option<()> {
         const HELP: &str = "widen `range_nm` of the film to what the camera sees";

@@ -10,7 +10,7 @@ use crate::integrator::layers::{Layout, MOST_CHANNELS};
 use crate::integrator::path::{self, PathResult};
 use crate::integrator::settings::Job;
 use crate::sampling::stream::Pixel;
-use crate::spectrum::Spectrum;
+use crate::spectrum::{Lanes, Spectrum};
 use crate::world::World;
 
 /// Data that all passes share.
@@ -92,25 +92,42 @@ impl Samples<'_> {
         let values = &mut values[..self.layout.beauty];
         let numbers = Pixel::new(self.job.seed, self.x, self.y, first);
         for sample in first..end {
-            let mut stream = numbers.stream(sample);
-            let (pixel_at, mut found) = ([self.x, self.y], PathResult::<N>::NOTHING);
-            let wavelengths =
-                path::of_pixel(self.world, self.effort, pixel_at, &mut stream, &mut found);
-            rays += u64::from(found.rays);
             let sampler = &self.world.wavelengths;
-            sampler.film_values(&wavelengths, &found.radiance, values);
+            let mut trace = |group, values: &mut [f32]| {
+                let mut stream = numbers.stream(sample);
+                let (of, mut found) = (([self.x, self.y], group), PathResult::<N>::NOTHING);
+                let wavelengths =
+                    path::of_pixel(self.world, self.effort, of, &mut stream, &mut found);
+                rays += u64::from(found.rays);
+                sampler.film_values(&wavelengths, &found.radiance, values);
+                (found, wavelengths)
+            };
+            // All groups take the same random numbers; the first says what is met.
+            let (mut found, wavelengths) = trace(0, values);
+            let mut others = 0.0;
+            for group in 1..sampler.groups() {
+                let (of_group, wavelengths) = trace(group, values);
+                if let Some(hit) = &of_group.first {
+                    others += sampler.sum_of_seen(&wavelengths, &hit.albedo);
+                }
+                found.cuts += of_group.cuts;
+                let most = |lane: usize| found.cut.0[lane].max(of_group.cut.0[lane]);
+                found.cut = Lanes::from_fn(most);
+            }
             let features = found.first.as_ref().map(|hit| {
                 let sight = Sight {
                     hit,
                     wavelengths: &wavelengths,
                     sampler,
                     white: self.white,
+                    others,
                     recorded: sample < FEATURE_SAMPLES,
                 };
                 self.layout.features(&sight)
             });
             pixel.add(sample, values, features.as_ref());
             if found.cuts > 0 {
+                values.fill(0.0);
                 sampler.film_values(&wavelengths, &found.cut, values);
                 let most = values
                     .iter()

@@ -138,7 +138,7 @@ fn even_directions_find_the_same_sky_as_its_samples_and_its_density_integrates_t
             observer: crate::spectrum::observer::Observer::Cie1931,
         };
         let sampler = crate::spectrum::WavelengthSampler::new(&film);
-        let drawn = sampler.draw::<8>(0.4);
+        let drawn = sampler.draw::<8>(0.4, 0);
         let wi = Vec3::new(0.6, 0.0, 0.8);
         let free = sky.towards(wi, &drawn).0;
         sky.tabulate(sampler.grid());

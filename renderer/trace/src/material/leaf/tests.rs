@@ -44,7 +44,7 @@ fn tissue_has_the_same_bits_at_every_level_of_instructions() {
         range_nm: [400.0, 2500.0],
         observer: crate::spectrum::observer::Observer::Cie1931,
     });
-    let wavelengths = sampler.draw::<8>(0.3);
+    let wavelengths = sampler.draw::<8>(0.3, 0);
     let of = |level: Level| {
         let mut palettes = Palettes::on(sampler.grid());
         let palette = palettes.of(&Pigments::default()).at_level(level);
@@ -115,7 +115,7 @@ fn tabulated_leaves_are_what_they_are_at_any_wavelength() {
             );
             leaf.tabulate(sampler.grid());
             for u in [0.0, 0.3, 0.999] {
-                let drawn = sampler.draw::<8>(u);
+                let drawn = sampler.draw::<8>(u, 0);
                 let free = Wavelengths::new(drawn.nm);
                 let (wo, wi) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, 0.6, -0.8));
                 for wi in [wi, -wi] {

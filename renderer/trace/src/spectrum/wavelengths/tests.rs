@@ -12,7 +12,7 @@ fn bands_count_by_their_mean_or_a_quarter_of_the_brightest_without_lanes_beyond(
     let sampler = WavelengthSampler::new(&FilmKind::Spectral {
         bands: bands.to_vec(),
     });
-    let seen = |lanes| sampler.brightness(&sampler.draw::<4>(0.5), &Lanes(lanes));
+    let seen = |lanes| sampler.brightness(&sampler.draw::<4>(0.5, 0), &Lanes(lanes));
     assert_eq!(seen([3.0, 3.0, 100.0, 0.0]), 3.0);
     assert_eq!(seen([7.0, 1.0, 0.0, 0.0]), 4.0);
     assert_eq!(seen([0.0, 0.0, 1.0, 1.0]), 0.0);
@@ -27,7 +27,7 @@ fn the_mean_over_drawn_wavelengths_is_the_colour_of_the_spectrum() {
     let mut mean = [0.0_f64; 3];
     let draws = ROWS;
     for i in 0..draws {
-        let wavelengths = sampler.draw::<8>((i as f32 + 0.5) / draws as f32);
+        let wavelengths = sampler.draw::<8>((i as f32 + 0.5) / draws as f32, 0);
         let radiance = Lanes::from_fn(|lane| spectrum(wavelengths.nm[lane]));
         let mut rgb = [0.0; 3];
         sampler.film_values(&wavelengths, &radiance, &mut rgb);
@@ -49,7 +49,7 @@ fn what_the_film_sees_of_a_share_is_that_share_and_nothing_of_what_the_eye_does_
     let sampler = WavelengthSampler::rgb([400.0, 2500.0], &Observer::Cie1931);
     let (mut even, mut infrared) = (0.0, 0.0);
     for row in 0..ROWS {
-        let wavelengths = sampler.draw::<8>((row as f32 + 0.5) / ROWS as f32);
+        let wavelengths = sampler.draw::<8>((row as f32 + 0.5) / ROWS as f32, 0);
         even += sampler.brightness(&wavelengths, &Lanes::splat(0.25)) / ROWS as f32;
         let beyond = |lane: usize| f32::from(wavelengths.nm[lane] > 780.0);
         infrared += sampler.brightness(&wavelengths, &Lanes::from_fn(beyond)) / ROWS as f32;
@@ -72,7 +72,7 @@ fn every_set_of_wavelengths_sees_nearly_the_colour_of_light_that_passed_two_gree
     };
     let seen: Vec<[f32; 3]> = (0..ROWS)
         .map(|row| {
-            let wavelengths = sampler.draw::<8>((row as f32 + 0.5) / ROWS as f32);
+            let wavelengths = sampler.draw::<8>((row as f32 + 0.5) / ROWS as f32, 0);
             let radiance = Lanes(wavelengths.nm.map(spectrum));
             let mut rgb = [0.0; 3];
             sampler.film_values(&wavelengths, &radiance, &mut rgb);
@@ -117,6 +117,7 @@ fn the_kind_of_a_film_says_how_many_wavelengths_a_path_carries() {
         (bands(9), 9, 16),
         (bands(17), 17, 32),
         (bands(32), 32, 32),
+        (bands(33), 33, 32),
     ] {
         let sampler = WavelengthSampler::new(&kind);
         assert_eq!(sampler.channels(), channels);
@@ -155,8 +156,8 @@ fn a_band_film_records_the_radiance_itself() {
             width_nm: 0.0,
         },
     ];
-    let sampler = WavelengthSampler::bands(bands);
-    let wavelengths = sampler.draw::<4>(0.25);
+    let sampler = WavelengthSampler::new(&FilmKind::Spectral { bands });
+    let wavelengths = sampler.draw::<4>(0.25, 0);
     // The centre of the 65th of 256 shares of the band; lanes beyond the bands hold them again.
     assert_eq!(wavelengths.nm, [447.519_53, 900.0, 447.519_53, 900.0]);
     let mut values = [0.0; 2];
@@ -166,4 +167,39 @@ fn a_band_film_records_the_radiance_itself() {
         &mut values,
     );
     assert_eq!(values, [1.0, 2.0]);
+}
+
+#[test]
+fn more_bands_than_lanes_are_carried_in_groups() {
+    let bands: Vec<Band> = (0..70)
+        .map(|number| Band {
+            center_nm: 400.0 + 10.0 * f64::from(number),
+            width_nm: 10.0,
+        })
+        .collect();
+    let sampler = WavelengthSampler::new(&FilmKind::Spectral {
+        bands: bands.clone(),
+    });
+    assert_eq!((sampler.groups(), sampler.grid().rows()), (3, 3 * ROWS));
+    let mut values = [0.0; 70];
+    for group in 0..3 {
+        let wavelengths = sampler.draw::<32>(0.999_999, group);
+        sampler.film_values(&wavelengths, &Lanes(wavelengths.nm), &mut values);
+        let all = Lanes::splat(1.0);
+        let seen = [32.0, 32.0, 6.0][group];
+        assert_eq!(sampler.sum_of_seen(&wavelengths, &all), seen);
+        // Lanes beyond the last band do not count.
+        let beyond = Lanes::from_fn(|lane| f32::from(lane >= 6));
+        let brightness = sampler.brightness(&wavelengths, &beyond);
+        assert_eq!(brightness == 0.0, group == 2);
+    }
+    // Each band has the wavelength of its own last share.
+    for (value, band) in values.iter().zip(&bands) {
+        let last = band.center_nm + 5.0 * (1.0 - 1.0 / ROWS as f64);
+        assert!((f64::from(*value) - last).abs() < 1e-4, "{value} {last}");
+    }
+    let recorded = sampler.recorded(&|share| f64::from(share.nm));
+    for (value, band) in recorded.iter().zip(&bands) {
+        assert!((value - band.center_nm).abs() < 1e-4, "{value}");
+    }
 }
