@@ -70,6 +70,10 @@ fn folder() -> TempDir {
         "nm,red,far\n600,0,0\n650,1,0\n700,0,0.5\n2600,0,0.1\n",
     );
     write(
+        "multispectral.csv",
+        "nm,red,nir\n600,0,0\n650,1,0\n700,0,0\n800,0,1\n850,0,0\n",
+    );
+    write(
         "margin.svg",
         "<svg xmlns=\"http://www.w3.org/2000/svg\"><path id=\"blade\" d=\"M50 90C90 80 90 30 50 10C10 30 10 80 50 90Z\"/>\
          <path id=\"bow\" d=\"M50 90L90 90L10 20L70 10Z\"/><path id=\"ring\" d=\"M0 0H9V9ZM1 1H2V2Z\"/>\

@@ -199,7 +199,9 @@ def main() -> None:
         "NetCDF by the CF conventions. Of a table of several instruments, each goes to a file "
         "STEM-NAME.nc.",
     )
-    parser.add_argument("figures", type=Path, help="file of `lamina instruments`, .json or .csv, or .exr")
+    parser.add_argument(
+        "figures", type=Path, help="file of `lamina instruments`, .json or .csv, or .exr"
+    )
     parser.add_argument("--out", type=Path, required=True, help="file to write, .nc")
     parser.add_argument("--only", action="append", help="this instrument only")
     given = parser.parse_args()

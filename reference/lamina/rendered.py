@@ -84,10 +84,10 @@ def read(file: str | Path) -> xr.Dataset:
     Dimensions are `y` and `x` (pixels, from the top left corner), and `wavelength` (nm) for a
     spectral film, `channel` (R, G, B) for a colour film, `axis` (X, Y, Z) for places and
     directions. Along `wavelength` lie the full widths of the bands in nm, `band_width`, and a
-    sensor's names of them, `band_name`. `radiance` and `radiance_variance`, or `colour` and `colour_variance`: means over
-    samples and the variances of those means, by batches of samples; `luminance_variance`:
-    that of the mean luminance (of a spectral film, of the mean over bands), with what their even
-    spread gains; then `coverage`, `depth`, `normal`, `position`,
+    sensor's names of them, `band_name`. `radiance` and `radiance_variance`, or `colour` and
+    `colour_variance`: means over samples and the variances of those means, by batches of samples;
+    `luminance_variance`: that of the mean luminance (of a spectral film, of the mean over bands),
+    with what their even spread gains; then `coverage`, `depth`, `normal`, `position`,
     `albedo` (of a spectral film `mean_albedo`, over its bands), `object` and `samples`. Each has
     its `units`; what the program wrote about the render is in `attrs`. Raises OSError for a file
     that is no EXR.
@@ -172,5 +172,5 @@ def bands_of(picture: xr.Dataset) -> dict[str, tuple[str, object, dict[str, str]
             "band_width": ("wavelength", np.array(widths, dtype=float), BANDS["band_width"]),
         }
     film = tomllib.loads(str(picture.attrs.get("scene", ""))).get("film", {}).get("spectral", {})
-    widths = np.full(picture.sizes["wavelength"], float(film.get("band_width_nm", 10)))
-    return {"band_width": ("wavelength", widths, BANDS["band_width"])}
+    even = np.full(picture.sizes["wavelength"], float(film.get("band_width_nm", 10)))
+    return {"band_width": ("wavelength", even, BANDS["band_width"])}

@@ -325,6 +325,39 @@ def test_figures_of_instruments_are_arrays_and_netcdf_and_say_their_units() -> N
         assert wrong.returncode != 0 and "no instrument outside, but ball" in wrong.stderr
 
 
+def test_bands_of_pictures_are_written_for_envi_and_as_netcdf() -> None:
+    import xarray as xr
+
+    sensor = {"size": [6, 4], "spp": 2, "sensor": "landsat-9"}
+    film = {"film.spectral": sensor, "extrapolate": True}
+    with tempfile.TemporaryDirectory() as name:
+        stem = Path(name, "seen")
+        picture = lamina.render(FLAT, film, out=stem)
+        assert list(picture.band_name.values) == [f"B{n}" for n in (1, 2, 3, 8, 4, 5, 9, 6, 7)]
+        assert abs(float(picture.band_width.sel(wavelength=654.3, method="nearest")) - 37) < 1
+        written = lamina.to_envi(picture, stem.with_suffix(".img"))
+        assert [file.name for file in written] == ["seen.img", "seen.hdr"]
+        header = dict(
+            line.split(" = ", 1) for line in written[1].read_text().splitlines() if " = " in line
+        )
+        shape = [int(header[key]) for key in ("bands", "lines", "samples")]
+        assert shape == [9, 4, 6] and header["interleave"] == "bsq"
+        numbers = np.fromfile(written[0], "<f4").reshape(shape)
+        assert np.array_equal(numbers, picture.radiance.transpose("wavelength", "y", "x"))
+        wavelengths = [float(nm) for nm in header["wavelength"].strip("{}").split(", ")]
+        assert np.allclose(wavelengths, picture.wavelength, atol=1e-6)
+        assert header["band names"] == "{B1, B2, B3, B8, B4, B5, B9, B6, B7}"
+        (file,) = lamina.to_netcdf(stem.with_suffix(".exr"), stem.with_suffix(".nc"))
+        kept = xr.load_dataset(file)
+        assert kept.radiance.equals(picture.radiance) and kept.attrs["Conventions"] == "CF-1.11"
+        assert kept.band_width.attrs["standard_name"] == "sensor_band_spectral_width"
+    # A film of boxes has the widths that its scene says.
+    boxes = lamina.render(FLAT, SMALL | {"film.spectral.band_width_nm": 7}, spp=1)
+    assert set(boxes.band_width.values) == {7.0}
+    with pytest.raises(ValueError, match="no bands"):
+        lamina.to_envi(boxes.drop_vars("radiance"), "never.img")
+
+
 def test_optics_are_the_programs_table() -> None:
     told = lamina.optics("birch-yellow", water=0.012)
     table = printed("optics", "--preset", "birch-yellow", "--cw", "0.012", "--out", "-")

@@ -8,6 +8,7 @@ use leafmodel::document::rows::{Field, Rows};
 use super::Fault;
 use super::series::{number, refuse_other_axis};
 use super::units::{WIDE_GAP, are_micrometres, gaps};
+use crate::spectrum::sensor::NamedRows;
 
 /// A table of responses.
 #[derive(Debug, Default)]
@@ -38,7 +39,7 @@ pub fn sensitivities(text: &str) -> Result<Vec<(f64, [f64; 3])>, Fault> {
 /// # Errors
 ///
 /// The first [`Fault`].
-pub fn responses(text: &str, most: usize) -> Result<Vec<(String, Vec<(f64, f64)>)>, Fault> {
+pub fn responses(text: &str, most: usize) -> Result<Vec<NamedRows>, Fault> {
     const COLUMNS: &str = "keep a column of wavelengths in nm and one of responses for each band";
     let Responses { names, rows } = read(text, None, most, ["response", COLUMNS])?;
     let bands = 0..rows[0].1.len();

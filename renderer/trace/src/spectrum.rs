@@ -17,6 +17,7 @@
 //! assert!((y - 1.0).abs() < 1e-6);
 //! ```
 
+pub mod band;
 pub mod cie;
 pub mod curve;
 pub mod delta_e;

@@ -105,11 +105,7 @@ fn response((number, band): (usize, &Band)) -> Element {
         SINGLE_WAVELENGTH_NM
     };
     let (low, high) = (band.center_nm - 0.5 * width, band.center_nm + 0.5 * width);
-    regular(
-        number,
-        [low, high],
-        vec![1.0 / width; RESPONSE_INTERVALS + 1],
-    )
+    regular(number, [low, high], &[1.0 / width; RESPONSE_INTERVALS + 1])
 }
 
 /// As [`response`], of a sensor's band: its curve at the middle of each of 1024 parts.
@@ -122,12 +118,12 @@ fn curve((number, band): (usize, &Response)) -> Element {
     // The area that Mitsuba's lines between the values have.
     let ends = 0.5 * (values[0] + values[PARTS - 1]);
     let area = width * (values.iter().sum::<f64>() - ends);
-    let values = values.into_iter().map(|value| value / area).collect();
-    regular(number, [low + 0.5 * width, high - 0.5 * width], values)
+    let values: Vec<f64> = values.into_iter().map(|value| value / area).collect();
+    regular(number, [low + 0.5 * width, high - 0.5 * width], &values)
 }
 
 /// The response of a band by values at even steps of wavelength, nm.
-fn regular(number: usize, [low, high]: [f64; 2], values: Vec<f64>) -> Element {
+fn regular(number: usize, [low, high]: [f64; 2], values: &[f64]) -> Element {
     let values: Vec<String> = values.iter().map(ToString::to_string).collect();
     let values = values.join(", ");
     Element::plugin("spectrum", "regular")

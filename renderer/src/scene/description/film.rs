@@ -150,7 +150,12 @@ impl Film {
             if chosen == "sensor" {
                 let about = "A sensor, by whose responses its bands are recorded: one by name, or a \
                     table of wavelength in nm and a column of relative responses for each band.";
-                keys.optional("sensor", &mut sensor, NameOrFile(sensor::OfFilm), about);
+                keys.optional(
+                    "sensor",
+                    &mut sensor,
+                    NameOrFile(sensor::OfFilm(WAVELENGTHS_NM)),
+                    about,
+                );
                 if let Some(sensor) = &sensor {
                     self.kind = FilmKind::Sensor(Arc::clone(sensor));
                 }

@@ -12,8 +12,8 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::band::{Band, spectral_channel_name};
 use super::grid::Share;
-use super::recorded::{Band, spectral_channel_name};
 
 /// A sensor.
 #[derive(Clone, Deserialize, PartialEq, Serialize)]
@@ -25,7 +25,10 @@ pub struct Sensor {
 }
 
 /// The name of a sensor, and the names and rows of its bands, from which all else follows.
-type Table = (String, Vec<(String, Vec<(f64, f64)>)>);
+type Table = (String, Vec<NamedRows>);
+
+/// The name of a band, with rows of wavelength, nm, and relative response.
+pub type NamedRows = (String, Vec<(f64, f64)>);
 
 /// A band of a sensor.
 #[derive(Clone, PartialEq)]
@@ -161,7 +164,7 @@ impl Sensor {
     /// # Errors
     ///
     /// [`NotASensor`].
-    pub fn new(name: &str, bands: Vec<(String, Vec<(f64, f64)>)>) -> Result<Self, NotASensor> {
+    pub fn new(name: &str, bands: Vec<NamedRows>) -> Result<Self, NotASensor> {
         let bands = bands
             .into_iter()
             .map(|(name, rows)| Response::new(name, rows));
@@ -234,7 +237,7 @@ impl Sensor {
 }
 
 /// The band of a line of a shipped table.
-fn measured(line: &str) -> (String, Vec<(f64, f64)>) {
+fn measured(line: &str) -> NamedRows {
     let mut fields = line.split(' ');
     let name = fields.next().expect("a line has a name").to_owned();
     let mut numbers = fields.map(|field| {
@@ -249,7 +252,7 @@ fn measured(line: &str) -> (String, Vec<(f64, f64)>) {
 }
 
 /// Bell curves on a regular grid, named by their numbers' middles.
-fn bells([first, last, step, fwhm]: [f64; 4]) -> Vec<(String, Vec<(f64, f64)>)> {
+fn bells([first, last, step, fwhm]: [f64; 4]) -> Vec<NamedRows> {
     let count = ((last - first) / step).round() as u32;
     let bell = |middle: f64| {
         let rows = (-BELL_STEPS..=BELL_STEPS).map(|place| {

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::WAVELENGTHS_NM;
+use leafmodel::document::limits::Limits;
+
 use super::named::Tabled;
 use super::sensitivities::MOST_AT_END;
 use crate::measured::responses;
@@ -10,9 +11,9 @@ use crate::scene::blocks::table_file::TableFile;
 use crate::spectrum::recorded::MOST_BANDS;
 use crate::spectrum::sensor::{Response, Sensor};
 
-/// The sensor of a film.
+/// The sensor of a film, whose bands lie within a range of wavelengths, nm.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct OfFilm;
+pub(super) struct OfFilm(pub(super) Limits);
 
 impl Tabled for OfFilm {
     type Of = Arc<Sensor>;
@@ -43,8 +44,7 @@ impl Tabled for OfFilm {
                 return None;
             }
         };
-        let beyond =
-            |band: &&Response| !band.range_nm().iter().all(|nm| WAVELENGTHS_NM.contain(*nm));
+        let beyond = |band: &&Response| !band.range_nm().iter().all(|nm| self.0.contain(*nm));
         if let Some(band) = sensor.bands().iter().find(beyond) {
             let [low, high] = band.range_nm();
             let name = band.name();
