@@ -17,6 +17,7 @@ mod media;
 mod optics;
 mod positions;
 mod presets;
+mod provenance;
 mod radiometry;
 mod random_plans;
 mod reported_errors;

@@ -31,6 +31,8 @@ AXES = (
 )
 # What a part is, by the end of a quantity's name; else it is an object.
 PARTS = {"in_layer": "layer", "by_constituent": "constituent", "by_instance": "instance"}
+# How the line of a table begins that holds its provenance as JSON.
+PROVENANCE = "# provenance: "
 # The band over which photons are summed.
 PHOTONS = "PAR"
 
@@ -71,7 +73,8 @@ def read_figures(file: str | Path) -> dict[str, xr.Dataset]:
     `view_zenith` and `view_azimuth` (degrees), `face`, `depth` (µm), and `object`, `layer`,
     `constituent` or `instance`. Its standard error is the variable `NAME_standard_error`. Figures
     in diffuse light are `NAME_diffuse`, those of bands `NAME_in_band`, indices
-    `NAME_of_QUANTITY`. Units are in the attribute `units`. Raises ValueError for a file that is
+    `NAME_of_QUANTITY`. Units are in the attribute `units`; what determines the figures is JSON in the
+    attribute `provenance` of a file that has it. Raises ValueError for a file that is
     no such table.
     """
     rows, told = rows_of(Path(file))
@@ -101,9 +104,16 @@ def rows_of(file: Path) -> tuple[list[Row], dict[str, object]]:
             for key in ("program", "scene", "seed", "rays", "target_error")
             if report.get(key) is not None
         }
-        return figures, about
+        return figures, about | attribute(report.get("provenance"))
     rows: list[Row] = []
-    for line in csv.DictReader(text.splitlines()):
+    lines = text.splitlines()
+    comments = [line for line in lines if line.startswith("#")]
+    found = [line.removeprefix(PROVENANCE) for line in comments if line.startswith(PROVENANCE)]
+    try:
+        about = attribute(json.loads(found[0]) if found else None)
+    except json.JSONDecodeError as failure:
+        raise ValueError(f"{file}: its provenance is no JSON: {failure}") from failure
+    for line in csv.DictReader(lines[len(comments) :]):
         if not {"instrument", "quantity", "unit", *numbers} <= set(line):
             raise ValueError(
                 f"{file}: this is no file of `lamina instruments`: a column is missing"
@@ -117,7 +127,12 @@ def rows_of(file: Path) -> tuple[list[Row], dict[str, object]]:
             else:
                 row[column] = entry
         rows.append(row)
-    return rows, {}
+    return rows, about
+
+
+def attribute(provenance: object) -> dict[str, object]:
+    """The provenance of a result as a text, which NetCDF can hold; nothing if there is none."""
+    return {} if provenance is None else {"provenance": json.dumps(provenance, sort_keys=True)}
 
 
 def named(row: Row) -> tuple[str, dict[str, object]]:

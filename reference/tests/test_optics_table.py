@@ -50,14 +50,14 @@ def test_a_fit_of_many_spectra_gives_back_the_table(tmp_path: Path) -> None:
     )
     table.write_text('id;cab;car\nbirch;30,5;7\n"oak, old";45;9\n', encoding="utf-8")
     run(["optics", "--table", table, "--out", spectra])
-    long = pd.read_csv(spectra)
+    long = pd.read_csv(spectra, comment="#")
     assert list(long) == ["id", "wavelength_nm", "R", "T"]
     assert long.id.unique().tolist() == ["birch", "oak, old"] and len(long) == 2 * 2101
     birch = lamina.optics(chlorophyll=30.5, carotenoids=7)
     np.testing.assert_allclose(long.R[long.id == "birch"], birch.reflectance, rtol=1e-15)
     run(["fit", spectra, "--out", contents])
-    found = pd.read_csv(contents)
+    found = pd.read_csv(contents, comment="#")
     np.testing.assert_allclose(found.chlorophyll_ug_per_cm2, [30.5, 45], rtol=1e-3)
     run(["optics", "--table", contents, "--out", again])
-    assert pd.read_csv(again).leaf.unique().tolist() == ["birch", "oak, old"]
-    np.testing.assert_allclose(pd.read_csv(again).R, long.R, atol=1e-5)
+    assert pd.read_csv(again, comment="#").leaf.unique().tolist() == ["birch", "oak, old"]
+    np.testing.assert_allclose(pd.read_csv(again, comment="#").R, long.R, atol=1e-5)

@@ -270,6 +270,9 @@ def test_figures_of_instruments_are_arrays_and_netcdf_and_say_their_units() -> N
         found = lamina.instruments(scene, rays=1024)
         assert list(found) == ["ball", "field", "inside"]
         ball, field, inside = found.values()
+        for file in (told, table):
+            kept = lamina.read_figures(file)["ball"].attrs["provenance"]
+            assert json.loads(kept)["settings"] == {"rays": ["1024"], "seed": ["1"]}
         row = next(
             row
             for row in figures

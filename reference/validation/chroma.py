@@ -133,7 +133,7 @@ def reflectance(binary: Path, leaf: str) -> tuple[float, float]:
             capture_output=True,
             check=True,
         )
-        nm, r, _ = np.loadtxt(file, delimiter=",", skiprows=2).T
+        nm, r, _ = np.loadtxt(file, delimiter=",", skiprows=3).T
     return colour.lightness_chroma_of_xyz(colour.xyz_under_d65(nm, r))
 
 

@@ -107,7 +107,7 @@ def rows(binary: Path) -> list[Row]:
             lamina(binary, "--preset", name, "--out", csv, "--colour", file)
             data = json.loads(file.read_text(encoding="utf-8"))
             colours = data["colours"]
-            nm, *ours = np.loadtxt(csv, delimiter=",", skiprows=2).T
+            nm, *ours = np.loadtxt(csv, delimiter=",", skiprows=3).T
             contents = data["contents"]
             assert all(contents[absorber] == 0.0 for absorber in prospect.OPTIONAL), name
             own = [np.array(part).ravel() for part in model.spectra(kind(nm), contents)]

@@ -74,6 +74,7 @@ mod pictures;
 mod places;
 mod progress;
 mod render;
+mod reproduce;
 mod schema;
 mod shell;
 mod signals;
@@ -91,17 +92,23 @@ use leafmodel::document::path;
 
 use self::arguments::{Arguments, Command, ExportCommand, GREETING};
 use self::terminal::{Failure, note_output, output_failure, say};
+use crate::provenance;
 
 /// Runs the command line `arguments` (the program's name first) and returns the exit code.
 /// `version` is what `--version` prints: the package's version and, of a checkout, the commit.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str) -> ExitCode {
     signals::survive_file_limits();
+    provenance::note_build(version);
     let line: Vec<OsString> = arguments.into_iter().collect();
     let matches = Arguments::command()
         .version(version)
         .try_get_matches_from(Arguments::joined(line.iter().cloned()));
-    let arguments = match matches.and_then(|matches| Arguments::from_arg_matches(&matches)) {
-        Ok(arguments) => arguments,
+    let parsed = matches.and_then(|matches| {
+        let settings = reproduce::settings(&matches);
+        Arguments::from_arg_matches(&matches).map(|arguments| (arguments, settings))
+    });
+    let (arguments, settings) = match parsed {
+        Ok(parsed) => parsed,
         Err(error) => {
             // Help and version are requests, not errors; clap chooses the stream for each.
             let code = if error.use_stderr() { 2 } else { 0 };
@@ -128,10 +135,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str)
         Command::Merge(merge) => merge::run(merge),
         Command::Check(scene) => check::run(scene),
         Command::Tonemap(tonemap) => pictures::tonemap(tonemap),
-        Command::Optics(optics) => optics::run(optics),
-        Command::Fit(fit) => fit::run(fit),
+        Command::Optics(optics) => optics::run(optics, &settings),
+        Command::Fit(fit) => fit::run(fit, &settings),
         Command::CheckBsdf(table) => check_bsdf::run(table),
-        Command::Instruments(instruments) => instruments::run(instruments),
+        Command::Instruments(instruments) => instruments::run(instruments, &settings),
+        Command::Reproduce(result) => reproduce::run(result),
         Command::Export(ExportCommand::Mitsuba(mitsuba)) => export::run(mitsuba),
         Command::Compare(compare) => pictures::compare(compare),
         Command::Info(info) => pictures::info(info),

@@ -82,6 +82,7 @@ pub mod integrator;
 pub mod measured;
 mod plot;
 mod plugin;
+pub mod provenance;
 mod report;
 pub mod scene;
 pub mod sweep;

@@ -9,6 +9,7 @@ mod measured;
 mod model;
 mod numbers;
 mod optics;
+mod reproduce;
 mod scene;
 mod sweep;
 mod tables;
@@ -32,6 +33,7 @@ pub use measured::{CheckBsdfArguments, FitArguments};
 pub use model::ModelArguments;
 pub use numbers::SampleRange;
 pub use optics::OpticsArguments;
+pub use reproduce::ReproduceArguments;
 pub use scene::SceneArguments;
 pub use sweep::{SweepArguments, TaskRange};
 pub use tables::{ReadingTablesArguments, TableArguments};
@@ -182,6 +184,9 @@ pub enum Command {
     /// Read out the instruments of a scene: what it reflects, transmits and absorbs
     #[command(after_help = instruments::EXAMPLES)]
     Instruments(InstrumentsArguments),
+    /// Compute a result again from what its file says, and compare
+    #[command(after_help = reproduce::EXAMPLES)]
+    Reproduce(ReproduceArguments),
     /// Hand a scene to another renderer
     #[command(subcommand)]
     Export(ExportCommand),

@@ -14,6 +14,7 @@ use crate::cli::progress::Patience;
 use crate::cli::terminal::{Failure, say};
 use crate::measured::series::retain;
 use crate::measured::spectra::Leaf;
+use crate::provenance::{Provenance, Settings};
 use crate::report::fit::{
     Fitted, Rounded, contents, covariances, fitted_spectra, human, report, shown, svg,
 };
@@ -21,7 +22,7 @@ use crate::report::fit::{
 /// Least number of wavelengths from which contents can be told.
 const LEAST_WAVELENGTHS: usize = 8;
 
-pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
+pub(super) fn run(arguments: &FitArguments, settings: &Settings) -> Result<(), Failure> {
     let out = arguments.out.as_deref();
     let is_json = is_json_not_csv(out)?;
     let others = [
@@ -70,19 +71,28 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
     }
     let _patience = Patience::about("fitting");
     let fitted = question.answers(&leaves)?;
+    let files = input::hashes(arguments);
+    let of = |option| Provenance {
+        files: files.clone(),
+        ..Provenance::of("fit", option, settings)
+    };
     if let Some(file) = out {
         let text = if is_json {
-            report(&fitted, free, question.pigments.model)
+            report(&of("out"), &fitted, free, question.pigments.model)
         } else {
-            contents(&fitted, free)
+            of("out").comment() + &contents(&fitted, free)
         };
         write_and_say(file, text)?;
     }
-    let texts = [fitted_spectra, svg, covariances];
-    for ((file, ..), text) in others.into_iter().zip(texts) {
-        if let Some(file) = file {
-            write_and_say(file, text(&fitted))?;
-        }
+    let [spectra_out, drawing, covariance_out] = others.map(|(file, ..)| file);
+    if let Some(file) = spectra_out {
+        write_and_say(file, of("spectra-out").comment() + &fitted_spectra(&fitted))?;
+    }
+    if let Some(file) = drawing {
+        write_and_say(file, svg(&fitted))?;
+    }
+    if let Some(file) = covariance_out {
+        write_and_say(file, of("covariance-out").comment() + &covariances(&fitted))?;
     }
     for fitted in &fitted {
         say_correlation(fitted);

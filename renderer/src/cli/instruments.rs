@@ -13,11 +13,14 @@ use crate::cli::places::{
 use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
 use crate::cli::terminal::{Failure, note, warn};
+use crate::image::atomic::folder_of;
 use crate::instruments::{
     Budget, CutPaths, Effort, MOST_TURNS, Row, Watch, notes, read_out_watched, sets_of,
 };
+use crate::provenance::{Provenance, Settings};
 use crate::report::instruments as report;
 use crate::scene::description::Description;
+use crate::scene::fingerprint::hexadecimal;
 use crate::scene::load;
 
 /// Rays if the command line says nothing.
@@ -25,11 +28,19 @@ const USUAL_RAYS: u64 = 1 << 16;
 /// Most rays if it gives a target error alone.
 const MOST_RAYS: u64 = 1 << 32;
 
-pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
+pub(super) fn run(arguments: &InstrumentsArguments, settings: &Settings) -> Result<(), Failure> {
     let signals = Signals::listen()?;
     let given = &arguments.scene;
     let loaded = load::load_for_instruments(&given.scene, &given.overrides)?;
     warn(&loaded.warnings);
+    let mut provenance = Provenance {
+        scene: Some(hexadecimal(loaded.fingerprint().map_err(Failure::bad)?)),
+        files: loaded
+            .files(folder_of(&given.scene))
+            .map_err(Failure::bad)?,
+        overrides: given.overrides.clone(),
+        ..Provenance::of("instruments", "out", settings)
+    };
     let scene = loaded.description;
     let mut inputs = loaded.inputs;
     inputs.push(given.scene.clone());
@@ -50,6 +61,8 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
         error: arguments.error,
         seed: arguments.seed,
     };
+    let rays = vec![budget.rays.to_string()];
+    provenance.settings.insert("rays".to_owned(), rays);
     let MeasuredRows { rows, cuts, ended } = on_threads(arguments.threads, || {
         measure(arguments, &scene, &chosen, &budget, &signals)
     })?;
@@ -58,11 +71,12 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
         Some(ReadOutEnd::Failed(failure)) if rows.is_empty() => return Err(failure),
         ended => ended,
     };
+    provenance.complete = ended.is_none();
     for path in &arguments.out {
         let text = if has_ending(path, "json") {
-            report::json(&scene, &budget, (&rows, &cuts), ended.is_none())
+            report::json(&scene, &budget, (&rows, &cuts), &provenance)
         } else {
-            report::csv(&rows)
+            provenance.comment() + &report::csv(&rows)
         };
         write_and_say(path, text)?;
     }

@@ -24,8 +24,7 @@ pub(super) fn run(arguments: &MergeArguments) -> Result<(), Failure> {
     let kind = picture_files::kind_of(&shown);
     heading.caption.picture.check(kind).map_err(Failure::bad)?;
     let rendered = Rendered::new(begun, layout, Ended::Samples);
-    picture_files::write(&heading.caption, &heading.job, &rendered, outputs)
-        .map_err(Failure::system)?;
+    picture_files::write(&heading, &rendered, outputs).map_err(Failure::system)?;
     eprintln!(
         "{} parts, {} samples a pixel",
         arguments.parts.len(),

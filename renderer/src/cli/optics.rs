@@ -18,9 +18,13 @@ use crate::cli::places::check_writable;
 use crate::cli::places::{require_ending, write_and_say};
 use crate::cli::progress::Patience;
 use crate::cli::terminal::{Failure, say};
+use crate::provenance::{Provenance, Settings};
 use crate::report::optics::{angles, colour, figures, layers};
 
-pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
+/// Options on which the files of other options do not depend.
+const OF_ANGLES: [&str; 2] = ["nm", "photons"];
+
+pub(super) fn run(arguments: &OpticsArguments, settings: &Settings) -> Result<(), Failure> {
     if arguments.list {
         let longest = presets::ALL.iter().map(|preset| preset.name.len()).max();
         for preset in presets::ALL {
@@ -34,7 +38,7 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
         return Ok(());
     }
     if let (Some(file), Some(out)) = (&arguments.table, &arguments.out) {
-        return table::run(arguments, file, out);
+        return table::run(arguments, settings, file, out);
     }
     let chosen = leaf::choose(arguments)?;
     let files = [
@@ -74,11 +78,18 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     if arguments.about {
         say(chosen.about());
     }
+    let mut of_contents = settings.clone();
+    of_contents.retain(|name, _| !OF_ANGLES.contains(&name.as_str()));
+    let of = |option| Provenance::of("optics", option, &of_contents);
     if let Some(file) = &arguments.out {
-        hand_over(file, &spectrum(&chosen))?;
+        hand_over(file, &of("out"), &spectrum(&chosen))?;
     }
     match &arguments.layers {
-        Some(Some(file)) => hand_over(file, &layers::table(&contents, &chosen.line()))?,
+        Some(Some(file)) => hand_over(
+            file,
+            &of("layers"),
+            &layers::table(&contents, &chosen.line()),
+        )?,
         Some(None) => say(layers::faces(&contents)),
         None => {}
     }
@@ -89,7 +100,7 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
             Some(photons) => angles.compared(photons, &chosen.line()),
             None => angles.table(&chosen.line()),
         };
-        hand_over(file, &table)?;
+        hand_over(file, &Provenance::of("optics", "angles", settings), &table)?;
     }
     if let Some(file) = &arguments.colour {
         let colours = colour::Colours::of(|nm| chosen.at(nm).reflectance_transmittance(&contents));
@@ -100,6 +111,7 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
                     "contents": chosen.json(),
                     "colours": colours.json(),
                 });
+                let report = of("colour").within(report);
                 write_and_say(file, format!("{report:#}\n"))?;
             }
             None => say(colours.table()),
@@ -133,7 +145,8 @@ fn warn_of_mixtures(leaves: &[Contents]) {
 }
 
 /// Writes a table to a file or to the standard output.
-fn hand_over(file: &Path, table: &str) -> Result<(), Failure> {
+fn hand_over(file: &Path, provenance: &Provenance, table: &str) -> Result<(), Failure> {
+    let table = provenance.comment() + table;
     if is_stdout(file) {
         say(table.trim_end());
         return Ok(());

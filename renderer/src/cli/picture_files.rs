@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::checkpoint::Heading;
 use crate::cli::terminal::Failure;
 use crate::image::display::FileKind;
 use crate::image::{ImageError, openexr};
-use crate::integrator::caption::Caption;
 use crate::integrator::develop::develop;
-use crate::integrator::render::{Job, Rendered};
+use crate::integrator::render::{Ended, Rendered};
+use crate::provenance::{Provenance, Settings};
+use crate::scene::fingerprint::hexadecimal;
 
 /// Endings of pictures that are not written; another one is part of a stem.
 const OTHER_PICTURES: [&str; 13] = [
@@ -51,14 +53,35 @@ pub(super) fn with_ending(stem: &Path, ending: &str) -> PathBuf {
 
 /// Writes the EXR, then the picture to look at, whose ending says its kind.
 pub(super) fn write(
-    caption: &Caption,
-    job: &Job,
+    heading: &Heading,
     rendered: &Rendered,
     [exr, shown]: [&Path; 2],
 ) -> Result<(), ImageError> {
-    let picture = develop(caption, job, rendered);
+    let caption = &heading.caption;
+    let mut picture = develop(caption, &heading.job, rendered);
+    picture
+        .attributes
+        .push(provenance(heading, rendered).attribute());
     openexr::write(&picture, exr)?;
     caption.picture.write(&picture, kind_of(shown), shown)
+}
+
+/// What determines a picture, besides the text of its scene.
+fn provenance(heading: &Heading, rendered: &Rendered) -> Provenance {
+    let [_, spp] = rendered.film.drawn_range();
+    let mut settings = Settings::from([
+        ("spp".to_owned(), vec![spp.to_string()]),
+        ("seed".to_owned(), vec![heading.job.seed.to_string()]),
+    ]);
+    if let Some(noise) = &rendered.noise {
+        settings.insert("noise".to_owned(), vec![noise.aim.to_string()]);
+    }
+    Provenance {
+        scene: Some(hexadecimal(heading.scene)),
+        // What ended by time has the bits of a render with as many samples.
+        complete: rendered.map.is_none() && rendered.ended != Ended::Interrupted,
+        ..Provenance::of("render", "out", &settings)
+    }
 }
 
 /// The kind of the picture to look at.

@@ -170,6 +170,11 @@ impl RenderCommand<'_> {
         let written = self.write_pictures(heading, &rendered);
         preview.show_last(&rendered.film);
         let mut stats = stats(&rendered, times);
+        let words = self.line.iter().map(|word| quoted(word));
+        stats["command"] = words.collect::<Vec<_>>().join(" ").into();
+        stats["machine"] = [std::env::consts::ARCH, std::env::consts::OS]
+            .join(" ")
+            .into();
         stats["scene"] = heading.caption.name.as_str().into();
         stats["geometry_mib"] = (world.geometry.memory_bytes() as f64 / f64::from(1 << 20)).into();
         keeping.report(&mut stats);
@@ -222,7 +227,7 @@ impl RenderCommand<'_> {
         let Some([exr, shown]) = &self.files.pictures else {
             return Ok(());
         };
-        picture_files::write(&heading.caption, &heading.job, rendered, [exr, shown])
+        picture_files::write(heading, rendered, [exr, shown])
     }
 
     /// The result could not be written: nothing is lost as long as the sums can be kept anywhere.

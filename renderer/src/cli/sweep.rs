@@ -24,13 +24,14 @@ use serde_json::json;
 use self::process::Ended;
 use self::record::Record;
 use self::table::{Row, State};
-use self::tasks::{hexadecimal, words_of};
+use self::tasks::words_of;
 use crate::cli::arguments::{SweepArguments, file_and_leaf};
 use crate::cli::grow;
 use crate::cli::places::{check_writable, write_json};
 use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
 use crate::cli::terminal::{Failure, say};
+use crate::scene::fingerprint::hexadecimal;
 use crate::sweep::{Sweep, Target, Words, is_sweep_file};
 
 pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {

@@ -69,7 +69,21 @@ pub(super) fn colour() -> bool {
 /// Writes a result, such as a path or a table, to stdout. If that fails, so does the command when
 /// its work is done.
 pub(super) fn say(text: impl Display) {
+    if IS_QUIET.load(Ordering::Relaxed) {
+        return;
+    }
     note_output(writeln!(io::stdout(), "{text}"));
+}
+
+/// Whether results are for this program itself.
+static IS_QUIET: AtomicBool = AtomicBool::new(false);
+
+/// What a part of a command returns, which prints no results of its own.
+pub(super) fn quietly<T>(work: impl FnOnce() -> T) -> T {
+    IS_QUIET.store(true, Ordering::Relaxed);
+    let found = work();
+    IS_QUIET.store(false, Ordering::Relaxed);
+    found
 }
 
 /// Why stdout could not be written, for the first time.

@@ -11,7 +11,7 @@ use crate::integrator::features::Quantity;
 use crate::integrator::layers::{FilmLayer, Layout, Source};
 use crate::integrator::render::{Job, Rendered};
 use crate::scene::description::{Band, FilmKind};
-use crate::scene::fingerprint::fnv1a;
+use crate::scene::fingerprint::{fnv1a, hexadecimal};
 use crate::spectrum::WavelengthSampler;
 use crate::spectrum::observer::Observer;
 
@@ -136,7 +136,7 @@ fn attributes(caption: &Caption, job: &Job, rendered: &Rendered) -> Vec<(String,
         text("lamina:sceneName", caption.name.clone()),
         text(
             "lamina:sceneHash",
-            format!("{:016x}", fnv1a(caption.source.as_bytes())),
+            hexadecimal(fnv1a(caption.source.as_bytes())),
         ),
         text("lamina:seed", job.seed.to_string()),
         (

@@ -12,6 +12,7 @@ use serde_json::{Map, Value as Json, json};
 pub(crate) use self::plot::{Fitted, shown, svg};
 use super::table::{Table, aligned, cell};
 use crate::checkpoint::PROGRAM;
+use crate::provenance::Provenance;
 
 fn have_faces(fitted: &[Fitted<'_>]) -> bool {
     fitted.iter().any(|fitted| fitted.found.contrast.is_some())
@@ -92,7 +93,12 @@ pub(crate) fn covariances(fitted: &[Fitted<'_>]) -> String {
 }
 
 /// Everything as JSON.
-pub(crate) fn report(fitted: &[Fitted<'_>], free: &[Constituent], model: Model) -> String {
+pub(crate) fn report(
+    provenance: &Provenance,
+    fitted: &[Fitted<'_>],
+    free: &[Constituent],
+    model: Model,
+) -> String {
     let leaves = fitted.iter().map(|Fitted { leaf, found }| {
         let mut contents = Map::new();
         for &of in free {
@@ -121,10 +127,8 @@ pub(crate) fn report(fitted: &[Fitted<'_>], free: &[Constituent], model: Model) 
         })
     });
     let leaves: Vec<Json> = leaves.collect();
-    format!(
-        "{:#}\n",
-        json!({ "program": PROGRAM, "model": model.name(), "leaves": leaves })
-    )
+    let report = json!({ "program": PROGRAM, "model": model.name(), "leaves": leaves });
+    format!("{:#}\n", provenance.within(report))
 }
 
 /// A value with its errors, or why there is none.

@@ -8,14 +8,16 @@ pub(crate) use self::plot::svg;
 use super::table::{Table, cell};
 use crate::checkpoint::PROGRAM;
 use crate::instruments::{Budget, CutPaths, Direction, Row, Target, ViewAngles};
+use crate::provenance::Provenance;
 use crate::scene::description::Description;
+
+/// The columns of a table.
+const COLUMNS: &str = "instrument,quantity,part,face,incidence_deg,view_zenith_deg,view_azimuth_deg,\
+     depth_um,band,wavelength_nm,value,standard_error,unit";
 
 /// A row for each figure.
 pub(crate) fn csv(rows: &[Row]) -> String {
-    let mut table = Table::new(
-        "instrument,quantity,part,face,incidence_deg,view_zenith_deg,view_azimuth_deg,depth_um,band,\
-         wavelength_nm,value,standard_error,unit",
-    );
+    let mut table = Table::commented(COLUMNS.split(','));
     for row in rows {
         let [zenith, azimuth] = view_of(row);
         // Shares of the incident flux are of the order of 1, other figures of any.
@@ -48,13 +50,12 @@ fn view_of(row: &Row) -> [Option<f64>; 2] {
     [0, 1].map(|axis| degrees.map(|degrees| degrees[axis]))
 }
 
-/// The figures, and what they were measured with; `is_complete` says whether all instruments have
-/// followed all of their rays.
+/// The figures, and what they were measured with.
 pub(crate) fn json(
     scene: &Description,
     budget: &Budget,
     (rows, cuts): (&[Row], &[(String, CutPaths)]),
-    is_complete: bool,
+    provenance: &Provenance,
 ) -> String {
     let figures = rows.iter().map(|row| {
         let incidence = match row.incidence {
@@ -87,7 +88,7 @@ pub(crate) fn json(
             Target::Absolute(error) => json!(error),
             Target::Relative(_) => json!(target.to_string()),
         }),
-        "complete": is_complete,
+        "complete": provenance.complete,
         // What such paths carried counts as absorbed.
         "cut_paths": cuts.iter().map(|(instrument, cut)| json!({
             "instrument": instrument,
@@ -96,5 +97,5 @@ pub(crate) fn json(
         })).collect::<Vec<_>>(),
         "figures": figures.collect::<Vec<_>>(),
     });
-    format!("{report:#}\n")
+    format!("{:#}\n", provenance.within(report))
 }

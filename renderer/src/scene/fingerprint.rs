@@ -108,6 +108,11 @@ fn write_value(text: &mut String, value: &Value, depth: Nesting) {
     }
 }
 
+/// A hash as files hold it.
+pub fn hexadecimal(hash: u64) -> String {
+    format!("{hash:016x}")
+}
+
 const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
 
 /// The 64-bit FNV-1a hash of some bytes. It distinguishes them; it is not a cryptographic hash.

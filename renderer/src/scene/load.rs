@@ -3,8 +3,9 @@
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
 use leafmodel::document::context::QUOTED;
 use leafmodel::document::names::{LONGEST_FILE, is_title, may_be_in_a_title};
@@ -14,11 +15,11 @@ use leafmodel::document::schema::{self, Alone, BlockSchema};
 use leafmodel::document::source::escaped;
 use leafmodel::plan_file;
 
-use super::assets::{AssetError, DECODER};
+use super::assets::{self, AssetError, DECODER};
 use super::blocks::{self, Purpose};
 use super::description::{Description, Leaf, Named, Picture, Solid};
 use super::expand::{Fault, expand};
-use super::fingerprint::{fingerprint, identity};
+use super::fingerprint::{fingerprint, fnv1a, hexadecimal, identity};
 
 /// A scene that was accepted.
 #[derive(Clone, Debug)]
@@ -42,6 +43,26 @@ impl Loaded {
     /// [`AssetError`] if a file of the scene cannot be read.
     pub fn fingerprint(&self) -> Result<u64, AssetError> {
         fingerprint(&self.identity, &self.inputs)
+    }
+
+    /// The hashes of the files that it names, by their places in the folder of the scene or, outside
+    /// of it, by their names.
+    ///
+    /// # Errors
+    ///
+    /// [`AssetError`] if a file of the scene cannot be read.
+    pub fn files(&self, folder: &Path) -> Result<BTreeMap<String, String>, AssetError> {
+        let whole = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+        let hashed = |file: &PathBuf| {
+            let place = [folder, &whole].map(|folder| file.strip_prefix(folder).ok());
+            let place = place.into_iter().flatten().next();
+            let name = place.or(file.file_name().map(Path::new)).unwrap_or(file);
+            let hash = fnv1a(&assets::read(file)?);
+            // The same on every system.
+            let name = name.to_string_lossy().replace(MAIN_SEPARATOR, "/");
+            Ok((name, hexadecimal(hash)))
+        };
+        self.inputs.iter().map(hashed).collect()
     }
 }
 

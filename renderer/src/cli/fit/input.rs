@@ -11,17 +11,30 @@ use crate::measured::known::Known;
 use crate::measured::series::{self, Series};
 use crate::measured::spectra::{self, Leaf};
 use crate::measured::{Slack, units};
+use crate::provenance::{Hashes, hash_of};
 use crate::report::fit::shown;
 
 /// The files that are read, at least one.
 pub(super) fn files(arguments: &FitArguments) -> Vec<PathBuf> {
-    let single = [
-        &arguments.adaxial,
-        &arguments.abaxial,
-        &arguments.transmittance,
+    named(arguments).map(|(_, file)| file.clone()).collect()
+}
+
+/// The files by the arguments that name them.
+fn named(arguments: &FitArguments) -> impl Iterator<Item = (&'static str, &PathBuf)> {
+    let all = [
+        ("spectra", &arguments.spectra),
+        ("adaxial", &arguments.adaxial),
+        ("abaxial", &arguments.abaxial),
+        ("transmittance", &arguments.transmittance),
     ];
-    let all = std::iter::once(&arguments.spectra).chain(single);
-    all.flatten().cloned().collect()
+    all.into_iter()
+        .filter_map(|(name, file)| Some((name, file.as_ref()?)))
+}
+
+/// Their hashes.
+pub(super) fn hashes(arguments: &FitArguments) -> Hashes {
+    let hashed = |(name, file): (&str, &PathBuf)| (name.to_owned(), hash_of(file));
+    named(arguments).map(hashed).collect()
 }
 
 /// The leaves, within what noise explains; stderr says what was taken for granted.

@@ -85,6 +85,10 @@ fn priors_are_means_with_deviations_or_ranges_of_what_is_looked_for() {
     }
 }
 
+fn unknown() -> Provenance {
+    Provenance::of("fit", "out", &Settings::new())
+}
+
 #[test]
 fn contents_that_a_spectrum_does_not_determine_are_empty_with_the_reason() {
     let leaf = leaf((0..61).map(|i| 1300.0 + 20.0 * f64::from(i)));
@@ -100,7 +104,7 @@ fn contents_that_a_spectrum_does_not_determine_are_empty_with_the_reason() {
             .expect("a column")
     };
     let report: Json =
-        serde_json::from_str(&report(&fitted, free, Model::ProspectD)).expect("JSON");
+        serde_json::from_str(&report(&unknown(), &fitted, free, Model::ProspectD)).expect("JSON");
     for &of in free {
         let is_pigment = !matches!(
             of,
@@ -127,7 +131,7 @@ fn covariances_are_written_for_each_pair_of_what_is_determined() {
     let free = &question.free;
     let fitted = question.answers(&leaves).expect("within the table");
     let report: Json =
-        serde_json::from_str(&report(&fitted, free, Model::ProspectD)).expect("JSON");
+        serde_json::from_str(&report(&unknown(), &fitted, free, Model::ProspectD)).expect("JSON");
     let covariance = &report["leaves"][0]["covariance"];
     let keys = ["structure", "water_cm", "dry_matter_g_per_cm2"];
     assert_eq!(covariance["of"], json!(keys));

@@ -19,6 +19,7 @@ use crate::cli::progress::Clock;
 use crate::cli::signals::Signals;
 use crate::cli::terminal::Failure;
 use crate::report::vein_fit::simulations::{self, Grown, place};
+use crate::scene::fingerprint::hexadecimal;
 
 /// All simulations of a fit.
 #[derive(Debug)]
@@ -42,7 +43,7 @@ struct KnownSimulations {
 impl<'p> Simulations<'p> {
     /// Reads the table at `path` if there is one.
     pub(super) fn open(path: &Path, identity: u64, problem: &'p Problem) -> Result<Self, Failure> {
-        let identity = format!("{identity:016x}");
+        let identity = hexadecimal(identity);
         let grown = read(path, &identity, problem)?;
         let before = grown.len();
         if before > 0 {

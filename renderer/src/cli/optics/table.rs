@@ -3,6 +3,7 @@
 mod output;
 
 use std::collections::HashSet;
+use std::io::Write;
 use std::path::Path;
 
 use leafmodel::document::context::{Context, QUOTED};
@@ -23,6 +24,7 @@ use crate::cli::places::require_ending;
 use crate::cli::terminal::{Failure, note, note_output, say};
 use crate::cli::texts::text_of;
 use crate::image::atomic;
+use crate::provenance::{Provenance, Settings, hash_of};
 
 /// Names of the column that names leaves.
 const IDENTITIES: [&str; 5] = ["leaf", "id", "name", "sample", "case"];
@@ -39,7 +41,12 @@ struct Leaves {
     contents: Vec<Contents>,
 }
 
-pub(super) fn run(arguments: &OpticsArguments, table: &Path, out: &Path) -> Result<(), Failure> {
+pub(super) fn run(
+    arguments: &OpticsArguments,
+    settings: &Settings,
+    table: &Path,
+    out: &Path,
+) -> Result<(), Failure> {
     let is_stdout = super::is_stdout(out);
     let is_array = out.extension().is_some_and(|ending| ending == "npy");
     if !is_stdout {
@@ -59,15 +66,23 @@ pub(super) fn run(arguments: &OpticsArguments, table: &Path, out: &Path) -> Resu
         arguments.nm.clone()
     };
     let at: Vec<_> = wavelengths.iter().map(|&nm| chosen.at(nm)).collect();
+    let provenance = Provenance {
+        files: [("table".to_owned(), hash_of(table))].into(),
+        ..Provenance::of("optics", "out", settings)
+    };
+    let table_of = |out: &mut dyn Write| {
+        out.write_all(provenance.comment().as_bytes())?;
+        output::csv(&leaves, &wavelengths, &at, &mut { out })
+    };
     if is_stdout {
         let mut stdout = std::io::stdout().lock();
-        note_output(output::csv(&leaves, &wavelengths, &at, &mut stdout));
+        note_output(table_of(&mut stdout));
     } else {
         let written = atomic::replace(out, |file| {
             if is_array {
                 output::npy(&leaves, &at, file)
             } else {
-                output::csv(&leaves, &wavelengths, &at, file)
+                table_of(file)
             }
         });
         written.map_err(Failure::system)?;

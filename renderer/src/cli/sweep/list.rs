@@ -5,10 +5,11 @@ use std::ops::Range;
 use leafmodel::document::schema::unit_of;
 use serde_json::{Map, Value, json};
 
-use super::tasks::{hexadecimal, identities, words_of};
+use super::tasks::{identities, words_of};
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::SweepArguments;
 use crate::cli::terminal::{Failure, has_no_reader, say};
+use crate::scene::fingerprint::hexadecimal;
 use crate::sweep::{Sweep, Target};
 
 /// Prints a line for the sweep ([`about`]), then one for each task as soon as it is read: its number,

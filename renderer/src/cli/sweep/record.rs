@@ -7,11 +7,11 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::tasks::hexadecimal;
 use crate::checkpoint::PROGRAM;
 use crate::cli::places::{has_ending, write_whole};
 use crate::cli::terminal::Failure;
 use crate::image::{Layer, openexr};
+use crate::scene::fingerprint::hexadecimal;
 use crate::sweep::{Sweep, Target, Task};
 
 /// What a task has made.

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use super::list::{plain, value};
 use super::record::Record;
-use super::tasks::hexadecimal;
 use crate::checkpoint::PROGRAM;
 use crate::cli::places::write_whole;
 use crate::cli::terminal::Failure;
 use crate::report::table::{Table, cell};
+use crate::scene::fingerprint::hexadecimal;
 use crate::sweep::{Sweep, Task};
 
 /// Whether a task is done.

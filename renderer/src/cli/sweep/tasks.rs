@@ -160,8 +160,3 @@ fn identity(sweep: &Sweep, task: &Task<'_>) -> Result<u64, Why> {
     };
     Ok(fnv1a(identity.to_string().as_bytes()))
 }
-
-/// An identity as files are named.
-pub(super) fn hexadecimal(identity: u64) -> String {
-    format!("{identity:016x}")
-}
