@@ -73,9 +73,9 @@ def read_figures(file: str | Path) -> dict[str, xr.Dataset]:
     `view_zenith` and `view_azimuth` (degrees), `face`, `depth` (µm), and `object`, `layer`,
     `constituent` or `instance`. Its standard error is the variable `NAME_standard_error`. Figures
     in diffuse light are `NAME_diffuse`, those of bands `NAME_in_band`, indices
-    `NAME_of_QUANTITY`. Units are in the attribute `units`; what determines the figures is JSON in the
-    attribute `provenance` of a file that has it. Raises ValueError for a file that is
-    no such table.
+    `NAME_of_QUANTITY`. Units are in the attribute `units`. What determines the figures is JSON in
+    the attribute `provenance`, unless an older program wrote the file. Raises ValueError for a
+    file that is no such table.
     """
     rows, told = rows_of(Path(file))
     names = dict.fromkeys(str(row["instrument"]) for row in rows)
