@@ -5,7 +5,7 @@
 //! a folder for temporary files.
 
 use std::collections::BTreeSet;
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use clap::builder::ValueParser;
@@ -33,6 +33,8 @@ const RESULTS: [(&str, &[&str]); 3] = [
     ("optics", &["out", "colour", "layers", "angles"]),
     ("fit", &["out", "spectra-out", "covariance-out"]),
 ];
+/// The options of `render` that a picture's provenance has.
+const OF_PICTURES: [&str; 3] = ["spp", "seed", "noise"];
 /// Options on which no number depends.
 const INCIDENTAL: [&str; 3] = ["threads", "memory", "time"];
 
@@ -124,19 +126,25 @@ fn report(file: &Path, own: &Provenance, found: &Deviation) -> Result<(), Failur
     )))
 }
 
-/// What a setting that a picture must have says.
-fn number<T: std::str::FromStr>(own: &Provenance, name: &str) -> Result<Option<T>, Failure> {
-    let Some(values) = own.settings.get(name) else {
-        return Ok(None);
-    };
-    let value = values.first().and_then(|value| value.parse().ok());
-    value
-        .map(Some)
-        .ok_or_else(|| damaged(format_args!("{name} is no number: {values:?}")))
-}
-
 fn damaged(what: impl std::fmt::Display) -> Failure {
     bad!("the provenance is damaged: {what}")
+}
+
+/// An option with its value, in one word so that no value becomes an option.
+fn option_of(name: &str, value: impl AsRef<OsStr>) -> OsString {
+    let mut word = OsString::from(format!("--{name}="));
+    word.push(value);
+    word
+}
+
+/// The command of such words, whose values are checked as those of a person are.
+fn command_of(words: Vec<OsString>) -> Result<Command, Failure> {
+    let parsed = Arguments::of_line(words).map_err(|error| {
+        let text = error.to_string();
+        let line = text.lines().next().unwrap_or_default();
+        damaged(line.trim_start_matches("error: "))
+    })?;
+    parsed.command.ok_or_else(|| damaged("it names no command"))
 }
 
 /// The picture of the scene whose text another one holds.
@@ -173,17 +181,31 @@ fn picture_again(
     }
     let scene = loaded.description;
     needs::check(&scene, None)?;
-    let (film, needed) = (&scene.film, |name: &'static str| {
-        move || damaged(format_args!("{name} is missing"))
-    });
+    let words = own
+        .settings
+        .iter()
+        .filter(|(name, _)| OF_PICTURES.contains(&name.as_str()));
+    let words =
+        words.flat_map(|(name, values)| values.iter().map(move |value| option_of(name, value)));
+    let words = ["lamina", "render", "scene.toml"]
+        .map(OsString::from)
+        .into_iter()
+        .chain(words);
+    let Command::Render(asked) = command_of(words.collect())? else {
+        unreachable!("the line is one of render");
+    };
+    let (Some(spp), Some(seed)) = (asked.spp, asked.seed) else {
+        return Err(damaged("it needs spp and seed"));
+    };
+    let film = &scene.film;
     let job = Job {
         width: film.width,
         height: film.height,
-        spp: number(own, "spp")?.ok_or_else(needed("spp"))?,
-        seed: number(own, "seed")?.ok_or_else(needed("seed"))?,
+        spp,
+        seed,
     };
     let halt = Halt {
-        noise: number(own, "noise")?,
+        noise: asked.noise,
         time: None,
     };
     let world = Building::default().world(&scene)?;
@@ -213,11 +235,6 @@ fn table_again(
     let folder = tempfile::tempdir().map_err(Failure::system)?;
     let again = folder.path().join(format!("again.{ending}"));
     let mut words: Vec<OsString> = ["lamina", result].map(OsString::from).to_vec();
-    let mut option_of = |name: &str, value: OsString| {
-        let mut word = OsString::from(format!("--{name}="));
-        word.push(value);
-        words.push(word);
-    };
     let line = Arguments::command();
     let command = line
         .find_subcommand(result)
@@ -229,11 +246,9 @@ fn table_again(
                 "`{name}` is no option of {result} that counts"
             )));
         }
-        for value in values {
-            option_of(name, value.into());
-        }
+        words.extend(values.iter().map(|value| option_of(name, value)));
     }
-    option_of(option, again.clone().into());
+    words.push(option_of(option, &again));
     let mut last: Vec<OsString> = Vec::new();
     if result == "instruments" {
         last.push(scene_of(arguments, own)?.into());
@@ -242,7 +257,7 @@ fn table_again(
             match role.as_str() {
                 "spectra" => last.push(input.into()),
                 "table" | "adaxial" | "abaxial" | "transmittance" => {
-                    option_of(&role, input.into());
+                    words.push(option_of(&role, input));
                 }
                 _ => return Err(damaged(format_args!("no command reads a file as `{role}`"))),
             }
@@ -261,20 +276,17 @@ fn table_again(
         words.push("--".into());
         words.append(&mut last);
     }
-    let parsed = Arguments::of_line(words).map_err(|error| {
-        let text = error.to_string();
-        damaged(
-            text.lines()
-                .next()
-                .unwrap_or_default()
-                .trim_start_matches("error: "),
-        )
-    })?;
-    quietly(|| match &parsed.command {
-        Some(Command::Instruments(again)) => instruments::run(again, &own.settings),
-        Some(Command::Optics(again)) => optics::run(again, &own.settings),
-        Some(Command::Fit(again)) => fit::run(again, &own.settings),
-        _ => unreachable!("the command is one of the results"),
+    let command = command_of(words)?;
+    quietly(|| {
+        if let Command::Instruments(again) = &command {
+            instruments::run(again, &own.settings)
+        } else if let Command::Optics(again) = &command {
+            optics::run(again, &own.settings)
+        } else if let Command::Fit(again) = &command {
+            fit::run(again, &own.settings)
+        } else {
+            unreachable!("the command is one of those with results")
+        }
     })?;
     let again = Kept::read(&again).map_err(Failure::system)?;
     Ok(again.contents)
