@@ -65,14 +65,9 @@ fn folder() -> TempDir {
     for (name, table) in tables_of_spectra() {
         write(name, &table);
     }
-    write(
-        "sensor.csv",
-        "nm,red,far\n600,0,0\n650,1,0\n700,0,0.5\n2600,0,0.1\n",
-    );
-    write(
-        "multispectral.csv",
-        "nm,red,nir\n600,0,0\n650,1,0\n700,0,0\n800,0,1\n850,0,0\n",
-    );
+    let far = "nm,red,far\n600,0,0\n650,1,0\n700,0,0.5\n2600,0,0.1\n";
+    write("sensor.csv", far);
+    write("multispectral.csv", "nm,red\n600,0\n650,1\n700,0\n");
     write(
         "margin.svg",
         "<svg xmlns=\"http://www.w3.org/2000/svg\"><path id=\"blade\" d=\"M50 90C90 80 90 30 50 10C10 30 10 80 50 90Z\"/>\

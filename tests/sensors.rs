@@ -82,10 +82,10 @@ fn a_band_records_alike_in_a_film_of_few_bands_and_of_many() {
     let all = picture_of(&ground(&film(&many), 32), 1);
     for (group, bands) in many.chunks(32).enumerate() {
         let own = picture_of(&ground(&film(bands), 32), 1);
-        for channel in 0..bands.len() {
+        for (channel, band) in bands.iter().enumerate() {
             // On a single bounce nothing depends on other bands.
             let of_all = mean_of(&all, 32 * group + channel);
-            assert_eq!(of_all, mean_of(&own, channel), "{}", bands[channel]);
+            assert_eq!(of_all, mean_of(&own, channel), "{band}");
         }
     }
 }
