@@ -28,12 +28,16 @@ fn text_of(name: &str) -> String {
     fs::read_to_string(own_folder().join(name)).expect("the test's own file is there")
 }
 
-/// A reflectance, and tables of specific absorption: a sound one, one that ends too early, and one
+/// Responses of sensors, a reflectance, and tables of specific absorption: a sound one, one that ends too early, and one
 /// below 0.
-fn tables_of_spectra() -> [(&'static str, String); 4] {
+fn tables_of_spectra() -> [(&'static str, String); 6] {
     let with = |rows: &str| format!("wavelength_nm,absorption_cm2_per_ug\n{rows}");
+    let sensor = "nm,red,far\n600,0,0\n650,1,0\n700,0,0.5\n2600,0,0.1\n";
+    let multispectral = "nm,red\n600,0\n650,1\n700,0\n";
     let paper = "wavelength_nm,percent\n380,70\n800,90\n";
     [
+        ("sensor.csv", sensor.to_owned()),
+        ("multispectral.csv", multispectral.to_owned()),
         ("paper.csv", paper.to_owned()),
         ("extra.csv", with("400,0.02\n700,0.01\n2500,0\n")),
         ("extra_short.csv", with("400,0.02\n700,0.01\n")),
@@ -65,9 +69,6 @@ fn folder() -> TempDir {
     for (name, table) in tables_of_spectra() {
         write(name, &table);
     }
-    let far = "nm,red,far\n600,0,0\n650,1,0\n700,0,0.5\n2600,0,0.1\n";
-    write("sensor.csv", far);
-    write("multispectral.csv", "nm,red\n600,0\n650,1\n700,0\n");
     write(
         "margin.svg",
         "<svg xmlns=\"http://www.w3.org/2000/svg\"><path id=\"blade\" d=\"M50 90C90 80 90 30 50 10C10 30 10 80 50 90Z\"/>\

@@ -1,7 +1,7 @@
 //! A picture of veins becomes a margin and a network with radii.
 //!
 //! - **In**: a [`Raster`] of a cleared leaf, a drawing or a mask, and [`Settings`].
-//! - **Out**: [`Traced`]: an [`Outline`] and a [`VenationNetwork`] in millimetres, and what was
+//! - **Out**: [`Traced`]: an `Outline` and a `VenationNetwork` in millimetres, and what was
 //!   found on the way, with places.
 //! - **Always true**: the network is valid, its loops are the holes between the veins; the same
 //!   picture gives the same bits on every machine and any number of threads.

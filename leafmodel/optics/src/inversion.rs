@@ -8,7 +8,7 @@
 //!   along a spectrum, as smooth noise and the model's own error are ([`correlated`]).
 //!
 //! PROSPECT has one face. Where the abaxial one was measured too, its reflectance is that of the
-//! adaxial face times [`abaxial_ratio`], whose contrast is one more unknown: a rule, not a model of
+//! adaxial face times `abaxial_ratio`, whose contrast is one more unknown: a rule, not a model of
 //! the tissue.
 //!
 //! A normal prior of a content is one more residual: its distance from the mean in deviations, times
@@ -125,7 +125,7 @@ pub struct Found {
     pub transmittance_left: Vec<f64>,
 }
 
-/// The contrast of the faces, see [`abaxial_ratio`].
+/// The contrast of the faces, see `abaxial_ratio`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contrast {
     /// The contrast.

@@ -1,4 +1,4 @@
-//! Which substances the pigment columns of [`Contents`](super::Contents) consist of.
+//! Which substances the pigment columns of [`Contents`] consist of.
 //!
 //! By default they are PROSPECT-D's own columns, bit for bit. Each class can instead be a mix of
 //! named pigments: bands in solution moved and scaled to what they are in leaves. That step (shift,

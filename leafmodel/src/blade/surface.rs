@@ -52,7 +52,7 @@ pub type Cover = [f32; 3];
 /// The distance to veins where there are none, mm.
 const NO_VEIN_MM: f32 = 1e3;
 
-/// The slopes of both faces over a [`UvFrame`], as texels of a map with the layout of the contents
+/// The slopes of both faces over a `UvFrame`, as texels of a map with the layout of the contents
 /// map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceMap {

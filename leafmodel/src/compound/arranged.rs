@@ -9,8 +9,8 @@ use crate::leaf::LeafError;
 /// A leaflet in its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedLeaflet {
-    /// Which of [`CompoundForm::variants`] it is; their plans are at the size of the largest
-    /// leaflet ([`leaflet_plans`]).
+    /// Which of `CompoundForm::variants` it is; their plans are at the size of the largest
+    /// leaflet (`leaflet_plans`).
     pub variant: u32,
     /// Where its stalk leaves the axis, mm.
     pub foot: DVec2,

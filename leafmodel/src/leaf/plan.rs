@@ -80,7 +80,7 @@ pub struct LeafPlan {
     pub petiole: Option<PetiolePlan>,
     /// This is the largest leaflet of a compound leaf.
     ///
-    /// How its leaflets stand: [`Leaf::grow`] grows the one leaflet,
+    /// How its leaflets stand: `Leaf::grow` grows the one leaflet,
     /// [`WholeLeaf::grow`](crate::compound::WholeLeaf::grow) all of them.
     #[key("compound", block, with = CompoundForm::keys)]
     pub compound: Option<CompoundForm>,

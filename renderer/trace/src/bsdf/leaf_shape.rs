@@ -124,7 +124,7 @@ const LIVING: LeafShape = LeafShape {
     faces: [
         FaceShape {
             shallow: law(0.036, 0.014),
-            paired: law(0.92, 0.318),
+            paired: law(0.92, 0.32),
             onward: law(0.054, 0.104),
         },
         FaceShape {

@@ -360,8 +360,8 @@ impl<const N: usize> TissueView<N> {
     #[inline]
     pub(super) fn scaled(mut self, back: Lanes<N>, through: Lanes<N>) -> Self {
         self.back = self.back.map(|of| of * back);
-        self.onward = self.onward * back;
-        self.through = self.through * through;
+        self.onward *= back;
+        self.through *= through;
         self
     }
 }

@@ -73,7 +73,7 @@ enum Shipped {
     Bells(&'static [[f64; 4]]),
 }
 
-/// Middles and full widths at half of the maximum of the responses of S2-SRF 4.0.
+/// Middles and full widths at half of the maximum, computed from published responses (NOTICE).
 const SENTINEL_2C: [(&str, f64, f64); 10] = [
     ("B2", 489.0, 65.3),
     ("B3", 560.6, 35.4),
