@@ -47,6 +47,8 @@ pub(super) fn folder() -> TempDir {
     // One that covers all wavelengths of the scenes.
     let paper = "wavelength_nm,percent\n380,70\n800,90\n";
     fs::write(folder.path().join("paper.csv"), paper).expect("the folder was just made");
+    let extra = "wavelength_nm,absorption_cm2_per_ug\n400,0.02\n700,0.01\n2500,0\n";
+    fs::write(folder.path().join("extra.csv"), extra).expect("the folder was just made");
     folder
 }
 

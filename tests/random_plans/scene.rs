@@ -66,7 +66,14 @@ impl Scene {
             _ => "size = [4, 4]\nspp = 1\nbands_nm = [450, 550, 700]\nband_width_nm = 20\n",
         };
         let path = format!("film.{film}");
-        let skip = ["size", "spp", "bands_nm", "band_width_nm", "range_nm"];
+        let skip = [
+            "size",
+            "spp",
+            "bands_nm",
+            "band_width_nm",
+            "range_nm",
+            "sensor",
+        ];
         self.block(&path, &["film", film], true, &skip, lines);
         let camera = ["perspective", "orthographic"][self.chance.below(2)];
         let mut lines = String::new();
