@@ -95,7 +95,7 @@ const WATER: Facts = Facts {
     is_bulk: true,
 };
 
-/// Dry matter, of which a file may give the parts instead.
+/// Dry matter; a file may give its parts instead.
 const DRY_MATTER: Facts = Facts {
     name: "dry_matter",
     key: "dry_matter_g_per_cm2",

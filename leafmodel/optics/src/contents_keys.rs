@@ -29,7 +29,7 @@ pub fn contents(value: &mut Contents, keys: &mut Keys<'_>) {
     warn_of_mixture(value, keys, "this leaf holds");
 }
 
-/// The keys of contents of which none must be said: what is not there stays as it is.
+/// The keys of contents, all optional: a missing one stays as it is.
 pub fn changed_contents(value: &mut Contents, keys: &mut Keys<'_>) {
     parts(value, keys);
     for (constituent, value) in value.iter_mut() {

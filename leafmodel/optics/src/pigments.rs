@@ -61,7 +61,7 @@ pub struct Pigments {
 }
 
 impl Pigments {
-    /// What is wrong if a leaf holds an extra constituent of which nothing says what it absorbs.
+    /// What is wrong if a leaf holds an extra constituent whose absorption nothing states.
     pub fn lacks_extra(&self, contents: &Contents) -> Option<&'static str> {
         let is_missing = self.extra.is_none() && contents[Constituent::Extra] > 0.0;
         is_missing.then_some("nothing says what the extra constituent absorbs: give its table too")
