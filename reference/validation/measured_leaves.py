@@ -9,9 +9,13 @@ not in this repository.
 authors of PROSPECT: `DataBioch.txt`, `ReflectanceData.txt` and `TransmittanceData.txt`, as at
 https://gitlab.com/jbferet/myshareddata in `LOP/ANGERS`, `LOP/LOPEX_FRESH_VAL` and others.
 
-Each leaf is fitted by `lamina fit` with R and T from 400 to 2500 nm. The table has the root mean
-square and the mean of what the fit exceeds the measurement by: of R and T by range of wavelengths,
-and of contents where they are known.
+`--clip FILE` is a table of leaves whose reflectance a clip measured, and whose chlorophyll was
+extracted: the data frame of `data/chl-raw.RData` in ashiklom/prospect_bayes, written as CSV. No
+licence is named there, so that it is not in this repository either.
+
+Each leaf is fitted by `lamina fit` with what was measured, R and T or R alone, from 400 to 2500 nm.
+The table has the root mean square and the mean of what the fit exceeds the measurement by: of R and
+T by range of wavelengths, and of contents where they are known.
 """
 
 from __future__ import annotations
@@ -104,6 +108,23 @@ def of_database(folder: Path) -> list[Leaf]:
     return leaves
 
 
+def of_clip(file: Path) -> list[Leaf]:
+    """Leaves with R alone, whose chlorophyll (a and b) and dry matter are known in g/m²."""
+    leaves = []
+    with file.open(encoding="utf-8", newline="") as text:
+        for row in csv.DictReader(text):
+            by_nm = {
+                float(name.removeprefix("Wave_")): float(value)
+                for name, value in row.items()
+                if name.startswith("Wave_")
+            }
+            leaf = Leaf(row["Spectra"], {nm: r for nm, r in by_nm.items() if nm >= 400}, {})
+            leaf.contents["CHL"] = 100 * (float(row["Chl_a_g_m2"]) + float(row["Chl_b_g_m2"]))
+            leaf.contents["LMA"] = 1e-4 * float(row["LMA_gDW_m2"])
+            leaves.append(leaf)
+    return leaves
+
+
 @dataclass
 class Errors:
     """Root mean square and mean of differences."""
@@ -126,17 +147,23 @@ class Errors:
         return f"{rms:.{digits}f} ({mean:+.{digits}f})"
 
 
+def quantities(leaves: list[Leaf]) -> str:
+    """What was measured of each: R and T, or R alone."""
+    return "RT" if all(leaf.transmittance for leaf in leaves) else "R"
+
+
 def fitted(
-    leaves: Iterable[Leaf], model: str, lamina: Path, folder: Path
+    leaves: list[Leaf], model: str, lamina: Path, folder: Path
 ) -> tuple[list[dict[str, str]], list[dict[str, str]]]:
     """Rows of contents, and rows of measured and fitted spectra."""
     spectra, contents, found = (folder / name for name in ("in.csv", "contents.csv", "out.csv"))
     with spectra.open("w", encoding="utf-8", newline="") as file:
         out = csv.writer(file)
-        out.writerow(("leaf", "wavelength_nm", "R", "T"))
+        out.writerow(("leaf", "wavelength_nm", *quantities(leaves)))
         for leaf in leaves:
             for nm, r in leaf.reflectance.items():
-                out.writerow((leaf.name, nm, r, leaf.transmittance[nm]))
+                t = [leaf.transmittance[nm]] if leaf.transmittance else []
+                out.writerow((leaf.name, nm, r, *t))
     outputs = ("--out", contents, "--spectra-out", found)
     subprocess.run(
         [lamina, "fit", spectra, "--model", model, *outputs], check=True, capture_output=True
@@ -144,7 +171,7 @@ def fitted(
     tables = []
     for path in (contents, found):
         with path.open(encoding="utf-8", newline="") as text:
-            tables.append(list(csv.DictReader(text)))
+            tables.append(list(csv.DictReader(line for line in text if not line.startswith("#"))))
     return tables[0], tables[1]
 
 
@@ -153,17 +180,18 @@ def sections(name: str, leaves: list[Leaf], lamina: Path) -> Iterable[str]:
     of_spectra: list[str] = []
     of_contents: list[str] = []
     there = [key for key in CONTENTS if any(key in leaf.contents for leaf in leaves)]
+    measured = quantities(leaves)
     for model in MODELS:
         with tempfile.TemporaryDirectory() as folder:
             contents, spectra = fitted(leaves, model, lamina, Path(folder))
-        errors = {(quantity, low): Errors() for quantity in "RT" for low, _ in RANGES}
+        errors = {(quantity, low): Errors() for quantity in measured for low, _ in RANGES}
         for row in spectra:
             nm = float(row["wavelength_nm"])
             low = max(low for low, _ in RANGES if low <= nm)
-            for quantity in "RT":
+            for quantity in measured:
                 difference = float(row[f"{quantity}_fitted"]) - float(row[quantity])
                 errors[quantity, low].add(difference)
-        cells = [errors[quantity, low].text(4) for quantity in "RT" for low, _ in RANGES]
+        cells = [errors[quantity, low].text(4) for quantity in measured for low, _ in RANGES]
         of_spectra.append(f"| {model} | " + " | ".join(cells) + " |")
         cells = []
         for key in there:
@@ -175,7 +203,7 @@ def sections(name: str, leaves: list[Leaf], lamina: Path) -> Iterable[str]:
                     error.add(factor * (sum(found) - leaf.contents[key]))
             cells.append(error.text(2))
         of_contents.append(f"| {model} | " + " | ".join(cells) + " |")
-    heads = [f"{quantity} {low}–{high}" for quantity in "RT" for low, high in RANGES]
+    heads = [f"{quantity} {low}–{high}" for quantity in measured for low, high in RANGES]
     yield f"## {name}: {len(leaves)} leaves\n"
     yield "| model | " + " | ".join(heads) + " |\n|" + " --- |" * (len(heads) + 1)
     yield "\n".join(of_spectra) + "\n"
@@ -190,14 +218,17 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="reference/run measured-leaves", description=__doc__)
     parser.add_argument("--noda", type=Path, help="folder of the files of Noda et al.")
     parser.add_argument("--database", type=Path, action="append", default=[], help="see above")
+    parser.add_argument("--clip", type=Path, help="a table of leaves with R alone, see above")
     parser.add_argument("--lamina", type=Path, default=program())
     parser.add_argument("--out", type=Path, default=RESULTS)
     given = parser.parse_args()
     sets = [(folder.name, of_database(folder)) for folder in given.database]
     if given.noda:
         sets.insert(0, ("Noda et al.", of_noda(given.noda)))
+    if given.clip:
+        sets.append(("Shiklomanov et al.", of_clip(given.clip)))
     if not sets:
-        parser.error("name leaves by --noda or --database")
+        parser.error("name leaves by --noda, --database or --clip")
     text = [
         "<!-- Written by reference/run measured-leaves. -->\n",
         "Root mean square of fit less measurement, and in brackets its mean.\n",
