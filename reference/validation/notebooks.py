@@ -27,7 +27,7 @@ from PIL import Image
 
 from validation.program import ROOT, program
 
-FOLDER = ROOT / "docs" / "notebooks" / "veins"
+FOLDERS = [ROOT / "docs" / "notebooks" / name for name in ("veins", "trust")]
 # A cell of the sweep grows 20 leaves, which takes 5 s on 2 processors.
 CELL_SECONDS = 300
 COLOURS = 64
@@ -48,7 +48,7 @@ def reduced(png: str) -> str:
     return base64.b64encode(out.getvalue()).decode()
 
 
-def ran(notebook: nbformat.NotebookNode, sockets: Path) -> nbformat.NotebookNode:
+def ran(notebook: nbformat.NotebookNode, folder: Path, sockets: Path) -> nbformat.NotebookNode:
     """The notebook with fresh outputs, without times, and with small pictures.
 
     Kernels are spoken to through files in the folder `sockets`, not through ports, so that nobody
@@ -61,7 +61,7 @@ def ran(notebook: nbformat.NotebookNode, sockets: Path) -> nbformat.NotebookNode
         km=kernel,
         timeout=CELL_SECONDS,
         record_timing=False,
-        resources={"metadata": {"path": str(FOLDER)}},
+        resources={"metadata": {"path": str(folder)}},
     )
     # The client ends the kernel when it is done, as it does with kernels that it made itself.
     client.owns_km = True
@@ -107,7 +107,7 @@ def run(file: Path, sockets: Path, write: bool) -> None:
     that the file holds.
     """
     notebook = nbformat.read(file, as_version=4)
-    fresh = ran(notebook, sockets)
+    fresh = ran(notebook, file.parent, sockets)
     check_pictures(fresh)
     if write:
         nbformat.write(fresh, file)
@@ -136,7 +136,8 @@ def main() -> int:
         return 1
     files = [
         file
-        for file in sorted(FOLDER.glob("*.ipynb"))
+        for folder in FOLDERS
+        for file in sorted(folder.glob("*.ipynb"))
         if not arguments.words or any(word in file.stem for word in arguments.words)
     ]
     if not files:
@@ -144,7 +145,8 @@ def main() -> int:
         return 1
 
     # What an earlier program made must not be read.
-    shutil.rmtree(FOLDER / "made", ignore_errors=True)
+    for folder in FOLDERS:
+        shutil.rmtree(folder / "made", ignore_errors=True)
     passed, failed = 0, 0
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "lamina").symlink_to(lamina)
