@@ -1,13 +1,10 @@
 //! From a scene file to the world that a command works with.
 
-use std::path::Path;
-
-use crate::cli::arguments::SceneArguments;
+use crate::cli::arguments::{CacheArguments, SceneArguments};
 use crate::cli::progress::Patience;
 use crate::cli::terminal::{Failure, warn};
 use crate::scene::description::Description;
 use crate::scene::load::{self, Loaded};
-use crate::scene::plant_cache::PlantCache;
 use crate::scene::world::{BuildOptions, World};
 use crate::spectrum::WavelengthSampler;
 
@@ -23,8 +20,8 @@ pub(super) fn load_scene(arguments: &SceneArguments) -> Result<Loaded, Failure> 
 pub(super) struct Building<'a> {
     /// The memory that is allowed, GiB.
     pub(super) memory: Option<f64>,
-    /// The folder in which grown plants are kept.
-    pub(super) cache: Option<&'a Path>,
+    /// Where grown leaves are kept; nowhere if it is `None`.
+    pub(super) cache: Option<&'a CacheArguments>,
     /// The wavelengths, if they are others than those of the film.
     pub(super) wavelengths: Option<&'a WavelengthSampler>,
 }
@@ -32,8 +29,8 @@ pub(super) struct Building<'a> {
 impl Building<'_> {
     /// Builds a scene's world; lines on stderr report how far it is.
     pub(super) fn world(self, scene: &Description) -> Result<World, Failure> {
-        let cache = self.cache.map(PlantCache::open);
-        let cache = cache.transpose().map_err(Failure::bad)?;
+        let cache = self.cache.map(CacheArguments::open).transpose();
+        let cache = cache.map_err(Failure::bad)?.flatten();
         let patience = Patience::building(scene.leaves.len(), self.memory);
         let options = BuildOptions {
             cache: cache.as_ref(),

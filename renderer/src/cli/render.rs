@@ -78,7 +78,7 @@ impl RenderCommand<'_> {
         let job = plan.heading.job;
         let building = Building {
             memory: arguments.memory,
-            cache: arguments.cache.as_deref(),
+            cache: Some(&arguments.cache),
             ..Building::default()
         };
         let world = building.world(&scene)?;

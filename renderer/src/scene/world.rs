@@ -291,6 +291,9 @@ fn grow_leaves(
     palettes: Vec<Palette>,
     options: &BuildOptions<'_>,
 ) -> Result<Vec<plants::GrownLeaf>, WorldError> {
+    if let Some(cache) = options.cache {
+        plants::keep_shared_veins(scene.leaves.iter().map(|leaf| &leaf.value), cache);
+    }
     grow_all("leaves", &scene.leaves, palettes, |leaf, palette| {
         let leaf = plants::grow(leaf, &palette, options.cache);
         if let Some(grown) = options.grown {
