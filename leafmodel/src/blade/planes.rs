@@ -94,7 +94,9 @@ pub(super) fn deserialize<'de, const N: usize, T: Numbers<N>, D: Deserializer<'d
         if take(1)? == [1] {
             let bytes = take(4)?;
             let number = f32::from_le_bytes(std::array::from_fn(|byte| bytes[byte]));
-            texels.iter_mut().for_each(|texel| texel[plane] = number);
+            for texel in &mut texels {
+                texel[plane] = number;
+            }
         } else {
             let [a, b, c, d] = [take(count)?, take(count)?, take(count)?, take(count)?];
             let bytes = a.iter().zip(b).zip(c.iter().zip(d));
