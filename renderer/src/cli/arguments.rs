@@ -23,6 +23,8 @@ use std::path::PathBuf;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use clap_complete::Shell;
 
+use crate::scene::portrait::Stage;
+
 use self::numbers::{MOST_GIB, MOST_SECONDS, between, samples, size};
 
 pub use cache::{CacheArguments, CacheCommandArguments};
@@ -257,6 +259,9 @@ pub struct RenderArguments {
     /// written instead of the PNG; the default is the scene's name in this folder
     #[arg(long, value_name = "STEM")]
     pub out: Option<PathBuf>,
+    /// Where a preset is shown that is named instead of a scene
+    #[arg(long, value_name = "STAGE", value_enum, default_value_t)]
+    pub stage: Stage,
     /// Width and height of the film in pixels, instead of the scene's
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size)]
     pub size: Option<[u32; 2]>,

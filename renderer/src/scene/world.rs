@@ -174,10 +174,7 @@ impl World {
         if media.are_present {
             set_bodies(&mut objects, scene, &owners, (&meshes, &instances))?;
         }
-        let mut view = scene
-            .camera
-            .view_on(|object| seen::middle_of(object, &meshes, &instances, &objects))
-            .map_err(WorldError::Focus)?;
+        let mut view = view_of(scene, &meshes, &instances, &objects)?;
         let seen = (&meshes[..], &instances[..], &objects);
         let origin = look(scene, &mut view, seen, options, &mut notes);
         let placed = (&meshes[..], &surfaces[..], &instances[..], &first[..]);
@@ -265,6 +262,23 @@ fn tabulate(materials: &mut [Material], lights: &mut [Light], grid: &WavelengthG
     for light in lights {
         light.tabulate(grid);
     }
+}
+
+/// The camera's view, once it is known where things are.
+fn view_of(
+    scene: &Description,
+    meshes: &[TriangleMesh],
+    instances: &[Instance],
+    objects: &WorldObjects,
+) -> Result<View, WorldError> {
+    let places = seen::ObjectPlaces {
+        meshes,
+        instances,
+        objects,
+    };
+    let aspect = f64::from(scene.film.width) / f64::from(scene.film.height);
+    let view = scene.camera.view_on(&places, aspect);
+    view.map_err(WorldError::Focus)
 }
 
 /// Meshes, and the surface that each brings along.
