@@ -39,6 +39,7 @@ pub mod mesh;
 pub mod mottle;
 pub mod petiole;
 mod plan;
+mod planes;
 mod pleats;
 mod refine;
 mod relief;

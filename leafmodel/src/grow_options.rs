@@ -34,6 +34,17 @@ pub struct GrowOptions<'a> {
     pub is_stopped: &'a dyn Fn() -> bool,
     /// A mosaic with more cells is refused.
     pub most_cells: usize,
+    /// Where the results of expensive stages are kept from one run to another; nowhere if it is `None`.
+    pub kept: Option<&'a dyn Kept>,
+}
+
+/// A store of results of stages of growth.
+pub trait Kept: Sync {
+    /// The value that was kept under a key; `None` if there is none, or none that can be trusted.
+    fn take(&self, stage: &str, key: &str) -> Option<Vec<u8>>;
+
+    /// Keeps a value, if it can.
+    fn keep(&self, stage: &str, key: &str, value: &[u8]);
 }
 
 impl Default for GrowOptions<'_> {
@@ -42,6 +53,7 @@ impl Default for GrowOptions<'_> {
         Self {
             is_stopped: &|| false,
             most_cells: MOST_CELLS,
+            kept: None,
         }
     }
 }

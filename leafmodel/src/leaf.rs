@@ -27,6 +27,7 @@ mod pictures;
 mod plan;
 mod settling;
 mod stages;
+mod stages_kept;
 pub mod venation_plan;
 
 pub use self::error::LeafError;
@@ -35,10 +36,12 @@ pub use self::lamina::Lamina;
 pub use self::memory::LeafMemory;
 pub use self::plan::LeafPlan;
 pub use self::stages::LeafStage;
+pub use self::stages_kept::keep_shared_veins;
+use self::stages_kept::{Form, Stage};
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
 use crate::blade::hairs::{HairMesh, HairPlan};
-use crate::blade::mesh::{BladeMesh, Displacement};
+use crate::blade::mesh::BladeMesh;
 use crate::blade::stalk::StalkMesh;
 use crate::blade::surface::SurfaceMap;
 use crate::blade::vein_field::VeinField;
@@ -99,50 +102,32 @@ impl GrowOptions<'_> {
     ///
     /// [`LeafError::Blade`], [`LeafError::Mosaic`], [`LeafError::Tissue`].
     pub fn leaf_of(self, plan: &LeafPlan, lamina: Lamina) -> Result<Leaf, LeafError> {
-        let Lamina {
-            outline, network, ..
-        } = &lamina;
-        // Before the mesh and the map, which would tell it after all their work.
-        VeinField::check(network.segments())?;
-        let settled = plan.settled(&lamina);
-        let settled = settled.as_ref();
-        let frame = UvFrame::around(lamina.intact().points());
-        let holes = lamina.holes();
-        let lips = |p| {
-            lamina
-                .wounds
-                .as_ref()
-                .map_or(0.0, |wounds| wounds.height(p))
-        };
-        let cut = (outline, holes, &frame);
-        let bulge = plan.meshed_bulge(&lamina, &frame);
-        let displaced = Displacement {
-            lips: &lips,
-            bulge: &|p| bulge.as_ref().map_or(0.0, |bulge| bulge.height(p)),
-        };
-        let mut petiole = plan
-            .petiole
-            .map(|petiole| petiole.settled((outline, network), &plan.form, settled, plan.seed))
-            .transpose()?;
+        // Before the mesh and the map, which would report it after all their work.
+        VeinField::check(lamina.network.segments())?;
+        let (kept, of_form) = (self.kept, plan.of_form());
         // The mesh is mostly the work of one thread, the map of all.
-        let mut mesh = None;
+        let mut form = None;
         let contents = rayon::in_place_scope(|scope| {
-            let mesh = &mut mesh;
+            let (form, of_form, lamina) = (&mut form, &of_form, &lamina);
             scope.spawn(move |_| {
-                *mesh = Some(BladeMesh::build_holed(
-                    cut, network, &plan.form, settled, displaced,
-                ));
+                let made = || Form::of(of_form, lamina);
+                *form = Some(Stage::Form.take_or_make(kept, of_form, made));
             });
-            self.contents(plan, &lamina)
+            let part = plan.of_contents();
+            Stage::Contents.take_or_make(kept, &part, || self.contents(&part, lamina))
         });
-        let mut mesh = mesh.expect("the scope has ended")?;
+        let Form {
+            mesh,
+            petiole,
+            hairs,
+        } = form.expect("the scope has ended")?;
         let contents = contents?;
-        if plan.stance.on_ground {
-            settling::put_on_ground(&mut mesh, petiole.as_mut());
-        }
+        let frame = UvFrame::around(lamina.intact().points());
         let size = [contents.width, contents.height];
-        let surface = plan.surface_of(&lamina, &mesh, &frame, size)?;
-        let hairs = plan.hairs_of(&lamina, &mesh)?;
+        let part = plan.of_faces();
+        let surface = Stage::Faces.take_or_make(kept, &part, || {
+            part.surface_of(&lamina, &mesh, &frame, size)
+        })?;
         Ok(Leaf {
             lamina,
             mesh,

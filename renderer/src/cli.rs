@@ -55,6 +55,7 @@ macro_rules! bail_at {
 
 pub mod arguments;
 mod building;
+mod cache;
 mod check;
 mod check_bsdf;
 mod compare_networks;
@@ -156,6 +157,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, version: &'static str)
             Ok(())
         }
         Command::Man(man) => shell::man(man),
+        Command::Cache(cache) => cache::run(cache),
         Command::Licenses => {
             shell::licenses();
             Ok(())

@@ -51,5 +51,6 @@ pub mod load;
 pub mod model;
 pub mod plant_cache;
 pub mod plants;
+pub mod portrait;
 mod tissue;
 pub mod world;

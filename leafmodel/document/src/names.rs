@@ -76,6 +76,32 @@ impl Kind for NameIn {
     }
 }
 
+/// As [`NameIn`], or a word that stands for all of them: `None`.
+#[derive(Clone, Copy, Debug)]
+pub struct NameOrAll(pub NameIn, pub &'static str);
+
+impl Kind for NameOrAll {
+    type Of = Option<usize>;
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<Option<usize>> {
+        if text_at(cx, node, key)?.0 == self.1 {
+            return Some(None);
+        }
+        self.0.read(cx, node, key).map(Some)
+    }
+
+    fn write(&self, value: &Option<usize>) -> Value {
+        match value {
+            Some(number) => self.0.write(number),
+            None => Value::Text(self.1.to_owned()),
+        }
+    }
+
+    fn describe(&self) -> Type {
+        self.0.describe()
+    }
+}
+
 /// Whether a name can be part of a file name and an identifier in other programs.
 pub fn is_name(name: &str) -> bool {
     let allowed = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-';

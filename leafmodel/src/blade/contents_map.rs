@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::ageing::Place;
 use super::coverage::{Coverage, extend};
@@ -19,13 +20,14 @@ use crate::optics::{Constituent, Texel};
 use crate::venation::network::VeinSegment;
 
 /// Contents per leaf area over a [`UvFrame`], as texels.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct ContentsMap {
     /// Texels along `u`; the centre of column `i` is at `u = (i + ½) / width`.
     pub width: u32,
     /// Texels along `v`; the centre of row `j` is at `v = (j + ½) / height`.
     pub height: u32,
     /// Row by row from `v = 0`, `width × height` of them.
+    #[serde(with = "super::planes")]
     pub texels: Vec<Texel>,
 }
 

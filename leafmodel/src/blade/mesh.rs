@@ -6,6 +6,7 @@ mod testing;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 pub use super::error::BladeError;
 
@@ -24,7 +25,7 @@ use crate::venation::network::{VeinSegment, VenationNetwork};
 pub(super) const MOST_TRIANGLES: usize = 4_000_000;
 
 /// A sheet of triangles in space, with properties at each vertex.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct BladeMesh {
     /// Places, mm; base of the leaf at the origin, midrib along +y, adaxial side +z.
     pub positions: Vec<DVec3>,

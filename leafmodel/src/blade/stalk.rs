@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod testing;
 
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
@@ -18,7 +19,7 @@ const SIDES: [usize; 2] = [8, 48];
 const MOST_SIDES: usize = 4096;
 
 /// Tubes in space. Lengths are millimetres.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct StalkMesh {
     /// Places of the vertices.
     pub positions: Vec<DVec3>,

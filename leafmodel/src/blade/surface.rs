@@ -29,6 +29,7 @@ pub mod stomata;
 
 use glam::DVec2;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 pub(crate) use self::bulge::{Bulge, HeldSheet};
 use self::carried::{Carried, PLACES};
@@ -54,15 +55,17 @@ const NO_VEIN_MM: f32 = 1e3;
 
 /// The slopes of both faces over a `UvFrame`, as texels of a map with the layout of the contents
 /// map.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct SurfaceMap {
     /// Texels along `u`.
     pub width: u32,
     /// Texels along `v`.
     pub height: u32,
     /// Row by row from `v = 0`; adaxial and abaxial face.
+    #[serde(with = "super::planes")]
     pub texels: Vec<[SlopeMoments; 2]>,
     /// As many texels of dust and stomata; empty if there are neither.
+    #[serde(with = "super::planes")]
     pub cover: Vec<Cover>,
     /// Sides of the frame, mm.
     pub size_mm: [f32; 2],

@@ -8,6 +8,7 @@ use super::arranged::{CompoundError, CompoundLeaf, PlacedLeaflet, StalkKind, dir
 use super::form::CompoundForm;
 use crate::blade::petiole::{Course, PetiolePlan};
 use crate::blade::stalk::StalkMesh;
+use crate::grow_options::GrowOptions;
 use crate::leaf::{Leaf, LeafError, LeafPlan};
 use crate::numeric::smooth_step;
 use crate::plane::polyline;
@@ -70,13 +71,23 @@ impl WholeLeaf {
     ///
     /// [`CompoundError`]; for a simple leaf only [`CompoundError::Leaflet`].
     pub fn grow(plan: &LeafPlan) -> Result<Self, CompoundError> {
+        Self::grow_with(plan, GrowOptions::default())
+    }
+
+    /// As [`WholeLeaf::grow`], with options.
+    ///
+    /// # Errors
+    ///
+    /// As [`WholeLeaf::grow`].
+    pub fn grow_with(plan: &LeafPlan, options: GrowOptions<'_>) -> Result<Self, CompoundError> {
         let Some(form) = &plan.compound else {
-            return Ok(Self::simple(Leaf::grow(plan)?));
+            return Ok(Self::simple(options.leaf(plan)?));
         };
         // Overlap is checked before any veins are grown.
         let flat = form.arrange(plan)?;
         let plans = leaflet_plans(plan, form);
-        let blades: Result<Vec<Leaf>, LeafError> = plans.iter().map(Leaf::grow).collect();
+        let blades: Result<Vec<Leaf>, LeafError> =
+            plans.iter().map(|plan| options.leaf(plan)).collect();
         Ok(Self::assembled(plan, form, flat, blades?))
     }
 

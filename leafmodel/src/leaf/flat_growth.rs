@@ -4,6 +4,7 @@ use super::error::LeafError;
 use super::lamina::Lamina;
 use super::outline_plan::{GrownOutline, Origin};
 use super::plan::LeafPlan;
+use super::stages_kept::Stage;
 use super::venation_plan::GrownVeins;
 use crate::document::Declared;
 use crate::grow_options::GrowOptions;
@@ -55,11 +56,25 @@ impl GrowOptions<'_> {
         if let Some(damage) = &plan.damage {
             damage.in_range().map_err(LeafError::Damage)?;
         }
-        let grown = plan.grown_outline()?;
-        let veins = plan
-            .venation
-            .grow(&plan.outline, &grown, plan.length_mm, plan.seed, self);
-        let GrownVeins { network, filled } = veins.map_err(LeafError::Venation)?;
+        let part = plan.of_veins();
+        let grown = part.grown_outline()?;
+        let grow = || {
+            let plan = &part;
+            let veins = plan
+                .venation
+                .grow(&plan.outline, &grown, plan.length_mm, plan.seed, self);
+            veins.map_err(LeafError::Venation)
+        };
+        // The cells that veins fill are part of the leaf and are not kept.
+        let GrownVeins { network, filled } = if plan.has_cells() {
+            grow()?
+        } else {
+            let network = || grow().map(|veins| veins.network);
+            GrownVeins {
+                network: Stage::Veins.take_or_make(self.kept, &part, network)?,
+                filled: None,
+            }
+        };
         let (cells, developed) = match grown.origin {
             Origin::Curve => (None, None),
             Origin::Cells(leaf) => (Some(leaf), None),

@@ -18,6 +18,8 @@ pub struct PlantPreset {
     pub name: &'static str,
     /// What it is.
     pub about: &'static str,
+    /// The preset of its leaves, if it needs nothing else.
+    pub leaf: Option<&'static str>,
     plan: fn() -> PlantPlan,
 }
 
@@ -33,61 +35,73 @@ pub const PRESETS: &[PlantPreset] = &[
     PlantPreset {
         name: "birch-twig",
         about: "A drooping twig of birch: leaves in two rows on a fine zigzag axis, side twigs.",
+        leaf: Some("birch"),
         plan: boughs::birch,
     },
     PlantPreset {
         name: "cherry-bough",
         about: "A bough of Nankin cherry: leaves by the golden angle, side branches.",
+        leaf: Some("cherry-leaf"),
         plan: boughs::cherry,
     },
     PlantPreset {
         name: "croton-in-pot",
         about: "A croton of three stems in a clay pot with a dish: leaves by the golden angle.",
+        leaf: None,
         plan: whole::croton_in_pot,
     },
     PlantPreset {
         name: "croton-shoot",
         about: "A shoot of croton: leathery leaves by the golden angle, close together.",
+        leaf: Some("croton"),
         plan: shoots::croton,
     },
     PlantPreset {
         name: "ginkgo-shoot",
         about: "A long shoot of ginkgo: clusters of leaves on short shoots.",
+        leaf: Some("ginkgo"),
         plan: boughs::ginkgo,
     },
     PlantPreset {
         name: "grass-tuft",
         about: "A tuft of grass: upright blades from one foot, the outer ones leaning out.",
+        leaf: Some("grass"),
         plan: shoots::grass,
     },
     PlantPreset {
         name: "ivy-on-wall",
         about: "Stems of ivy that climb a wall (its normal is +x): leaves in two rows, off the wall.",
+        leaf: None,
         plan: whole::ivy_on_wall,
     },
     PlantPreset {
         name: "ivy-shoot",
         about: "A climbing shoot of ivy: leaves in two rows, turned to the light beside the wall (+x).",
+        leaf: Some("ivy"),
         plan: shoots::ivy,
     },
     PlantPreset {
         name: "maple-bough",
         about: "A bough of maple: pairs of leaves at right angles, side branches in pairs.",
+        leaf: Some("maple"),
         plan: boughs::maple,
     },
     PlantPreset {
         name: "oak-twig",
         about: "A twig of oak: leaves by the golden angle, crowded towards the tips.",
+        leaf: Some("white-oak"),
         plan: boughs::oak,
     },
     PlantPreset {
         name: "poplar-branch",
         about: "A branch of poplar: long petioles by the golden angle, side branches.",
+        leaf: Some("poplar"),
         plan: boughs::poplar,
     },
     PlantPreset {
         name: "trillium",
         about: "White trillium in flower: a whorl of three leaves, three sepals, three petals.",
+        leaf: None,
         plan: whole::trillium,
     },
 ];

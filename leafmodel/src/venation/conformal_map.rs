@@ -5,9 +5,10 @@
 //! stereographic projection of a sphere if `K > 0`, the Poincaré disc if `K < 0`.
 
 use glam::{DVec2, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// The conformal map of a blade of constant Gaussian curvature; flat if that is 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct ConformalMap {
     /// `K`, one over the square of the unit of length.
     curvature: f64,

@@ -9,6 +9,7 @@
 //! have been subdivided since.
 
 use glam::DVec2;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::conformal_map::ConformalMap;
@@ -33,7 +34,7 @@ pub struct VeinSegment {
 }
 
 /// A point of a vein.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct VeinNode {
     /// Its place, mm, in the frame of the outline.
     pub position: DVec2,
@@ -42,7 +43,7 @@ pub struct VeinNode {
 }
 
 /// A piece of vein between two nodes, given by their numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct VeinEdge {
     /// Node nearer to the petiole: the older tissue.
     pub from: u32,
@@ -57,7 +58,7 @@ pub struct VeinEdge {
 }
 
 /// How a simulation ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
 pub enum Ending {
     /// No source was left that could still draw a vein.
     Settled,
@@ -68,7 +69,7 @@ pub enum Ending {
 }
 
 /// The veins of one leaf.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct VenationNetwork {
     pub(crate) nodes: Vec<VeinNode>,
     pub(crate) edges: Vec<VeinEdge>,

@@ -1,5 +1,6 @@
 //! The command line as written: what can be asked for, and nothing of how it is done.
 
+mod cache;
 mod compare_networks;
 mod fit_veins;
 mod grow;
@@ -22,8 +23,11 @@ use std::path::PathBuf;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use clap_complete::Shell;
 
+use crate::scene::portrait::Stage;
+
 use self::numbers::{MOST_GIB, MOST_SECONDS, between, samples, size};
 
+pub use cache::{CacheArguments, CacheCommandArguments};
 pub use compare_networks::{Alignment, CompareNetworksArguments, Group, Groups};
 pub use fit_veins::FitVeinsArguments;
 pub use grow::{CaptionedKinds, GrowArguments, VeinColour};
@@ -52,6 +56,13 @@ const EXAMPLE_EXAMPLES: &str = "\
 Examples:
   lamina example first-leaf && lamina render first-leaf/scene.toml
   lamina example --list";
+
+const CACHE_EXAMPLES: &str = "\
+Examples:
+  lamina cache
+  lamina cache --clear
+
+The environment variable LAMINA_CACHE names another folder; empty, it turns the cache off.";
 
 const RENDER_EXAMPLES: &str = "\
 Examples:
@@ -216,6 +227,9 @@ pub enum Command {
     Completions(CompletionsArguments),
     /// Write manual pages
     Man(ManArguments),
+    /// Print what is kept of grown leaves, or delete it
+    #[command(after_help = CACHE_EXAMPLES)]
+    Cache(CacheCommandArguments),
     /// Print the licences of the program and of what it is built from
     Licenses,
 }
@@ -245,6 +259,9 @@ pub struct RenderArguments {
     /// written instead of the PNG; the default is the scene's name in this folder
     #[arg(long, value_name = "STEM")]
     pub out: Option<PathBuf>,
+    /// Where a preset is shown that is named instead of a scene
+    #[arg(long, value_name = "STAGE", value_enum, default_value_t)]
+    pub stage: Stage,
     /// Width and height of the film in pixels, instead of the scene's
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size)]
     pub size: Option<[u32; 2]>,
@@ -270,9 +287,9 @@ pub struct RenderArguments {
     /// Threads; the default is one for each processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Keep grown leaves in a folder, and take from it those that this program has grown before
-    #[arg(long, value_name = "DIR")]
-    pub cache: Option<PathBuf>,
+    /// Where grown leaves are kept.
+    #[command(flatten)]
+    pub cache: CacheArguments,
     /// Write times, memory and speed as JSON
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,

@@ -3,7 +3,7 @@
 
 use leafmodel::document::error::{DocumentError, LocatedError};
 
-use crate::cli::arguments::{CheckArguments, SceneArguments};
+use crate::cli::arguments::{CacheArguments, CheckArguments, SceneArguments};
 use crate::cli::building::{Building, load_scene};
 use crate::cli::needs;
 use crate::cli::progress::Patience;
@@ -110,6 +110,7 @@ fn report_world(
 ) -> Result<(), Failure> {
     let building = Building {
         memory,
+        cache: Some(&CacheArguments::USUAL),
         ..Building::default()
     };
     let mut world = building.world(description)?;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::cli::arguments::MitsubaArguments;
+use crate::cli::arguments::{CacheArguments, MitsubaArguments};
 use crate::cli::building::{Building, load_scene};
 use crate::cli::needs;
 use crate::cli::places::check_writable;
@@ -18,6 +18,7 @@ pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
     needs::check_geometry(&scene, "export", arguments.memory)?;
     let building = Building {
         memory: arguments.memory,
+        cache: Some(&CacheArguments::USUAL),
         ..Building::default()
     };
     let world = building.world(&scene)?;

@@ -156,7 +156,7 @@ fn measure(
     };
     let building = Building {
         memory: arguments.memory,
-        cache: arguments.cache.as_deref(),
+        cache: Some(&arguments.cache),
         wavelengths: Some(&sampler),
     };
     let world = building.world(scene)?;

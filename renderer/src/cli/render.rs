@@ -18,7 +18,7 @@ use self::report::{Times, report_samples, report_speed, stats};
 use self::viewer::Viewer;
 use crate::checkpoint::{self, Heading};
 use crate::cli::arguments::{RenderArguments, SceneArguments};
-use crate::cli::building::{Building, load_scene};
+use crate::cli::building::{Building, load_on, preset_of};
 use crate::cli::needs::{self, on_threads};
 use crate::cli::picture_files;
 use crate::cli::places::write_json;
@@ -35,7 +35,7 @@ use crate::scene::world::World;
 pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), Failure> {
     let started = Instant::now();
     let signals = Signals::listen()?;
-    let loaded = load_scene(&sized(arguments))?;
+    let loaded = load_on(&sized(arguments), arguments.stage)?;
     let files = Files::of(arguments, &loaded, &signals)?;
     let command = RenderCommand {
         arguments,
@@ -78,7 +78,7 @@ impl RenderCommand<'_> {
         let job = plan.heading.job;
         let building = Building {
             memory: arguments.memory,
-            cache: arguments.cache.as_deref(),
+            cache: Some(&arguments.cache),
             ..Building::default()
         };
         let world = building.world(&scene)?;
@@ -255,7 +255,10 @@ impl RenderCommand<'_> {
 /// The scene with the size of its film, if the command line gives one.
 fn sized(arguments: &RenderArguments) -> SceneArguments {
     let mut scene = arguments.scene.clone();
-    let kind = load::film_kind(&scene.scene, &scene.overrides);
+    let kind = match preset_of(&scene.scene) {
+        Some(_) => Some("rgb".to_owned()),
+        None => load::film_kind(&scene.scene, &scene.overrides),
+    };
     if let (Some([width, height]), Some(kind)) = (arguments.size, kind) {
         let size = format!("film.{kind}.size=[{width}, {height}]");
         scene.overrides.push(size);

@@ -196,7 +196,7 @@ impl Work<'_> {
     /// Does a task: its process, then its record.
     fn one(&self, number: usize, identity: u64, jobs: usize) -> Ended {
         let task = self.sweep.task(number);
-        let mut words = words_of(self.sweep, &task, self.arguments.cache.as_deref());
+        let mut words = words_of(self.sweep, &task, &self.arguments.cache);
         let default = || (rayon::current_num_threads() / jobs).max(1);
         let threads = self.arguments.threads.map_or_else(default, usize::from);
         words.extend(["--threads".to_owned(), threads.to_string()]);

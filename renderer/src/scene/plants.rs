@@ -9,7 +9,8 @@ use glam::{DAffine3, DVec3, Vec2};
 use leafmodel::blade::BladeMesh;
 use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::blade::surface::stomata::StomataPlan;
-use leafmodel::compound::WholeLeaf;
+use leafmodel::compound::{WholeLeaf, leaflet_plans};
+use leafmodel::grow_options::{GrowOptions, Kept};
 use leafmodel::leaf::LeafPlan;
 use leafmodel::not_grown::NotGrown;
 use leafmodel::optics::solid::ReflectanceTable;
@@ -82,7 +83,19 @@ pub fn grow_solid(
     Ok((mesh, tissue::solid(held, palette, &solid.optics, table)))
 }
 
-/// Grows a leaf with the pigments of `palette`, or takes it from `cache` if it is there.
+/// Grows veins that several leaves share once, into `cache`.
+pub fn keep_shared_veins<'a>(
+    leaves: impl Iterator<Item = &'a description::Leaf>,
+    cache: &PlantCache,
+) {
+    let blades = leaves.flat_map(|leaf| match &leaf.plan.compound {
+        Some(form) => leaflet_plans(&leaf.plan, form),
+        None => vec![leaf.plan.clone()],
+    });
+    leafmodel::leaf::keep_shared_veins(&blades.collect::<Vec<_>>(), cache);
+}
+
+/// Grows a leaf with the pigments of `palette`, or takes those of its stages from `cache` that are there.
 ///
 /// # Errors
 ///
@@ -92,11 +105,11 @@ pub fn grow(
     palette: &Palette,
     cache: Option<&PlantCache>,
 ) -> Result<GrownLeaf, PlantError> {
-    let grow = || LeafParts::grow(&leaf.plan);
-    let parts = match cache {
-        Some(cache) => cache.take_or_grow(&leaf.plan, grow)?,
-        None => grow()?,
+    let options = GrowOptions {
+        kept: cache.map(|cache| cache as &dyn Kept),
+        ..GrowOptions::default()
     };
+    let parts = LeafParts::grow(&leaf.plan, options)?;
     let faces = leaf.faces_by_age();
     let material = |held, faces: &LeafFaces| {
         let held = LeafTissue::Held(held);
@@ -166,8 +179,8 @@ fn stomata(plan: &StomataPlan) -> StomataNumbers {
 }
 
 impl LeafParts {
-    pub(super) fn grow(plan: &LeafPlan) -> Result<Self, PlantError> {
-        let whole = WholeLeaf::grow(plan)?;
+    fn grow(plan: &LeafPlan, options: GrowOptions<'_>) -> Result<Self, PlantError> {
+        let whole = WholeLeaf::grow_with(plan, options)?;
         let stalk_contents = whole.stalk_contents(plan)?;
         let (mut meshes, mut maps) = (Vec::new(), Vec::new());
         // The first mesh of each blade, whether its stalk's follows, and how many of hairs after it.

@@ -174,10 +174,7 @@ impl World {
         if media.are_present {
             set_bodies(&mut objects, scene, &owners, (&meshes, &instances))?;
         }
-        let mut view = scene
-            .camera
-            .view_on(|object| seen::middle_of(object, &meshes, &instances, &objects))
-            .map_err(WorldError::Focus)?;
+        let mut view = view_of(scene, &meshes, &instances, &objects)?;
         let seen = (&meshes[..], &instances[..], &objects);
         let origin = look(scene, &mut view, seen, options, &mut notes);
         let placed = (&meshes[..], &surfaces[..], &instances[..], &first[..]);
@@ -267,6 +264,23 @@ fn tabulate(materials: &mut [Material], lights: &mut [Light], grid: &WavelengthG
     }
 }
 
+/// The camera's view, once it is known where things are.
+fn view_of(
+    scene: &Description,
+    meshes: &[TriangleMesh],
+    instances: &[Instance],
+    objects: &WorldObjects,
+) -> Result<View, WorldError> {
+    let places = seen::ObjectPlaces {
+        meshes,
+        instances,
+        objects,
+    };
+    let aspect = f64::from(scene.film.width) / f64::from(scene.film.height);
+    let view = scene.camera.view_on(&places, aspect);
+    view.map_err(WorldError::Focus)
+}
+
 /// Meshes, and the surface that each brings along.
 type MeshesAndSurfaces = (Vec<TriangleMesh>, Vec<OwnSurface>);
 
@@ -291,6 +305,9 @@ fn grow_leaves(
     palettes: Vec<Palette>,
     options: &BuildOptions<'_>,
 ) -> Result<Vec<plants::GrownLeaf>, WorldError> {
+    if let Some(cache) = options.cache {
+        plants::keep_shared_veins(scene.leaves.iter().map(|leaf| &leaf.value), cache);
+    }
     grow_all("leaves", &scene.leaves, palettes, |leaf, palette| {
         let leaf = plants::grow(leaf, &palette, options.cache);
         if let Some(grown) = options.grown {

@@ -1,5 +1,6 @@
 //! Hairs as tubes of triangles.
 
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 use glam::DVec3;
@@ -11,7 +12,7 @@ pub(super) const SIDES: usize = 3;
 const PIECES: usize = 4;
 
 /// Hairs in space. Lengths are millimetres.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct HairMesh {
     /// Places of the vertices; each hair has [`HairMesh::VERTICES`] in a row, the tip last.
     pub positions: Vec<DVec3>,

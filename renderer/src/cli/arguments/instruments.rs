@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::cache::CacheArguments;
 use super::numbers::{MOST_GIB, MOST_SECONDS, between};
 use super::scene::SceneArguments;
 use crate::instruments::Target;
@@ -50,9 +51,9 @@ pub struct InstrumentsArguments {
     /// Threads; the default is one for each processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Keep grown leaves in a folder, and take from it those that this program has grown before
-    #[arg(long, value_name = "DIR")]
-    pub cache: Option<PathBuf>,
+    /// Where grown leaves are kept.
+    #[command(flatten)]
+    pub cache: CacheArguments,
     /// Memory that building the scene may take; the default is what the machine has free
     #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,

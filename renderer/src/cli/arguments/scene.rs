@@ -7,8 +7,8 @@ use clap::Args;
 /// A scene file with overrides.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
 pub struct SceneArguments {
-    /// The scene file
-    #[arg(value_name = "SCENE.toml")]
+    /// The scene file, or the preset of a leaf or a plant, which is then shown by itself
+    #[arg(value_name = "SCENE.toml|PRESET")]
     pub scene: PathBuf,
     /// Override a value, written as in the file: -D film.rgb.spp=16
     #[arg(short = 'D', value_name = "KEY=VALUE")]

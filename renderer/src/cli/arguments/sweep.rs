@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::cache::CacheArguments;
 use super::numbers::{between, samples};
 
 pub(super) const EXAMPLES: &str = "\
@@ -53,9 +54,9 @@ pub struct SweepArguments {
     /// Threads of each task; the default is the processors shared among the tasks at a time
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Keep grown leaves of scenes in a folder, so that tasks with the same leaves grow them once
-    #[arg(long, value_name = "DIR")]
-    pub cache: Option<PathBuf>,
+    /// Where grown leaves are kept.
+    #[command(flatten)]
+    pub cache: CacheArguments,
 }
 
 /// Some of the tasks of a sweep.

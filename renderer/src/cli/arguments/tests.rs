@@ -24,7 +24,7 @@ fn render_takes_all_its_options() {
         (Some(9), Some(2), Some(7))
     );
     assert_eq!((render.noise, render.time), (Some(0.01), Some(1.5)));
-    assert_eq!(render.cache, Some(PathBuf::from("c")));
+    assert_eq!(render.cache.cache, Some(PathBuf::from("c")));
 }
 
 #[test]

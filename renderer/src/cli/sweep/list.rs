@@ -34,7 +34,7 @@ pub(super) fn print(
             "task": number,
             "id": hexadecimal(identity),
             "values": values,
-            "arguments": words_of(sweep, &task, arguments.cache.as_deref()),
+            "arguments": words_of(sweep, &task, &arguments.cache),
         }));
         !has_no_reader()
     })

@@ -1,7 +1,6 @@
 //! Tasks as commands, and the number that tells what a task makes.
 
 use std::ops::Range;
-use std::path::Path;
 
 use leafmodel::document::path::allowed;
 use leafmodel::document::report::DocumentErrors;
@@ -11,7 +10,7 @@ use rayon::prelude::*;
 use serde_json::json;
 
 use crate::checkpoint::PROGRAM;
-use crate::cli::arguments::{Arguments, Command};
+use crate::cli::arguments::{Arguments, CacheArguments, Command};
 use crate::cli::grow;
 use crate::cli::terminal::{Failure, colour};
 use crate::scene::fingerprint::fnv1a;
@@ -23,7 +22,7 @@ use crate::sweep::{Refused, Sweep, Target, Task};
 const BATCHES: [usize; 2] = [32, 2048];
 
 /// The words behind `lamina` that do a task, but for its outputs.
-pub(super) fn words_of(sweep: &Sweep, task: &Task<'_>, cache: Option<&Path>) -> Vec<String> {
+pub(super) fn words_of(sweep: &Sweep, task: &Task<'_>, cache: &CacheArguments) -> Vec<String> {
     let mut words = Vec::new();
     let mut add = |flag: &str, value: String| words.extend([flag.to_owned(), value]);
     let flag = match &sweep.target {
@@ -61,9 +60,7 @@ pub(super) fn words_of(sweep: &Sweep, task: &Task<'_>, cache: Option<&Path>) -> 
         if let Some(noise) = sweep.noise {
             add("--noise", noise.to_string());
         }
-        if let Some(cache) = cache {
-            add("--cache", cache.display().to_string());
-        }
+        words.extend(cache.words());
     }
     words
 }
@@ -143,7 +140,7 @@ fn identity(sweep: &Sweep, task: &Task<'_>) -> Result<u64, Why> {
         }
         Target::Leaf(_) => {
             let mut line = vec!["lamina".to_owned()];
-            line.extend(words_of(sweep, task, None));
+            line.extend(words_of(sweep, task, &CacheArguments::USUAL));
             let parsed = Arguments::of_line(line);
             let Ok(Some(Command::Grow(arguments))) = parsed.map(|parsed| parsed.command) else {
                 return Err(Why::Failure(bad!(

@@ -1,11 +1,11 @@
 //! The camera of a scene: `[camera.perspective]` and `[camera.orthographic]`.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use leafmodel::document::declared::{Declared, Defaults};
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
-use leafmodel::document::names::NameIn;
+use leafmodel::document::names::{NameIn, NameOrAll};
 use leafmodel::document::value_kind::{Degrees, Kind, Number, Vector};
 
 use crate::camera::thin_lens::{ANGLES_DEG, Field, Focus, Iris, Lens, LensError, Opening};
@@ -15,20 +15,33 @@ use crate::geometry::instance::COORDINATES_M;
 /// The camera of a scene.
 #[derive(Clone, Debug)]
 pub struct Camera {
-    /// The view. If the focus is on an object, which is somewhere only once it has grown, it is
+    /// The view. If an object is in focus or fills the picture, which is somewhere only once it has grown, it is
     /// focused at infinity; [`Camera::view_on`] knows more.
     pub view: View,
-    /// The object that is in focus.
-    pub focus_object: Option<FocusObject>,
+    /// The lens, before it is focused; none with parallel rays.
+    lens: Option<Lens>,
+    /// What is sharp; what the camera looks at, or the middle of what fills the picture, if it is `None`.
+    sharp: Option<Sharp>,
+    /// What fills the picture.
+    frame: Option<Frame>,
 }
 
-/// A focus on an object.
-#[derive(Clone, Debug)]
-pub struct FocusObject {
-    /// Index into [`super::Description::objects`].
-    pub object: usize,
-    /// The lens that is focused.
-    pub lens: Lens,
+/// What fills the picture: the camera stays in its direction and goes as near as that allows.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    /// Index into [`super::Description::objects`]; everything if it is `None`.
+    object: Option<usize>,
+    /// Fraction of the picture's width and height that is left free at each edge.
+    margin: f64,
+}
+
+/// Where things of a scene are.
+pub trait Places {
+    /// The middle of the box around an object, m.
+    fn middle(&self, object: usize) -> DVec3;
+
+    /// Points of the scene between which all of an object lies, or everything that there is; m.
+    fn around(&self, object: Option<usize>) -> Vec<DVec3>;
 }
 
 impl Default for Camera {
@@ -38,7 +51,9 @@ impl Default for Camera {
         let direction = Aim::default();
         Self {
             view: direction.seen_from(DVec3::NEG_Y, Projection::Perspective(lens)),
-            focus_object: None,
+            lens: None,
+            sharp: None,
+            frame: None,
         }
     }
 }
@@ -59,21 +74,102 @@ impl Declared for Camera {
 }
 
 impl Camera {
-    /// The view, given a function to the middle of an object.
+    /// The view, once it is known where things are; `aspect` is the picture's width over its height.
     ///
     /// # Errors
     ///
-    /// [`LensError`] if the lens cannot be focused there.
-    pub fn view_on(&self, middle: impl FnOnce(usize) -> DVec3) -> Result<View, LensError> {
-        let Some(FocusObject { object, lens }) = &self.focus_object else {
-            return Ok(self.view.clone());
+    /// [`LensError`] if the lens cannot be focused on what should be sharp.
+    pub fn view_on(&self, places: &impl Places, aspect: f64) -> Result<View, LensError> {
+        let points = self.frame.map(|frame| places.around(frame.object));
+        let points = points.unwrap_or_default();
+        let mut view = self.view.clone();
+        let Some(lens) = &self.lens else {
+            if let Some((frame, box_)) = self.frame.zip(Extent::of(&points, &view)) {
+                box_.fill_by_parallel_rays(&mut view, aspect, frame.margin);
+            }
+            return Ok(view);
         };
-        let point = self.view.in_picture(middle(*object));
-        let lens = lens.focused(Focus::Point(point))?;
-        Ok(View {
-            projection: Projection::Perspective(lens),
-            ..self.view.clone()
-        })
+        let focus = |view: &View, middle: Option<f64>| match self.sharp {
+            Some(Sharp::Plane(focus)) => focus,
+            Some(Sharp::Point(point)) => Focus::Point(view.in_picture(point)),
+            Some(Sharp::Object(object)) => Focus::Point(view.in_picture(places.middle(object))),
+            None => Focus::Distance(middle.unwrap_or((view.look_at - view.position).length())),
+        };
+        let extent = self.frame.zip(Extent::of(&points, &view));
+        let Some((frame, extent)) = extent else {
+            view.projection = Projection::Perspective(lens.focused(focus(&view, None))?);
+            return Ok(view);
+        };
+        // With a focal length the angle depends on the focus, and that on where the camera stands.
+        let mut thin = lens.focused(Focus::Infinity)?;
+        for _ in 0..FRAMINGS {
+            let middle = extent.fill(&mut view, thin.vertical_fov, aspect, frame.margin, &points);
+            thin = lens.focused(focus(&view, Some(middle)))?;
+        }
+        view.projection = Projection::Perspective(thin);
+        Ok(view)
+    }
+}
+
+/// Rounds in which framing and focus settle; each brings some two digits.
+const FRAMINGS: u32 = 12;
+
+/// How far points go along the axes of a view, from the scene's origin.
+#[derive(Clone, Copy, Debug)]
+struct Extent {
+    axes: DMat3,
+    least: DVec3,
+    most: DVec3,
+}
+
+impl Extent {
+    fn of(points: &[DVec3], view: &View) -> Option<Self> {
+        let axes = view.axes();
+        let along = |p: &DVec3| axes.transpose() * *p;
+        let least = points.iter().map(along).reduce(DVec3::min)?;
+        let most = points.iter().map(along).reduce(DVec3::max)?;
+        Some(Self { axes, least, most })
+    }
+
+    /// Lets the picture of parallel rays show all of it.
+    fn fill_by_parallel_rays(&self, view: &mut View, aspect: f64, margin: f64) {
+        let size = (self.most - self.least) / (1.0 - 2.0 * margin);
+        let middle = 0.5 * (self.least + self.most);
+        // Rays start before all of it.
+        let before = self.most.z - self.least.z + size.x.max(size.y);
+        let position = DVec3::new(middle.x, middle.y, self.least.z - before);
+        view.position = self.axes * position;
+        view.look_at = self.axes * middle;
+        view.projection = Projection::Orthographic {
+            height: size.y.max(size.x / aspect),
+        };
+    }
+
+    /// Moves a camera to the nearest place from which all points are in the picture, in its middle, and returns the
+    /// distance of the middle of them along its axis.
+    ///
+    /// A point (x, y, z) is in the picture of a camera at (a, b, c) if |x − a| ≤ t (z − c) and |y − b| ≤ s (z − c): the
+    /// greatest x − t z and −x − t z over all points decide a and the greatest c, and so do those of y.
+    fn fill(&self, view: &mut View, fov: f64, aspect: f64, margin: f64, points: &[DVec3]) -> f64 {
+        let half = libm::tan(0.5 * fov) * (1.0 - 2.0 * margin);
+        let slopes = [half * aspect, half];
+        let mut greatest = [[f64::NEG_INFINITY; 2]; 2];
+        for point in points {
+            let p = self.axes.transpose() * *point;
+            for (axis, at) in [p.x, p.y].into_iter().enumerate() {
+                let [right, left] = &mut greatest[axis];
+                *right = right.max(at - slopes[axis] * p.z);
+                *left = left.max(-at - slopes[axis] * p.z);
+            }
+        }
+        let place = [0, 1].map(|axis| 0.5 * (greatest[axis][0] - greatest[axis][1]));
+        let depth =
+            [0, 1].map(|axis| -0.5 * (greatest[axis][0] + greatest[axis][1]) / slopes[axis]);
+        let depth = depth[0].min(depth[1]);
+        let middle = 0.5 * (self.least.z + self.most.z) - depth;
+        view.position = self.axes * DVec3::new(place[0], place[1], depth);
+        view.look_at = view.position + self.axes.z_axis * middle;
+        middle
     }
 }
 
@@ -116,6 +212,10 @@ struct Orthographic {
     /// Height of what the picture shows, m.
     #[key(with = Self::declare_height, default = 1.0)]
     height: f64,
+    frame: Framed,
+    /// Fraction of the picture's width and height that `frame` leaves free at each edge.
+    #[key("frame_margin", 0.0..=0.45, default = 0.05)]
+    frame_margin: f64,
     /// The whole, once it is read.
     camera: Camera,
 }
@@ -144,12 +244,17 @@ struct Perspective {
     tilt: [f64; 2],
     #[key(with = Self::declare_sharp)]
     sharp: Option<Sharp>,
+    #[key(with = Self::declare_frame)]
+    frame: Framed,
+    /// Fraction of the picture's width and height that `frame` leaves free at each edge.
+    #[key("frame_margin", 0.0..=0.45, default = 0.05)]
+    frame_margin: f64,
     /// The whole, once it is read.
     camera: Camera,
 }
 
 /// What the file wants to be sharp.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 enum Sharp {
     Plane(Focus),
     /// A point of the world.
@@ -172,9 +277,13 @@ impl Aim {
 
 impl Orthographic {
     fn declare_height(&mut self, keys: &mut Keys<'_>) {
-        let sizes = ["height_m", "magnification"];
+        let sizes = ["height_m", "magnification", "frame"];
         for chosen in keys.one_of(&sizes, Some(sizes[0])) {
-            if chosen == "height_m" {
+            if chosen == "frame" {
+                let mut object = None;
+                keys.needed(chosen, &mut object, FRAMED, ABOUT_FRAME);
+                self.frame = Some(object);
+            } else if chosen == "height_m" {
                 let about = "Height of what the picture shows.";
                 let limits = Number(Limits::closed(1e-6, 1e6));
                 self.height = needed(chosen, limits, about, keys);
@@ -197,6 +306,7 @@ impl Orthographic {
         let height = self.height;
         let projection = Projection::Orthographic { height };
         self.camera.view = self.direction.seen_from(self.position, projection);
+        self.camera.frame = frame_of(self.frame, self.frame_margin);
         check_view(&self.camera.view, keys);
     }
 }
@@ -272,6 +382,11 @@ impl Perspective {
         }
     }
 
+    fn declare_frame(&mut self, keys: &mut Keys<'_>) {
+        keys.optional("frame", &mut self.frame, FRAMED, ABOUT_FRAME);
+        keys.exclude("frame", "magnification");
+    }
+
     /// Focuses the lens. What does not fit together is reported after what cannot stand alone.
     fn focus(&mut self, keys: &mut Keys<'_>) {
         let lens = Lens {
@@ -281,21 +396,22 @@ impl Perspective {
             iris: self.iris,
             tilt: self.tilt,
         };
-        let Camera { view, focus_object } = &mut self.camera;
+        self.camera.lens = Some(lens.clone());
+        self.camera.sharp = self.sharp;
+        self.camera.frame = frame_of(self.frame, self.frame_margin);
+        let view = &mut self.camera.view;
         *view = self
             .direction
             .seen_from(self.position, view.projection.clone());
-        if let Some(Sharp::Object(object)) = self.sharp {
-            let lens = lens.clone();
-            *focus_object = Some(FocusObject { object, lens });
-        }
         if !check_view(view, keys) {
             return;
         }
         let focus = match self.sharp {
             Some(Sharp::Plane(focus)) => focus,
             Some(Sharp::Point(point)) => Focus::Point(view.in_picture(point)),
+            // They are somewhere only once they have grown.
             Some(Sharp::Object(_)) => Focus::Infinity,
+            None if self.frame.is_some() => Focus::Infinity,
             None => Focus::Distance((view.look_at - view.position).length()),
         };
         match lens.focused(focus) {
@@ -313,6 +429,24 @@ impl Perspective {
             Err(error) => refuse(&error, keys),
         }
     }
+}
+
+/// The object that fills the picture, or everything.
+type Framed = Option<Option<usize>>;
+
+/// What fills the picture.
+const FRAMED: NameOrAll = NameOrAll(
+    NameIn(
+        "objects",
+        "the name of an object that fills the picture, or `everything`",
+    ),
+    "everything",
+);
+const ABOUT_FRAME: &str = "What fills the picture: the camera looks in the direction from `position_m` to `look_at_m`, and stands as near \
+    as all of that object, or of everything, allows. It is in focus if nothing else is said.";
+
+fn frame_of(object: Framed, margin: f64) -> Option<Frame> {
+    object.map(|object| Frame { object, margin })
 }
 
 /// The number of a key that is there. If it is wrong, that is reported, and it is 1.

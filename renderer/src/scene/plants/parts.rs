@@ -1,17 +1,16 @@
-//! Grown leaves as plain data, which can be stored.
+//! Grown leaves as plain data.
 
 use glam::{DAffine3, Vec2, Vec3};
 use leafmodel::blade::surface::{Cover, SlopeMoments};
 use leafmodel::compound::CompoundError;
 use leafmodel::leaf::LeafError;
 use leafmodel::optics::{Contents, Texel};
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::geometry::{MeshError, TriangleMesh};
 
 /// A part of a leaf.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
     /// Index into [`super::GrownLeaf::meshes`].
     pub mesh: usize,
@@ -36,7 +35,7 @@ pub enum PlantError {
 }
 
 /// The data of a grown leaf, in metres, from which a [`GrownLeaf`] is made.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub(in crate::scene) struct LeafParts {
     /// As [`super::GrownLeaf::meshes`].
     pub(in crate::scene) meshes: Vec<MeshParts>,
@@ -51,7 +50,7 @@ pub(in crate::scene) struct LeafParts {
 }
 
 /// The data of a mesh.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub(in crate::scene) struct MeshParts {
     pub(in crate::scene) positions: Vec<Vec3>,
     pub(in crate::scene) normals: Vec<Vec3>,
@@ -68,7 +67,7 @@ impl MeshParts {
 }
 
 /// The data of a map of contents.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub(in crate::scene) struct MapParts {
     pub(in crate::scene) width: usize,
     pub(in crate::scene) height: usize,
@@ -80,7 +79,7 @@ pub(in crate::scene) struct MapParts {
 }
 
 /// The data of a relief: slopes on a map of as many texels.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub(in crate::scene) struct SurfaceParts {
     pub(in crate::scene) texels: Vec<[SlopeMoments; 2]>,
     /// As many texels, or none.

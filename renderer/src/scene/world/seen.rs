@@ -9,7 +9,7 @@ use crate::camera::frustum::{Frustum, Glimpse};
 use crate::camera::view::{Near, View};
 use crate::geometry::instance::FAR;
 use crate::geometry::{Instance, TriangleMesh, origin_near};
-use crate::scene::description::Description;
+use crate::scene::description::{Description, Places};
 use trace::world::WorldObjects;
 
 /// How far before what is seen rays start at least, m.
@@ -185,26 +185,63 @@ pub(super) fn corners_between(sides: [DVec3; 2], to: &DAffine3) -> [DVec3; 8] {
     })
 }
 
-/// The middle of the box, along the axes of the scene, around all parts of an object in all its
-/// places, m.
-///
-/// Each part counts with its box in its own frame, so that an object with a million places costs
-/// no more than its places.
-pub(super) fn middle_of(
-    object: usize,
-    meshes: &[TriangleMesh],
-    instances: &[Instance],
-    objects: &WorldObjects,
-) -> DVec3 {
-    let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for (number, instance) in instances.iter().enumerate() {
-        if objects[number].object != object {
-            continue;
-        }
-        for corner in corners_of(instance, meshes) {
+/// Most corners of triangles that are looked at one by one.
+const MOST_CORNERS: usize = 4_000_000;
+
+/// Where the objects of a world are.
+#[derive(Clone, Copy)]
+pub(super) struct ObjectPlaces<'a> {
+    pub(super) meshes: &'a [TriangleMesh],
+    pub(super) instances: &'a [Instance],
+    pub(super) objects: &'a WorldObjects,
+}
+
+impl ObjectPlaces<'_> {
+    fn parts(&self, object: Option<usize>) -> impl Iterator<Item = &Instance> {
+        let instances = self.instances.iter().enumerate();
+        let parts = instances.filter(move |(number, _)| {
+            object.is_none_or(|object| self.objects[*number].object == object)
+        });
+        parts.map(|(_, instance)| instance)
+    }
+}
+
+impl Places for ObjectPlaces<'_> {
+    /// The middle of the box, along the axes of the scene, around all parts of an object in all its
+    /// places, m.
+    ///
+    /// Each part counts with its box in its own frame, so that an object with a million places costs
+    /// no more than its places.
+    fn middle(&self, object: usize) -> DVec3 {
+        let corners = self
+            .parts(Some(object))
+            .flat_map(|part| corners_of(part, self.meshes));
+        let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for corner in corners {
             least = least.min(corner);
             most = most.max(corner);
         }
+        0.5 * (least + most)
     }
-    0.5 * (least + most)
+
+    /// The corners of all triangles or, if these are too many, of the boxes around the parts.
+    fn around(&self, object: Option<usize>) -> Vec<DVec3> {
+        let mesh = |part: &Instance| &self.meshes[part.mesh as usize];
+        let corners: usize = self
+            .parts(object)
+            .map(|part| mesh(part).positions().len())
+            .sum();
+        if corners > MOST_CORNERS {
+            let boxes = self
+                .parts(object)
+                .flat_map(|part| corners_of(part, self.meshes));
+            return boxes.collect();
+        }
+        let all = self.parts(object).flat_map(|part| {
+            let to_scene = part.to_scene();
+            let places = mesh(part).positions().iter();
+            places.map(move |place| to_scene.transform_point3(place.as_dvec3()))
+        });
+        all.collect()
+    }
 }

@@ -1,6 +1,8 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+use glam::DVec3;
+
 use super::World;
 use crate::camera::view::Projection;
 use crate::image::{Layer, Picture, openexr};
@@ -276,6 +278,70 @@ fn a_camera_focuses_on_the_middle_of_an_object_in_all_its_places() {
         let error = error.to_string();
         let key = "camera.perspective.focus_object: ";
         assert!(error.starts_with(key) && error.contains(problem), "{error}");
+    }
+}
+
+#[test]
+fn a_camera_stands_as_near_as_what_fills_its_picture_allows() {
+    let ball = |camera: &str, size: [u32; 2]| {
+        let text = format!(
+            "format = 1\n[film.rgb]\nsize = {size:?}\nspp = 1\n{camera}\nposition_m = [3, -4, 12]\nlook_at_m = [0, 0, 0]\n\
+             [materials.grey.diffuse]\nreflectance = 0.5\n[meshes.ball.sphere]\nradius_m = 0.1\nsegments = 512\n\
+             [objects.ball]\nmesh = \"ball\"\nmaterial = \"grey\"\nposition_m = [5, 6, 7]\n\
+             [objects.far]\nmesh = \"ball\"\nmaterial = \"grey\"\nposition_m = [-50, 6, 7]\n\
+             [lights.sky.constant]\nradiance_w_m2_sr_nm = 1\n"
+        );
+        let loaded = parse(&text, "scene.toml", Path::new("."), &[]);
+        let loaded = loaded.unwrap_or_else(|errors| panic!("{errors}"));
+        World::build(&loaded.description)
+            .expect("a good scene")
+            .view
+    };
+    let middle = DVec3::new(5.0, 6.0, 7.0);
+    let direction = DVec3::new(-3.0, 4.0, -12.0) / 13.0;
+    // A cone about the ball touches it at r / sin of half its angle.
+    for (size, margin) in [([60, 40], 0.0), ([40, 60], 0.1)] {
+        let camera = format!(
+            "[camera.perspective]\nvertical_fov_deg = 40\nf_number = 8\nframe = \"ball\"\nframe_margin = {margin}"
+        );
+        let view = ball(&camera, size);
+        let narrower = f64::from(size[0].min(size[1])) / f64::from(size[1]);
+        let half = libm::atan(libm::tan(20_f64.to_radians()) * narrower * (1.0 - 2.0 * margin));
+        let distance = 0.1 / libm::sin(half);
+        let expected = middle - direction * distance;
+        assert!(
+            (view.position - expected).length() < 1e-4 * distance,
+            "{view:?}"
+        );
+        let Projection::Perspective(lens) = &view.projection else {
+            panic!("a lens was asked for");
+        };
+        assert!(
+            (lens.focus_distance - distance).abs() < 1e-4 * distance,
+            "{lens:?}"
+        );
+    }
+    // With a focal length the angle depends on the distance.
+    let camera = "[camera.perspective]\nfocal_length_mm = 100\nframe = \"ball\"\nframe_margin = 0";
+    let view = ball(camera, [40, 40]);
+    let distance = (view.position - middle).length();
+    let film = 1.0 / (1.0 / 0.1 - 1.0 / distance);
+    let half = libm::atan(0.012 / film);
+    assert!(
+        (distance - 0.1 / libm::sin(half)).abs() < 1e-4 * distance,
+        "{distance}"
+    );
+    // Parallel rays show the ball itself, and everything from ball to ball.
+    for (frame, size, height) in [("ball", [40, 40], 0.2), ("everything", [40, 40], 44.2)] {
+        let camera = format!("[camera.orthographic]\nframe = \"{frame}\"\nframe_margin = 0");
+        let view = ball(&camera, size);
+        let Projection::Orthographic { height: found } = view.projection else {
+            panic!("parallel rays were asked for");
+        };
+        assert!(
+            found >= height * (1.0 - 1e-4) && found < height * 1.05,
+            "{frame} {found}"
+        );
     }
 }
 
