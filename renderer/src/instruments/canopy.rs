@@ -138,6 +138,10 @@ impl Witness<'_> for CanopyTally<'_> {
 const ONE_DRAW: &str = "standard errors hold for these leaves where they are; other draws of a \
     canopy, by other seeds of `scatter`, `volume` or plants, differ by more";
 
+/// What there is to say of a box without leaves.
+const BARE: &str =
+    "nothing lies in `within_m` besides the soil: the figures are those of bare soil";
+
 /// What users should know of the figures: for how much the errors hold, and what of a scene lies
 /// outside the box and is left out, a sentence for each object.
 pub(super) fn notes(world: &World, scene: &Description, canopy: &Canopy) -> Vec<String> {
@@ -151,7 +155,8 @@ pub(super) fn notes(world: &World, scene: &Description, canopy: &Canopy) -> Vec<
             scene.objects[object].name
         )
     };
-    let mut notes = vec![ONE_DRAW.to_owned()];
+    let is_bare = Period::within(canopy.within, world).all(|object| Some(object) == canopy.soil);
+    let mut notes = vec![if is_bare { BARE } else { ONE_DRAW }.to_owned()];
     notes.extend(left_out.into_iter().map(note));
     notes
 }
@@ -165,7 +170,7 @@ pub(super) fn read_out(
     let (stage, period) = Period::stage(measurement, canopy.within)?;
     let ground = (canopy.within[1] - canopy.within[0]).element_product();
     let ledger = Ledger::new(scene, &stage, canopy, ground);
-    check(measurement, (&stage, &period), canopy, &ledger)?;
+    check(measurement, (&stage, &period), canopy)?;
     detector::check_layers(measurement, &stage, canopy.constituents)?;
     let directions = directions(&canopy.incidence);
     let sets = measurement.sets();
@@ -240,11 +245,7 @@ fn check(
     measurement: &Measurement<'_>,
     (stage, period): (&Stage<'_>, &Period),
     canopy: &Canopy,
-    ledger: &Ledger,
 ) -> Result<(), InstrumentError> {
-    if ledger.objects.1.is_empty() {
-        return Err(measurement.refuse(Problem::NoLeaves));
-    }
     let untold = [
         (
             !canopy.layers.is_empty(),

@@ -62,8 +62,8 @@ fn afloat(volume: &mut Volume, keys: &mut Keys<'_>) {
     }
     volume.within = [DVec3::new(x0, y0, z0), DVec3::new(x1, y1, z1)];
     let about = "Leaf area index: area of all copies over the area of the box's ground plan, gaps \
-        between rows and crowns included.";
-    let limits = Number(Limits::above(0.0, 1000.0));
+        between rows and crowns included; 0 leaves the box empty.";
+    let limits = Number(Limits::closed(0.0, 1000.0));
     keys.required("lai", &mut volume.lai, limits, about);
     inclination(volume, keys);
     arrangement(volume, keys);
