@@ -36,7 +36,7 @@ use self::place::from_z;
 use self::points::{Measure, Spaced};
 
 pub use self::body::Body;
-pub use self::inclination::Inclination;
+pub use self::inclination::{BadInclinations, Inclination, InclinationTable};
 pub use self::place::{MOST_AT_REST, MOST_THINGS, Most, NoPlace, ScatterError, Strewn};
 pub use self::points::{Ground, triangles};
 pub use self::volume::{Arrangement, Centres, Volume, VolumeError};
