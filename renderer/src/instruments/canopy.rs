@@ -134,9 +134,10 @@ impl Witness<'_> for CanopyTally<'_> {
     }
 }
 
-/// What errors of canopies leave out.
+/// What errors of a single draw leave out.
 const ONE_DRAW: &str = "standard errors hold for these leaves where they are; other draws of a \
-    canopy, by other seeds of `scatter`, `volume` or plants, differ by more";
+    canopy, by other seeds of `scatter`, `volume` or plants, differ by more: `realisations` measures \
+    several draws of what is scattered or floats";
 
 /// What there is to say of a box without leaves.
 const BARE: &str =
@@ -156,7 +157,12 @@ pub(super) fn notes(world: &World, scene: &Description, canopy: &Canopy) -> Vec<
         )
     };
     let is_bare = Period::within(canopy.within, world).all(|object| Some(object) == canopy.soil);
-    let mut notes = vec![if is_bare { BARE } else { ONE_DRAW }.to_owned()];
+    let of_all = [(is_bare, BARE), (canopy.realisations == 1, ONE_DRAW)];
+    let of_all = of_all.into_iter().find(|(holds, _)| *holds);
+    let mut notes: Vec<String> = of_all
+        .map(|(_, of_all)| of_all.to_owned())
+        .into_iter()
+        .collect();
     notes.extend(left_out.into_iter().map(note));
     notes
 }

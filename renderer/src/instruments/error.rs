@@ -106,6 +106,14 @@ pub enum Problem {
         /// How many there may be.
         most: usize,
     },
+    /// One of several draws of the leaves cannot be made.
+    #[error("`realisations`: draw {draw} of the leaves: {problem}")]
+    NoDraw {
+        /// Its number, from 1.
+        draw: u32,
+        /// What is wrong.
+        problem: String,
+    },
     /// Copies of a canopy's parts cannot be placed.
     #[error(transparent)]
     Geometry(GeometryError),

@@ -5,12 +5,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DAffine3, DMat4};
 
+use super::BuildOptions;
 use super::error::WorldError;
 use super::needs::Memory;
 use super::placing::Pieces;
 use crate::geometry::TriangleMesh;
 use crate::geometry::scatter::{
-    Amount, Body, Ground, Most, Rest, ScatterError, Strewn, Volume, VolumeError, triangles,
+    Amount, Body, Ground, Most, Rest, Scatter, ScatterError, Strewn, Volume, VolumeError,
+    seed_of_draw, triangles,
 };
 use crate::scene::description::{InstancePlace, Named, Object, ObjectShape, StrewnOn};
 
@@ -36,6 +38,8 @@ pub(super) struct Strewing<'a> {
     meshes: &'a [TriangleMesh],
     pieces: &'a Pieces,
     objects: &'a [Named<Object>],
+    /// Which of several independent draws is made, from 0.
+    draw: u32,
     memory: Memory,
     /// Counts what has come to rest, and of how many things it has.
     at_rest: Option<&'a [AtomicUsize; 2]>,
@@ -52,16 +56,18 @@ impl<'a> Strewing<'a> {
         meshes: &'a [TriangleMesh],
         pieces: &'a Pieces,
         objects: &'a [Named<Object>],
-        (most_bytes, at_rest): (Option<f64>, Option<&'a [AtomicUsize; 2]>),
+        draw: u32,
+        options: &BuildOptions<'a>,
     ) -> Result<Self, WorldError> {
-        let mut memory = Memory::new(most_bytes);
+        let mut memory = Memory::new(options.most_bytes);
         memory.take_meshes(meshes)?;
         Ok(Self {
             meshes,
             pieces,
             objects,
+            draw,
             memory,
-            at_rest,
+            at_rest: options.at_rest,
             found: BTreeMap::new(),
         })
     }
@@ -166,9 +172,11 @@ impl<'a> Strewing<'a> {
         };
         let parts = group.map_or(1, <[_]>::len);
         let most = self.memory.most(parts * self.most_parts(object));
-        let places = strewn
-            .plan
-            .places_up_to(&ground, others, &bodies, most, &count)?;
+        let plan = Scatter {
+            seed: seed_of_draw(strewn.plan.seed, self.draw),
+            ..strewn.plan.clone()
+        };
+        let places = plan.places_up_to(&ground, others, &bodies, most, &count)?;
         let most = Most::UNBOUND;
         if places.len() * parts > most.things() {
             let wanted = (places.len() * parts) as f64;
@@ -194,6 +202,10 @@ impl<'a> Strewing<'a> {
         };
         let areas: Vec<f64> = object.shapes.iter().map(area).collect();
         let most = self.memory.most(self.most_parts(object));
+        let volume = Volume {
+            seed: seed_of_draw(volume.seed, self.draw),
+            ..volume.clone()
+        };
         let places = volume.places(&areas, most)?.into_iter();
         let places = places.map(|place| {
             let to_world = DMat4::from(place.to_world) * object.to_world;

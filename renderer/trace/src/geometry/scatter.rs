@@ -112,6 +112,14 @@ pub enum Rest {
     },
 }
 
+/// A seed of one of several independent draws; the first has the seed itself.
+pub fn seed_of_draw(seed: u64, draw: u32) -> u64 {
+    if draw == 0 {
+        return seed;
+    }
+    mixer::scramble(mixer::scramble(seed) ^ u64::from(draw))
+}
+
 /// Points that are tried for each thing before a surface counts as full.
 const TRIES: usize = 30;
 

@@ -16,6 +16,7 @@ pub(super) const BY_CONSTITUENT: &str = "Whether absorption is told by constitue
 
 /// Fluxes of a canopy that repeats itself without end along x and y.
 #[derive(Clone, Debug, Declared, Defaults)]
+#[key(last = Self::check)]
 pub struct Canopy {
     /// The box that repeats itself: least x and y, greatest x and y.
     #[key("within_m", required, Rectangle(COORDINATES_M), default = [DVec2::ZERO, DVec2::ONE])]
@@ -37,6 +38,10 @@ pub struct Canopy {
     /// Whether absorption is told of each instance of an object: leaf by leaf.
     #[key("instances")]
     pub instances: bool,
+    /// Independent draws of all that is scattered or floats, over which figures are means; their errors
+    /// then hold for any such leaves.
+    #[key("realisations", 1..=10_000, default = 1)]
+    pub realisations: u32,
     /// Directions from which the canopy is seen, for its BRF.
     ///
     /// `None` measures fluxes alone.
@@ -57,5 +62,13 @@ impl Canopy {
             "Azimuth from which that light comes, from +x towards +y.",
         ];
         self.incidence.declare_from(about, keys);
+    }
+
+    fn check(&mut self, keys: &mut Keys<'_>) {
+        if self.instances && self.realisations > 1 {
+            let problem = "instances of one draw are not those of another".to_owned();
+            let help = "leave out `instances`, or `realisations`";
+            keys.refuse(&["realisations"], problem, help);
+        }
     }
 }
