@@ -9,6 +9,7 @@ use leafmodel::document::number_lists::{Rectangle, Rising};
 use super::detector::Detector;
 use super::incidence::Incidence;
 use crate::geometry::instance::COORDINATES_M;
+use crate::scene::angle::declare_compass;
 
 /// What `constituents` of an instrument means.
 pub(super) const BY_CONSTITUENT: &str = "Whether absorption is told by constituents of tissue: pigments, water \
@@ -42,10 +43,8 @@ pub struct Canopy {
     /// then hold for any such leaves.
     #[key("realisations", 1..=10_000, default = 1)]
     pub realisations: u32,
-    /// Directions from which the canopy is seen, for its BRF.
-    ///
-    /// `None` measures fluxes alone.
-    #[key("detector", block)]
+    /// Directions from which the canopy is seen; `None` measures fluxes alone.
+    #[key(with = Self::declare_detector)]
     pub detector: Option<Detector>,
 }
 
@@ -62,6 +61,17 @@ impl Canopy {
             "Azimuth from which that light comes, from +x towards +y.",
         ];
         self.incidence.declare_from(about, keys);
+        if let Some(azimuth) = declare_compass(keys) {
+            self.incidence.azimuth = azimuth.to_radians();
+        }
+    }
+
+    fn declare_detector(&mut self, keys: &mut Keys<'_>) {
+        let light = self.incidence.azimuth;
+        let about = "Directions from which the canopy is seen, for its BRF.";
+        let new = Detector::default;
+        let declare = |own: &mut Detector, keys: &mut Keys<'_>| own.declare_by_compass(light, keys);
+        keys.optional_block("detector", &mut self.detector, new, about, declare);
     }
 
     fn check(&mut self, keys: &mut Keys<'_>) {
