@@ -159,7 +159,8 @@ impl World {
         }
         notes.extend(notes::on_coats(scene, &materials, &owners, range_nm));
         let pieces = Pieces { leaves, solids };
-        let strewing = Strewing::new(&meshes, &pieces, &scene.objects, 0, options)?;
+        let limits = (options.most_bytes, options.at_rest);
+        let strewing = Strewing::new(&meshes, &pieces, &scene.objects, 0, limits)?;
         let strewn = strewing.all(&mut notes)?;
         let strewn_places = strewing::as_places(&strewn);
         notes.extend(notes::on_sizes(scene, &meshes, &pieces, &strewn_places));
@@ -229,7 +230,8 @@ impl World {
     ) -> Result<(), WorldError> {
         let traced = &mut self.traced;
         let meshes = traced.geometry.meshes();
-        let strewing = Strewing::new(meshes, &self.pieces, &scene.objects, draw, options)?;
+        let limits = (options.most_bytes, options.at_rest);
+        let strewing = Strewing::new(meshes, &self.pieces, &scene.objects, draw, limits)?;
         let strewn = strewing.all(&mut Vec::new())?;
         let Placed {
             instances,

@@ -5,7 +5,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DAffine3, DMat4};
 
-use super::BuildOptions;
 use super::error::WorldError;
 use super::needs::Memory;
 use super::placing::Pieces;
@@ -57,9 +56,9 @@ impl<'a> Strewing<'a> {
         pieces: &'a Pieces,
         objects: &'a [Named<Object>],
         draw: u32,
-        options: &BuildOptions<'a>,
+        (most_bytes, at_rest): (Option<f64>, Option<&'a [AtomicUsize; 2]>),
     ) -> Result<Self, WorldError> {
-        let mut memory = Memory::new(options.most_bytes);
+        let mut memory = Memory::new(most_bytes);
         memory.take_meshes(meshes)?;
         Ok(Self {
             meshes,
@@ -67,7 +66,7 @@ impl<'a> Strewing<'a> {
             objects,
             draw,
             memory,
-            at_rest: options.at_rest,
+            at_rest,
             found: BTreeMap::new(),
         })
     }
