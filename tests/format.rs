@@ -94,6 +94,7 @@ fn folder() -> TempDir {
         "quoted.csv",
         "\"x_m\",\"y_m\",\"z_m\",\"rotate_z_deg\",\"scale\",\"shape\"\n0,0,0,0,1,\"floor\"\n\"1\",2,3,90,0.5,\"ball\"\n",
     );
+    write("angles.csv", "density;inclination_deg\n0,5;0\n2;45\n1;90\n");
     write("no_header.csv", "0, 0, 0\n");
     write("no_rows.csv", "x_m, y_m, z_m\n# to come\n");
     write(

@@ -5,6 +5,7 @@ mod arrangement;
 mod brf;
 mod canopy;
 mod closed;
+mod draws;
 mod far;
 mod fluorescence;
 mod gonio;

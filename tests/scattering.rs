@@ -6,6 +6,7 @@ use glam::{Vec2, Vec3};
 use renderer::bsdf::Bsdf;
 use renderer::bsdf::coat_table::{Bloom, CoatTable};
 use renderer::bsdf::dielectric::Dielectric;
+use renderer::bsdf::hapke::{Grains, HapkeBsdf, greatest_reflectance};
 use renderer::bsdf::leaf::{Coat, LeafBsdf, LeafShape, Tissue};
 use renderer::bsdf::metallic_roughness::MetallicRoughness;
 use renderer::sampling::stream::Stream;
@@ -317,6 +318,40 @@ fn tilted(model: &[(f32, Arc<CoatTable>, Bloom); 2]) -> Bsdf<'_, 8> {
     })
 }
 
+/// Grains of soil that shine towards the light.
+fn grains() -> HapkeBsdf<8> {
+    HapkeBsdf {
+        albedo: Lanes::from_fn(|lane| 0.1 + 0.1 * lane as f32),
+        grains: Grains {
+            asymmetry: 0.4,
+            backward: 0.3,
+            opposition: 0.9,
+            width: 0.05,
+        },
+    }
+}
+
+#[test]
+fn grains_are_reciprocal_and_send_back_less_than_they_get() {
+    let bsdf = Bsdf::Hapke(grains());
+    for wo in directions() {
+        for wi in directions() {
+            let [there, back] = [(wo, wi), (wi, wo)].map(|(a, b)| bsdf.eval(a, b).0[6]);
+            assert!((there - back).abs() <= 1e-5 * there.max(back), "{wo} {wi}");
+            assert_eq!(wo.z * wi.z > 0.0, there > 0.0, "{wo} {wi}");
+        }
+        let greatest = f64::from(greatest_reflectance(0.7, grains().grains).0);
+        let found = integrate(wo, POINTS, |lobe, u| {
+            let sample = bsdf.sample(wo, lobe, u)?;
+            Some((sample.wi, f64::from(sample.weight.0[6])))
+        });
+        assert!(
+            found.total() < greatest + 2e-3 && found.transmitted == 0.0,
+            "{wo}: {found:?}"
+        );
+    }
+}
+
 #[test]
 fn every_bsdf_is_sampled_as_its_density_says() {
     let glossy = [Coat::new(1.45, 0.15, 0.3), Coat::new(1.4, 0.5, 0.5)];
@@ -324,7 +359,8 @@ fn every_bsdf_is_sampled_as_its_density_says() {
     let glaze = Coat::new(1.5, 0.1, 0.1);
     let glaze = [glaze.clone(), glaze];
     let model = model();
-    let cases: [(&str, Bsdf<'_, 8>); 7] = [
+    let cases: [(&str, Bsdf<'_, 8>); 8] = [
+        ("grains", Bsdf::Hapke(grains())),
         ("tilted paint and metal", tilted(&model)),
         ("glazed body", Bsdf::Leaf(coated(&glaze, 0.3))),
         ("diffuse", Bsdf::Diffuse(Lanes::splat(0.5))),

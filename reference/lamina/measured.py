@@ -33,6 +33,8 @@ AXES = (
 PARTS = {"in_layer": "layer", "by_constituent": "constituent", "by_instance": "instance"}
 # How the line of a table begins that holds its provenance as JSON.
 PROVENANCE = "# provenance: "
+# Of means over several draws of the leaves: their number, and the parts of the standard error.
+PARTS_OF_ERRORS = ("draws", "error_by_rays", "error_by_draws")
 # The band over which photons are summed.
 PHOTONS = "PAR"
 
@@ -71,11 +73,12 @@ def read_figures(file: str | Path) -> dict[str, xr.Dataset]:
 
     A quantity is a variable over what it depends on: `wavelength` (nm) or `band`, `incidence`,
     `view_zenith` and `view_azimuth` (degrees), `face`, `depth` (µm), and `object`, `layer`,
-    `constituent` or `instance`. Its standard error is the variable `NAME_standard_error`. Figures
-    in diffuse light are `NAME_diffuse`, those of bands `NAME_in_band`, indices
-    `NAME_of_QUANTITY`. Units are in the attribute `units`. What determines the figures is JSON in
-    the attribute `provenance`, unless an older program wrote the file. Raises ValueError for a
-    file that is no such table.
+    `constituent` or `instance`. Its standard error is the variable `NAME_standard_error`; of means
+    over several draws of the leaves, `NAME_error_by_rays` and `NAME_error_by_draws` are its parts
+    and `NAME_draws` is the number of draws. Figures in diffuse light are `NAME_diffuse`, those of
+    bands `NAME_in_band`, indices `NAME_of_QUANTITY`. Units are in the attribute `units`. What
+    determines the figures is JSON in the attribute `provenance`, unless an older program wrote the
+    file. Raises ValueError for a file that is no such table.
     """
     rows, told = rows_of(Path(file))
     names = dict.fromkeys(str(row["instrument"]) for row in rows)
@@ -90,7 +93,8 @@ def read_figures(file: str | Path) -> dict[str, xr.Dataset]:
 def rows_of(file: Path) -> tuple[list[Row], dict[str, object]]:
     """The rows of a table (numbers as numbers, empty cells as None), and what is said of all."""
     text = file.read_text(encoding="utf-8")
-    numbers = {"value", "standard_error"} | {column for column, _, unit in AXES if unit}
+    needed = {"value", "standard_error"} | {column for column, _, unit in AXES if unit}
+    numbers = needed | set(PARTS_OF_ERRORS)
     if file.suffix.lower() == ".json":
         try:
             report = json.loads(text)
@@ -114,7 +118,7 @@ def rows_of(file: Path) -> tuple[list[Row], dict[str, object]]:
     except json.JSONDecodeError as failure:
         raise ValueError(f"{file}: its provenance is no JSON: {failure}") from failure
     for line in csv.DictReader(lines[len(comments) :]):
-        if not {"instrument", "quantity", "unit", *numbers} <= set(line):
+        if not {"instrument", "quantity", "unit", *needed} <= set(line):
             raise ValueError(
                 f"{file}: this is no file of `lamina instruments`: a column is missing"
             )
@@ -181,16 +185,21 @@ def dataset(rows: list[Row], about: Mapping[str, object]) -> xr.Dataset:
     for name, figures in variables.items():
         axes = list(figures[0][0])
         shape = [len(coordinates[axis]) for axis in axes]
-        for ending, column in (("", "value"), ("_standard_error", "standard_error")):
+        columns = ["standard_error"]
+        # Files of older programs have no such columns.
+        columns += [one for one in PARTS_OF_ERRORS if figures[0][1].get(one) is not None]
+        for column in ("value", *columns):
             values = np.full(shape, np.nan)
             for places, row in figures:
                 at = tuple(coordinates[axis].index(places[axis]) for axis in axes)
                 number = row[column]
                 values[at] = np.nan if number is None else float(str(number))
-            told = {"units": str(figures[0][1]["unit"])}
-            if not ending:
-                told["ancillary_variables"] = f"{name}_standard_error"
-            found[name + ending] = xr.Variable(axes, values, told)
+            told = {"units": "1" if column == "draws" else str(figures[0][1]["unit"])}
+            if column == "value":
+                told["ancillary_variables"] = " ".join(f"{name}_{one}" for one in columns)
+            found[name if column == "value" else f"{name}_{column}"] = xr.Variable(
+                axes, values, told
+            )
     result = xr.Dataset(found, attrs=dict(about))
     for axis, known in coordinates.items():
         told = {"units": units[axis]} if units.get(axis) else {}

@@ -257,6 +257,24 @@ slices = 2
 """
 
 
+def test_figures_of_several_draws_say_what_their_errors_consist_of() -> None:
+    columns = "instrument,quantity,part,face,incidence_deg,view_zenith_deg,view_azimuth_deg,"
+    columns += "depth_um,band,wavelength_nm,value,standard_error,unit"
+    cells = "field,reflected,,,30,,,,,550,0.2,5e-3,1"
+    with tempfile.TemporaryDirectory() as name:
+        one, many = Path(name, "one.csv"), Path(name, "many.csv")
+        one.write_text(f"{columns}\n{cells}\n")
+        parts = "draws,error_by_rays,error_by_draws"
+        many.write_text(f"{columns},{parts}\n{cells},8,3e-3,4e-3\n")
+        assert set(lamina.read_figures(one)["field"]) == {"reflected", "reflected_standard_error"}
+        field = lamina.read_figures(many)["field"]
+    at = field.sel(incidence=30, wavelength=550)
+    assert float(at.reflected_error_by_rays) == 3e-3
+    assert float(at.reflected_error_by_draws) == 4e-3
+    assert float(at.reflected_draws) == 8 and field.reflected_draws.attrs["units"] == "1"
+    assert "reflected_error_by_rays" in field.reflected.attrs["ancillary_variables"]
+
+
 def test_figures_of_instruments_are_arrays_and_netcdf_and_say_their_units() -> None:
     import xarray as xr
 

@@ -23,9 +23,9 @@ BEYOND_A_SCHEMA = """
     outline_specimen_nested outline_specimen_notch outline_svg_crossing outline_svg_end
     outline_svg_parts outline_teeth_crossing outline_transport_cells path_outside picture_infrared
     plant_climbs_on_many plant_days plant_flower plant_leaf plant_order plant_pot plant_relief
-    plant_room plant_shines plant_wall scatter_days scatter_effect scatter_order senescence_auxin
-    sensitivities_file sensor_file sensor_width solid_mesh solid_mosaic surface_cells
-    surface_stomata table_file unknown_name unsorted venation_agrophic venation_cells
+    plant_room plant_shines plant_wall realisations scatter_days scatter_effect scatter_order
+    senescence_auxin sensitivities_file sensor_file sensor_width solid_mesh solid_mosaic
+    surface_cells surface_stomata table_file unknown_name unsorted venation_agrophic venation_cells
     venation_craspedodromous venation_origin venation_origins_meet venation_pairs
     venation_quaternaries venation_sinus venation_transport_fine venation_young white_light
     wilting_on_ground wrong_file

@@ -57,6 +57,7 @@ mod canopy;
 mod constituents;
 mod depth;
 mod detector;
+mod draws;
 mod error;
 mod fluorescence;
 mod flux;
@@ -76,8 +77,9 @@ pub use self::error::{InstrumentError, Problem};
 use self::flux::LANES;
 use self::measurement::Measurement;
 pub use self::period::MOST_TURNS;
-pub use self::row::{CutPaths, Direction, Reading, Row, ViewAngles};
+pub use self::row::{CutPaths, Direction, ErrorParts, Reading, Row, ViewAngles};
 use crate::scene::description::{Description, InstrumentKind};
+use crate::scene::world::{self as scenes, BuildOptions};
 use crate::spectrum::WavelengthSampler;
 use trace::world::World;
 
@@ -101,7 +103,7 @@ pub fn notes(world: &World, scene: &Description, number: usize) -> Vec<String> {
 }
 
 /// Reads out the instrument with this number, whose wavelengths begin at the set `first_set` of
-/// those of the world.
+/// those of the world, for the leaves that stand in it.
 ///
 /// # Errors
 ///
@@ -117,15 +119,29 @@ pub fn read_out(
         budget: *budget,
         watch: None,
     };
-    read_out_watched(world, scene, number, first_set, &effort)
+    read_out_once(world, scene, number, first_set, &effort)
 }
 
-/// As [`read_out`], but may end early.
+/// As [`read_out`], but for the mean over all draws of the leaves that the instrument asks for, and may
+/// end early. The world is built with these options and may be drawn again; in the end it is as it was.
 ///
 /// # Errors
 ///
-/// As [`read_out`].
+/// As [`read_out`], and if there is no room for one of the draws.
 pub fn read_out_watched(
+    world: &mut scenes::World,
+    scene: &Description,
+    number: usize,
+    first_set: usize,
+    effort: &Effort<'_>,
+    options: &BuildOptions<'_>,
+) -> Result<Reading, InstrumentError> {
+    draws::read_out_each(world, (scene, number), effort, options, |world, effort| {
+        read_out_once(world, scene, number, first_set, effort)
+    })
+}
+
+fn read_out_once(
     world: &World,
     scene: &Description,
     number: usize,

@@ -1,10 +1,10 @@
 //! What blocks of instruments mean.
 
-use glam::DVec2;
-use renderer::scene::description::{Amount, Estimator, InstrumentKind, SpotMiddle};
+use glam::{DVec2, DVec3};
+use renderer::scene::description::{Amount, Estimator, InstrumentKind, Light, SpotMiddle};
 
 use super::accepted::assert_near;
-use super::{accept, text_of};
+use super::{accept, refuse, text_of};
 
 #[test]
 fn instruments_are_in_si_units_and_know_where_they_stand() {
@@ -73,4 +73,69 @@ fn instruments_are_in_si_units_and_know_where_they_stand() {
         panic!("{inside:?}");
     };
     assert_eq!((depth.slices, depth.faces), (4, [true, true]));
+}
+
+#[test]
+fn a_compass_bearing_is_an_azimuth_clockwise_from_plus_y() {
+    let scene =
+        |overrides: &[&str]| accept(&text_of("whole.toml"), "whole.toml", overrides).description;
+    let sun_of = |overrides: &[&str]| {
+        let lights = scene(overrides).lights;
+        let mut suns = lights.iter().filter_map(|light| match &light.value {
+            Light::Daylight(day) => Some(day.towards_sun()),
+            _ => None,
+        });
+        suns.next().expect("there is daylight")
+    };
+    // The example of Reda and Andreas (2004): 194.340° from north over east, 50.11° from the zenith.
+    let by_time = [
+        "lights.noon.daylight.time='2003-10-17T12:30:30-07:00'",
+        "lights.noon.daylight.latitude_deg=39.742476",
+        "lights.noon.daylight.longitude_deg=-105.1786",
+        "lights.noon.daylight.north_azimuth_deg=90",
+    ];
+    let by_compass = "lights.noon={ daylight = { elevation_deg = 39.888, compass_deg = 194.340 } }";
+    let [timed, bearing] = [sun_of(&by_time), sun_of(&[by_compass])];
+    assert!(
+        timed.angle_between(bearing) < 0.05_f64.to_radians(),
+        "{timed} {bearing}"
+    );
+    for (bearing, expected) in [
+        (0, DVec3::Y),
+        (90, DVec3::X),
+        (180, -DVec3::Y),
+        (-90, -DVec3::X),
+    ] {
+        let light = format!(
+            "lights.lamp={{ distant = {{ irradiance_w_m2_nm = 1, elevation_deg = 0, compass_deg = {bearing} }} }}"
+        );
+        let scene = scene(&[&light]);
+        let lamp = scene.lights.iter().find(|light| light.name == "lamp");
+        let Some(Light::Distant(lamp)) = lamp.map(|lamp| &lamp.value) else {
+            panic!("{lamp:?}");
+        };
+        assert_eq!(lamp.towards, expected, "{bearing}");
+    }
+    // Light from the south-east, seen from there, from the north-east and from the south.
+    let keys =
+        "within_m = [0, 0, 1, 1], compass_deg = 135, detector = { compass_deg = [45, 135, 180] }";
+    let field = format!("instruments.field={{ canopy = {{ {keys} }} }}");
+    let scene = scene(&[&field]);
+    let field = scene.instruments.iter().find(|own| own.name == "field");
+    let Some(InstrumentKind::Canopy(canopy)) = field.map(|field| &field.value.kind) else {
+        panic!("{field:?}");
+    };
+    assert_near(canopy.incidence.azimuth, -45_f64.to_radians());
+    let detector = canopy.detector.as_ref().expect("it has a detector");
+    for (found, expected) in detector.azimuths.iter().zip([90_f64, 0.0, -45.0]) {
+        assert_near(*found, expected.to_radians());
+    }
+    let both = "lights.evening.daylight.compass_deg=20";
+    let errors = refuse(&text_of("whole.toml"), "whole.toml", &[both]);
+    assert!(
+        errors
+            .to_string()
+            .contains("`compass_deg` and `azimuth_deg` exclude each other"),
+        "{errors}"
+    );
 }

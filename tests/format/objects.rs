@@ -1,6 +1,7 @@
 //! What objects of valid scenes mean: their places, and the parts of plants.
 
 use glam::DVec3;
+use renderer::geometry::scatter::{Inclination, InclinationTable};
 use renderer::scene::description::{ObjectShape, Shape};
 
 use super::{accept, text_of};
@@ -24,6 +25,31 @@ fn instances_are_the_rows_of_their_file_in_the_frame_of_their_object() {
     );
     let places = moved.description.objects[9].value.instances.clone();
     assert_eq!(places.expect("it still has them")[1].translation.z, 0.0);
+}
+
+#[test]
+fn inclinations_of_a_file_are_those_of_the_same_rows_in_the_scene() {
+    let inclined = |rows: &str| {
+        let kind = "objects.afloat.volume.inclination=table";
+        let rows = format!("objects.afloat.volume.inclinations={rows}");
+        let scene = accept(&text_of("whole.toml"), "whole.toml", &[kind, &rows]).description;
+        let mut volumes = scene
+            .objects
+            .iter()
+            .filter_map(|object| object.value.volume.as_ref());
+        volumes
+            .next()
+            .expect("something floats")
+            .inclination
+            .clone()
+    };
+    let table = InclinationTable::new(vec![[0.0, 0.5], [45.0, 2.0], [90.0, 1.0]]);
+    let expected = Inclination::Table(table.expect("it is sound"));
+    assert_eq!(
+        inclined("{ table = [[0, 0.5], [45, 2], [90, 1]] }"),
+        expected
+    );
+    assert_eq!(inclined("{ file = 'angles.csv' }"), expected);
 }
 
 #[test]

@@ -205,7 +205,50 @@ fn a_wall_on_a_side_of_the_box_lets_nothing_by() {
 }
 
 #[test]
-fn a_canopy_without_leaves_and_soil_that_is_too_small_are_refused() {
+fn without_leaves_the_figures_are_those_of_bare_soil() {
+    let floating = |lai: f64| discs(0.05, lai, [0.0, 1.0]);
+    let strewn = |amount: &str| {
+        let keys = format!(
+            "[objects.strewn]\nmesh = \"sheet\"\nmaterial = \"leaf\"\n\
+             scatter = {{ on = \"ground\", {amount} }}\n"
+        );
+        let text = sheet(0.1, &keys);
+        let at = text.find("[objects.leaf]").expect("there is a leaf");
+        let end = text
+            .find("[objects.strewn]")
+            .expect("there are strewn ones");
+        text[..at].to_owned() + &text[end..]
+    };
+    let alone = floating(1.0);
+    let alone = &alone[..alone.find("[objects.leaves]").expect("there are leaves")];
+    let instrument = "[instruments.field.canopy]\nwithin_m = [0, 0, 1, 1]\nwavelengths_nm = [550]\n\
+        soil = \"ground\"\nincidence_deg = [0, 50]\ndiffuse = true\ndetector = { zenith_deg = [-60, 0] }\n";
+    for (leaves, text) in [
+        (1, floating(0.0)),
+        (1, strewn("count = 0")),
+        (1, strewn("per_m2 = 0")),
+        (0, alone.to_owned()),
+    ] {
+        let built = built(&(text + instrument));
+        let notes = notes(&built.1, &built.0, 0);
+        assert!(notes[0].contains("bare soil"), "{notes:?}");
+        let rows = figures_of(&built, &rays(1 << 12)).expect("it can be measured");
+        for row in &rows {
+            let expected = match row.quantity {
+                "reflected" | "brf" | "hdrf" => 0.2,
+                "uncollided" | "arriving_at_soil" => 1.0,
+                "absorbed_by_soil" => 0.8,
+                "absorbed" | "transmitted" => 0.0,
+                other => panic!("{other} is not expected"),
+            };
+            assert!((row.value - expected).abs() < 1e-6, "{row:?}");
+        }
+        assert_eq!(of(&rows, "absorbed", NORMAL, 550.0).count(), leaves);
+    }
+}
+
+#[test]
+fn a_canopy_without_anything_and_soil_that_is_too_small_are_refused() {
     let bare = sheet(
         0.1,
         "[instruments.field.canopy]\nwithin_m = [-0.3, -0.3, 0.2, 0.2]\nsoil = \"leaf\"\n",
@@ -216,15 +259,14 @@ fn a_canopy_without_leaves_and_soil_that_is_too_small_are_refused() {
         matches!(&found, Err(error) if matches!(error.problem, Problem::SoilTooSmall { .. })),
         "{found:?}"
     );
-    let only_soil = "[meshes.ground.rectangle]\nwidth_m = 4\nheight_m = 4\n\
+    let beside = "[meshes.ground.rectangle]\nwidth_m = 4\nheight_m = 4\n\
         [materials.soil.diffuse]\nreflectance = 0.2\n\
         [objects.ground]\nmesh = \"ground\"\nmaterial = \"soil\"\n\
-        [instruments.field.canopy]\nwithin_m = [0, 0, 1, 1]\nsoil = \"ground\"\n";
-    let error = figures(only_soil, &rays(1024)).expect_err("there are no leaves");
+        [instruments.field.canopy]\nwithin_m = [5, 0, 6, 1]\nsoil = \"ground\"\n";
+    let error = figures(beside, &rays(1024)).expect_err("there is nothing");
     assert_eq!(
         error.to_string(),
-        "bench.toml:12:14: nothing stands in `within_m` besides the soil: move the box, or add \
-         leaves to the scene"
+        "bench.toml:12:14: nothing lies in `within_m`: move the box, or add soil or leaves to the scene"
     );
 }
 

@@ -17,12 +17,13 @@ struct Scene {
 }
 
 /// Keys of the sun's place by date and place on earth, and those that an elevation says.
-const DATES: [&str; 5] = [
+const DATES: [&str; 6] = [
     "latitude_deg",
     "longitude_deg",
     "time",
     "elevation_deg",
     "azimuth_deg",
+    "compass_deg",
 ];
 
 fn schema_of(path: &[&str]) -> &'static BlockSchema {

@@ -172,13 +172,13 @@ impl Kind for Text {
 #[derive(Clone, Copy, Debug)]
 pub struct Word<'w, T>(pub &'w [(&'static str, T)]);
 
-impl<T: Copy + PartialEq> Kind for Word<'_, T> {
+impl<T: Clone + PartialEq> Kind for Word<'_, T> {
     type Of = T;
 
     fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<T> {
         let (written, at) = text_at(cx, node, key)?;
         if let Some((_, value)) = self.0.iter().find(|(word, _)| *word == written) {
-            return Some(*value);
+            return Some(value.clone());
         }
         let words = || self.0.iter().map(|(word, _)| *word);
         let error = DocumentError::UnknownWord {

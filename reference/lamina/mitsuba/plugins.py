@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from lamina.mitsuba import colour_texture, lights, model_bsdf, plastic_bsdf, relief_bsdf
+from lamina.mitsuba import (
+    colour_texture,
+    hapke_bsdf,
+    lights,
+    model_bsdf,
+    plastic_bsdf,
+    relief_bsdf,
+)
 
 
 def register() -> None:
@@ -10,5 +17,6 @@ def register() -> None:
     relief_bsdf.register()
     plastic_bsdf.register()
     model_bsdf.register()
+    hapke_bsdf.register()
     colour_texture.register()
     lights.register()

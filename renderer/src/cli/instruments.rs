@@ -15,13 +15,15 @@ use crate::cli::signals::Signals;
 use crate::cli::terminal::{Failure, note, warn};
 use crate::image::atomic::folder_of;
 use crate::instruments::{
-    Budget, CutPaths, Effort, MOST_TURNS, Row, Watch, notes, read_out_watched, sets_of,
+    Budget, CutPaths, Effort, ErrorParts, MOST_TURNS, Reading, Row, Watch, notes, read_out_watched,
+    sets_of,
 };
 use crate::provenance::{Provenance, Settings};
 use crate::report::instruments as report;
-use crate::scene::description::Description;
+use crate::scene::description::{Description, Named};
 use crate::scene::fingerprint::hexadecimal;
 use crate::scene::load;
+use crate::scene::world::BuildOptions;
 
 /// Rays if the command line says nothing.
 const USUAL_RAYS: u64 = 1 << 16;
@@ -159,17 +161,23 @@ fn measure(
         cache: Some(&arguments.cache),
         wavelengths: Some(&sampler),
     };
-    let world = building.world(scene)?;
+    let mut world = building.world(scene)?;
+    // Things that are drawn again come to rest without a line on how far they are.
+    let options = BuildOptions {
+        most_bytes: needs::most_bytes(arguments.memory),
+        ..BuildOptions::default()
+    };
     note(&world.notes);
     signals.begin_work();
     let time = arguments.time.map(Duration::from_secs_f64);
     let until = time.map(|time| Instant::now() + time);
     for (place, &number) in chosen.iter().enumerate() {
         let started = Instant::now();
-        let name = &scene.instruments[number].name;
+        let Named { name, value: own } = &scene.instruments[number];
+        let draws = own.realisations();
         let own = notes(&world, scene, number).into_iter();
         note(own.map(|note| format!("{name}: {note}")));
-        let progress = Rays::new(name, budget);
+        let progress = Rays::new(name, budget, draws);
         let watch = Watch {
             until,
             stop: &signals.stop,
@@ -179,7 +187,9 @@ fn measure(
             budget: *budget,
             watch: Some(&watch),
         };
-        let found = match read_out_watched(&world, scene, number, first[number], &effort) {
+        let first = first[number];
+        let found = read_out_watched(&mut world, scene, number, first, &effort, &options);
+        let found = match found {
             Ok(found) => found,
             Err(error) => {
                 measured.ended = Some(ReadOutEnd::Failed(Failure::bad(error)));
@@ -188,6 +198,10 @@ fn measure(
         };
         report_cuts(name, &found.cut, scene.integrator.max_events);
         measured.cuts.push((name.clone(), found.cut));
+        let is_short = found.draws < draws;
+        if draws > 1 {
+            report_draws(name, &found, draws);
+        }
         let found = found.rows;
         let greatest = found.iter().map(|row| row.error).fold(0.0, f64::max);
         eprintln!(
@@ -198,7 +212,8 @@ fn measure(
         let rays = progress.rays();
         let is_open = |row: &&Row| {
             let allowed = budget.error.map(|target| target.allowed(row.value));
-            allowed.is_some_and(|allowed| row.error > allowed)
+            let by_rays = row.parts.map_or(row.error, |parts| parts.by_rays);
+            allowed.is_some_and(|allowed| by_rays > allowed)
         };
         let open = found.iter().filter(is_open).count();
         if open > 0 {
@@ -211,7 +226,8 @@ fn measure(
         let left = chosen[place + 1..].iter();
         let left = left.map(|&number| scene.instruments[number].name.as_str());
         let left: Vec<&str> = left.collect();
-        let is_cut = open > 0 || (budget.error.is_none() && (1..budget.rays).contains(&rays));
+        let all = u64::from(draws) * budget.rays;
+        let is_cut = is_short || open > 0 || (budget.error.is_none() && (1..all).contains(&rays));
         let is_stopped = signals.stop.load(Ordering::Relaxed);
         let is_over = is_stopped || until.is_some_and(|until| Instant::now() >= until);
         if is_over && (is_cut || !left.is_empty()) {
@@ -232,6 +248,24 @@ fn measure(
     Ok(measured)
 }
 
+/// Says over how many draws figures are means, and by how much errors of draws exceed those of rays.
+fn report_draws(name: &str, found: &Reading, wanted: u32) {
+    let parts = || found.rows.iter().filter_map(|row| row.parts);
+    let greatest = |part: fn(ErrorParts) -> f64| parts().map(part).fold(0.0, f64::max);
+    if parts().next().is_none() {
+        eprintln!(
+            "warning: {name}: one of {wanted} draws was measured: errors hold for its leaves alone"
+        );
+        return;
+    }
+    eprintln!(
+        "{name}: {} of {wanted} draws, errors by rays up to {:.1e}, by draws up to {:.1e}",
+        found.draws,
+        greatest(|parts| parts.by_rays),
+        greatest(|parts| parts.by_draws)
+    );
+}
+
 /// Says so if a limit cut paths.
 fn report_cuts(name: &str, cut: &CutPaths, most_events: u32) {
     if cut.paths > 0 {
@@ -248,15 +282,17 @@ fn report_cuts(name: &str, cut: &CutPaths, most_events: u32) {
 struct Rays<'a> {
     name: &'a str,
     budget: &'a Budget,
+    draws: u32,
     clock: Clock,
     followed: AtomicU64,
 }
 
 impl<'a> Rays<'a> {
-    fn new(name: &'a str, budget: &'a Budget) -> Self {
+    fn new(name: &'a str, budget: &'a Budget, draws: u32) -> Self {
         Self {
             name,
             budget,
+            draws,
             clock: Clock::new(),
             followed: AtomicU64::new(0),
         }
@@ -271,7 +307,8 @@ impl<'a> Rays<'a> {
         if !self.clock.is_due() {
             return;
         }
-        let (name, all) = (self.name, self.budget.rays);
+        let all = u64::from(self.draws).saturating_mul(self.budget.rays);
+        let name = self.name;
         if let Some(error) = self.budget.error {
             let seconds = self.clock.seconds();
             eprintln!("{name}: {rays} rays after {seconds:.0} s, until --error {error}");

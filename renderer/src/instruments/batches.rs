@@ -51,7 +51,7 @@ pub struct Watch<'a> {
 }
 
 impl Watch<'_> {
-    fn is_over(&self) -> bool {
+    pub(super) fn is_over(&self) -> bool {
         let is_late = self.until.is_some_and(|until| Instant::now() >= until);
         is_late || self.stop.load(Ordering::Relaxed)
     }

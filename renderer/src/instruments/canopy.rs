@@ -134,9 +134,14 @@ impl Witness<'_> for CanopyTally<'_> {
     }
 }
 
-/// What errors of canopies leave out.
+/// What errors of a single draw leave out.
 const ONE_DRAW: &str = "standard errors hold for these leaves where they are; other draws of a \
-    canopy, by other seeds of `scatter`, `volume` or plants, differ by more";
+    canopy, by other seeds of `scatter`, `volume` or plants, differ by more: `realisations` measures \
+    several draws of what is scattered or floats";
+
+/// What there is to say of a box without leaves.
+const BARE: &str =
+    "nothing lies in `within_m` besides the soil: the figures are those of bare soil";
 
 /// What users should know of the figures: for how much the errors hold, and what of a scene lies
 /// outside the box and is left out, a sentence for each object.
@@ -151,7 +156,13 @@ pub(super) fn notes(world: &World, scene: &Description, canopy: &Canopy) -> Vec<
             scene.objects[object].name
         )
     };
-    let mut notes = vec![ONE_DRAW.to_owned()];
+    let is_bare = Period::within(canopy.within, world).all(|object| Some(object) == canopy.soil);
+    let of_all = [(is_bare, BARE), (canopy.realisations == 1, ONE_DRAW)];
+    let of_all = of_all.into_iter().find(|(holds, _)| *holds);
+    let mut notes: Vec<String> = of_all
+        .map(|(_, of_all)| of_all.to_owned())
+        .into_iter()
+        .collect();
     notes.extend(left_out.into_iter().map(note));
     notes
 }
@@ -165,7 +176,7 @@ pub(super) fn read_out(
     let (stage, period) = Period::stage(measurement, canopy.within)?;
     let ground = (canopy.within[1] - canopy.within[0]).element_product();
     let ledger = Ledger::new(scene, &stage, canopy, ground);
-    check(measurement, (&stage, &period), canopy, &ledger)?;
+    check(measurement, (&stage, &period), canopy)?;
     detector::check_layers(measurement, &stage, canopy.constituents)?;
     let directions = directions(&canopy.incidence);
     let sets = measurement.sets();
@@ -240,11 +251,7 @@ fn check(
     measurement: &Measurement<'_>,
     (stage, period): (&Stage<'_>, &Period),
     canopy: &Canopy,
-    ledger: &Ledger,
 ) -> Result<(), InstrumentError> {
-    if ledger.objects.1.is_empty() {
-        return Err(measurement.refuse(Problem::NoLeaves));
-    }
     let untold = [
         (
             !canopy.layers.is_empty(),

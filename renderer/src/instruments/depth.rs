@@ -89,6 +89,7 @@ pub(super) fn read_out(
     Ok(Reading {
         rows: all,
         cut: CutPaths::NONE,
+        draws: 1,
     })
 }
 

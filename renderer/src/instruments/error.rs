@@ -42,12 +42,9 @@ pub enum Problem {
         /// The object.
         object: String,
     },
-    /// A canopy without anything but soil.
-    #[error(
-        "nothing stands in `within_m` besides the soil: move the box, or add leaves to the \
-         scene"
-    )]
-    NoLeaves,
+    /// A canopy without leaves and without soil.
+    #[error("nothing lies in `within_m`: move the box, or add soil or leaves to the scene")]
+    NothingWithin,
     /// What stands in a box that repeats itself is too high for its width.
     #[error(
         "what stands in `within_m` reaches from z = {:.4e} to {:.4e} m, more than {most} times the \
@@ -108,6 +105,14 @@ pub enum Problem {
         figures: usize,
         /// How many there may be.
         most: usize,
+    },
+    /// One of several draws of the leaves cannot be made.
+    #[error("`realisations`: draw {draw} of the leaves: {problem}")]
+    NoDraw {
+        /// Its number, from 1.
+        draw: u32,
+        /// What is wrong.
+        problem: String,
     },
     /// Copies of a canopy's parts cannot be placed.
     #[error(transparent)]

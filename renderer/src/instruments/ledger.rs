@@ -72,8 +72,12 @@ impl Ledger {
             let by_soil = Some(("photon_flux_absorbed_by_soil", 1.0));
             quantities.push(own("absorbed_by_soil", by_soil));
         }
-        let numbers: BTreeSet<usize> = (0..stage.objects.len())
-            .map(|instance| stage.objects[instance].object)
+        let seen = (0..stage.objects.len()).map(|instance| stage.objects[instance].object);
+        // Of what is spread there may be no copy in the box, or none at all.
+        let spread =
+            (0..scene.objects.len()).filter(|&object| scene.objects[object].value.is_spread());
+        let numbers: BTreeSet<usize> = seen
+            .chain(spread)
             .filter(|object| Some(*object) != canopy.soil)
             .collect();
         let objects = (quantities.len(), numbers.into_iter().collect::<Vec<_>>());

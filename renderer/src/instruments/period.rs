@@ -201,6 +201,13 @@ impl Period {
         left_out
     }
 
+    /// The object of each instance that stands in a box.
+    pub(super) fn within(within: [DVec2; 2], world: &World) -> impl Iterator<Item = usize> {
+        let places = Sides::of(within).places(world).into_iter();
+        let own = places.filter(|(_, _, places)| !places.is_empty());
+        own.map(|(number, _, _)| world.objects[number as usize].object)
+    }
+
     /// The instances of a world that stand in the box, those of their copies included that reach
     /// into it from beyond its sides, without lamps.
     ///
@@ -226,7 +233,7 @@ impl Period {
             places.extend(own.into_iter().map(|by| (number, by)));
         }
         if places.is_empty() {
-            return Err(measurement.refuse(Problem::NoLeaves));
+            return Err(measurement.refuse(Problem::NothingWithin));
         }
         let side = (within[1] - within[0]).min_element();
         if heights[1] - heights[0] > MOST_HEIGHT * side {

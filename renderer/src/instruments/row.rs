@@ -67,6 +67,8 @@ pub struct Row {
     pub value: f64,
     /// Standard error of the value.
     pub error: f64,
+    /// Of a mean over several draws of the leaves: what that error consists of.
+    pub parts: Option<ErrorParts>,
     /// Unit of both; 1 is a share of the incident flux, or a factor.
     pub unit: &'static str,
 }
@@ -86,9 +88,35 @@ impl Row {
             wavelength_nm: None,
             value: f64::NAN,
             error: f64::NAN,
+            parts: None,
             unit: "1",
         }
     }
+}
+
+impl Row {
+    /// Whether another row is the same figure, whatever its value.
+    pub(super) fn is_of_the_same(&self, other: &Self) -> bool {
+        let bare = |row: &Self| Self {
+            value: 0.0,
+            error: 0.0,
+            parts: None,
+            ..row.clone()
+        };
+        bare(self) == bare(other)
+    }
+}
+
+/// What the standard error of a mean over several draws of the leaves consists of; its square is the
+/// sum of the squares of both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ErrorParts {
+    /// Number of draws.
+    pub draws: u32,
+    /// The error by the light that was followed.
+    pub by_rays: f64,
+    /// The error by the leaves that were drawn.
+    pub by_draws: f64,
 }
 
 /// Paths that a limit cut in a measurement.
@@ -116,4 +144,6 @@ pub struct Reading {
     /// Paths that were cut; what they carried counts as absorbed, or is missing from the figures of a
     /// canopy.
     pub cut: CutPaths,
+    /// Draws of the leaves over which they are means.
+    pub draws: u32,
 }

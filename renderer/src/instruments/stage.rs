@@ -128,7 +128,8 @@ impl<'w> Stage<'w> {
     /// The rows that were measured on it, with what was cut.
     pub(super) fn reading(&self, rows: Vec<Row>) -> Reading {
         let cut = self.cuts.paths();
-        Reading { rows, cut }
+        let draws = 1;
+        Reading { rows, cut, draws }
     }
 
     /// The material of an instance.

@@ -14,10 +14,14 @@ use crate::scene::description::Description;
 /// The columns of a table.
 const COLUMNS: &str = "instrument,quantity,part,face,incidence_deg,view_zenith_deg,view_azimuth_deg,\
      depth_um,band,wavelength_nm,value,standard_error,unit";
+/// Those of means over several draws of the leaves, which other tables do without.
+const OF_DRAWS: [&str; 3] = ["draws", "error_by_rays", "error_by_draws"];
 
 /// A row for each figure.
 pub(crate) fn csv(rows: &[Row]) -> String {
-    let mut table = Table::commented(COLUMNS.split(','));
+    let are_drawn = rows.iter().any(|row| row.parts.is_some());
+    let of_draws = OF_DRAWS.into_iter().filter(|_| are_drawn);
+    let mut table = Table::commented(COLUMNS.split(',').chain(of_draws));
     for row in rows {
         let [zenith, azimuth] = view_of(row);
         // Shares of the incident flux are of the order of 1, other figures of any.
@@ -25,7 +29,7 @@ pub(crate) fn csv(rows: &[Row]) -> String {
             "1" => format!("{:.9}", row.value),
             _ => format!("{:.8e}", row.value),
         };
-        table.row([
+        let own = [
             row.instrument.clone(),
             row.quantity.to_owned(),
             cell(row.part.as_ref()),
@@ -39,7 +43,16 @@ pub(crate) fn csv(rows: &[Row]) -> String {
             value,
             format!("{:.3e}", row.error),
             row.unit.to_owned(),
-        ]);
+        ];
+        let of_draws = [
+            cell(row.parts.map(|parts| parts.draws)),
+            cell(row.parts.map(|parts| format!("{:.3e}", parts.by_rays))),
+            cell(row.parts.map(|parts| format!("{:.3e}", parts.by_draws))),
+        ];
+        table.row(
+            own.into_iter()
+                .chain(of_draws.into_iter().filter(|_| are_drawn)),
+        );
     }
     table.text()
 }
@@ -63,7 +76,7 @@ pub(crate) fn json(
             Direction::Diffuse => Value::from("diffuse"),
         };
         let [zenith, azimuth] = view_of(row);
-        json!({
+        let mut figure = json!({
             "instrument": row.instrument,
             "quantity": row.quantity,
             "part": row.part,
@@ -77,7 +90,14 @@ pub(crate) fn json(
             "value": row.value,
             "standard_error": row.error,
             "unit": row.unit,
-        })
+        });
+        if let Some(parts) = row.parts {
+            let [draws, by_rays, by_draws] = OF_DRAWS;
+            figure[draws] = json!(parts.draws);
+            figure[by_rays] = json!(parts.by_rays);
+            figure[by_draws] = json!(parts.by_draws);
+        }
+        figure
     });
     let report = json!({
         "program": PROGRAM,

@@ -160,7 +160,7 @@ impl World {
         notes.extend(notes::on_coats(scene, &materials, &owners, range_nm));
         let pieces = Pieces { leaves, solids };
         let limits = (options.most_bytes, options.at_rest);
-        let strewing = Strewing::new(&meshes, &pieces, &scene.objects, limits)?;
+        let strewing = Strewing::new(&meshes, &pieces, &scene.objects, 0, limits)?;
         let strewn = strewing.all(&mut notes)?;
         let strewn_places = strewing::as_places(&strewn);
         notes.extend(notes::on_sizes(scene, &meshes, &pieces, &strewn_places));
@@ -209,6 +209,48 @@ impl World {
             view,
             notes,
         })
+    }
+}
+
+impl World {
+    /// Draws what is scattered or floats another time, for instruments: `draw` is the number of one of
+    /// several independent draws, and 0 is that with which a world is built. Notes stay those of the first.
+    ///
+    /// # Errors
+    ///
+    /// [`WorldError`] if there is no room; the world is then as it was.
+    pub fn draw_again(
+        &mut self,
+        scene: &Description,
+        draw: u32,
+        options: &BuildOptions<'_>,
+    ) -> Result<(), WorldError> {
+        let traced = &mut self.traced;
+        let meshes = traced.geometry.meshes();
+        let limits = (options.most_bytes, options.at_rest);
+        let strewing = Strewing::new(meshes, &self.pieces, &scene.objects, draw, limits)?;
+        let strewn = strewing.all(&mut Vec::new())?;
+        let Placed {
+            instances,
+            mut objects,
+            ..
+        } = place(scene, &self.pieces, &strewing::as_places(&strewn));
+        set_drops(&mut objects, scene, &self.owners, &instances);
+        if traced.media.are_present {
+            set_bodies(&mut objects, scene, &self.owners, (meshes, &instances))?;
+        }
+        // Lamps stand in one place each, and these come first.
+        for number in 0..traced.objects.len().min(objects.len()) {
+            if let Some(light) = traced.objects[number].light {
+                objects.shine(number, light as usize);
+            }
+        }
+        traced.geometry = traced
+            .geometry
+            .with_instances(instances, traced.geometry.origin())?;
+        traced.objects = objects;
+        self.strewn = strewn;
+        Ok(())
     }
 }
 

@@ -34,6 +34,7 @@ pub mod dust;
 pub mod fluorescence;
 pub mod fresnel;
 pub mod ggx;
+pub mod hapke;
 mod known;
 pub mod leaf;
 pub mod leaf_face;
@@ -46,6 +47,7 @@ pub mod sample;
 use self::dielectric::Dielectric;
 use self::diffuse::DiffuseView;
 use self::fluorescence::FluorescenceView;
+use self::hapke::{HapkeBsdf, HapkeView};
 use self::leaf::{LeafBsdf, LeafView};
 use self::leaf_face::FaceView;
 use self::metallic_roughness::{MetallicRoughness, MetallicView};
@@ -65,6 +67,8 @@ pub enum Bsdf<'a, const N: usize> {
     Relief(ReliefBsdf<'a, N>),
     /// A surface between paint and metal.
     Metallic(MetallicRoughness<'a, N>),
+    /// A surface of grains.
+    Hapke(HapkeBsdf<N>),
 }
 
 /// A [`Bsdf`] for one direction `wo`: everything that depends on `wo` alone is computed once.
@@ -85,6 +89,8 @@ pub enum View<'a, const N: usize> {
     Relief(ReliefView<'a, N>),
     /// A surface between paint and metal.
     Metallic(MetallicView<'a, N>),
+    /// A surface of grains.
+    Hapke(HapkeView<N>),
     /// A leaf that emits what light of other wavelengths excites.
     Fluorescence(FluorescenceView<'a>),
     /// A face of a leaf whose inside is followed.
@@ -105,6 +111,7 @@ impl<const N: usize> View<'_, N> {
             Self::Leaf(leaf) => leaf.scatter(wi),
             Self::Relief(relief) => relief.scatter(wi),
             Self::Metallic(surface) => surface.scatter(wi),
+            Self::Hapke(surface) => surface.scatter(wi),
             Self::Fluorescence(leaf) => leaf.scatter(wi),
             Self::Face(face) => face.scatter(wi),
         }
@@ -119,6 +126,7 @@ impl<const N: usize> View<'_, N> {
             Self::Leaf(leaf) => leaf.sample(lobe, u),
             Self::Relief(relief) => relief.sample(lobe, u),
             Self::Metallic(surface) => surface.sample(lobe, u),
+            Self::Hapke(surface) => surface.sample(lobe, u),
             Self::Fluorescence(leaf) => leaf.sample(u),
             Self::Face(face) => face.sample(lobe, u),
         }
@@ -142,6 +150,7 @@ impl<'a, const N: usize> Bsdf<'a, N> {
             Self::Leaf(leaf) => Some(View::Leaf(leaf.view(wo))),
             Self::Relief(relief) => relief.seen_from(wo).map(View::Relief),
             Self::Metallic(surface) => surface.seen_from(wo).map(View::Metallic),
+            Self::Hapke(surface) => Some(View::Hapke(surface.view(wo))),
         }
     }
 
@@ -154,7 +163,11 @@ impl<'a, const N: usize> Bsdf<'a, N> {
                 faces,
                 grains,
             }),
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Relief(_) | Self::Metallic(_) => self,
+            Self::Diffuse(_)
+            | Self::Dielectric(_)
+            | Self::Relief(_)
+            | Self::Metallic(_)
+            | Self::Hapke(_) => self,
         }
     }
 
@@ -178,7 +191,11 @@ impl<'a, const N: usize> Bsdf<'a, N> {
     /// from `wi` to `wo`; 1 but for light that enters or leaves a transparent medium.
     pub fn flux_over_radiance(&self, wo: Vec3, wi: Vec3) -> f32 {
         match self {
-            Self::Diffuse(_) | Self::Leaf(_) | Self::Relief(_) | Self::Metallic(_) => 1.0,
+            Self::Diffuse(_)
+            | Self::Leaf(_)
+            | Self::Relief(_)
+            | Self::Metallic(_)
+            | Self::Hapke(_) => 1.0,
             Self::Dielectric(dielectric) => dielectric.flux_over_radiance(wo, wi),
         }
     }
@@ -186,7 +203,11 @@ impl<'a, const N: usize> Bsdf<'a, N> {
     /// Whether the BSDF is specular only, so that light samples contribute nothing.
     pub fn is_specular(&self) -> bool {
         match self {
-            Self::Diffuse(_) | Self::Leaf(_) | Self::Relief(_) | Self::Metallic(_) => false,
+            Self::Diffuse(_)
+            | Self::Leaf(_)
+            | Self::Relief(_)
+            | Self::Metallic(_)
+            | Self::Hapke(_) => false,
             Self::Dielectric(dielectric) => dielectric.is_smooth(),
         }
     }
@@ -200,13 +221,14 @@ impl<'a, const N: usize> Bsdf<'a, N> {
             Self::Leaf(leaf) => leaf.albedo(wo),
             Self::Relief(relief) => relief.albedo(wo),
             Self::Metallic(surface) => surface.albedo(),
+            Self::Hapke(surface) => surface.reflected(wo),
         }
     }
 
     /// The normal of the face that `wo` sees, on its side.
     pub fn normal(&self, wo: Vec3) -> Vec3 {
         match self {
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Leaf(_) => {
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Leaf(_) | Self::Hapke(_) => {
                 Vec3::new(0.0, 0.0, 1.0_f32.copysign(wo.z))
             }
             Self::Relief(relief) => relief.normal(wo),

@@ -31,7 +31,8 @@ use glam::Vec2;
 
 use crate::bsdf::Bsdf;
 use crate::bsdf::dielectric::Dielectric;
-use crate::spectrum::{WavelengthGrid, Wavelengths};
+use crate::bsdf::hapke::{Grains, HapkeBsdf};
+use crate::spectrum::{Spectrum, WavelengthGrid, Wavelengths};
 use colour_map::ColourMap;
 use contents_texture::ContentsTexture;
 use held::Held;
@@ -54,6 +55,13 @@ pub enum Material {
     Plastic(Box<PlasticMaterial>),
     /// The surface of a glTF model.
     Model(Box<ModelMaterial>),
+    /// A surface of grains, such as bare soil.
+    Hapke {
+        /// Single-scattering albedo of the grains, in [0, 1].
+        albedo: Spectrum,
+        /// How they scatter.
+        grains: Grains,
+    },
     /// A leaf.
     Leaf(Box<LeafMaterial>),
     /// Solid tissue: fruit rind, a mushroom's cap.
@@ -84,7 +92,11 @@ impl Material {
     /// Its tissue, if it is tissue.
     pub fn tissue(&self) -> Option<Tissue<'_>> {
         match self {
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Model(_) => None,
+            Self::Diffuse(_)
+            | Self::Dielectric(_)
+            | Self::Plastic(_)
+            | Self::Model(_)
+            | Self::Hapke { .. } => None,
             Self::Leaf(leaf) => Some(Tissue {
                 palette: &leaf.palette,
                 held: match &leaf.tissue {
@@ -105,7 +117,7 @@ impl Material {
             Self::Diffuse(reflectance) => reflectance.colour_map(),
             Self::Plastic(plastic) => plastic.reflectance().colour_map(),
             Self::Model(model) => Some(model.colours()),
-            Self::Dielectric(_) | Self::Leaf(_) | Self::Solid(_) => None,
+            Self::Dielectric(_) | Self::Leaf(_) | Self::Solid(_) | Self::Hapke { .. } => None,
         }
     }
 
@@ -132,7 +144,11 @@ impl Material {
     /// Its coat, if that reflects more than the whole should at a wavelength of the range.
     pub fn exceeding_coat(&self, range_nm: [f64; 2]) -> Option<ExceedingCoat> {
         match self {
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Model(_) => None,
+            Self::Diffuse(_)
+            | Self::Dielectric(_)
+            | Self::Plastic(_)
+            | Self::Model(_)
+            | Self::Hapke { .. } => None,
             Self::Leaf(leaf) => {
                 let (nm, face) = leaf.coat_exceeds_reflectance(range_nm)?;
                 let coat = ["the adaxial coat", "the abaxial coat"][face];
@@ -154,6 +170,7 @@ impl Material {
             Self::Dielectric(_) => {}
             Self::Plastic(plastic) => plastic.tabulate(grid),
             Self::Model(model) => model.tabulate(grid),
+            Self::Hapke { albedo, .. } => albedo.tabulate(grid),
             Self::Leaf(leaf) => leaf.tabulate(grid),
             Self::Solid(solid) => solid.tabulate(grid),
         }
@@ -212,6 +229,10 @@ impl Material {
             Self::Dielectric(dielectric) => Bsdf::Dielectric(*dielectric),
             Self::Plastic(plastic) => Bsdf::Leaf(plastic.bsdf(site, wavelengths)),
             Self::Model(model) => Bsdf::Metallic(model.bsdf(site, wavelengths)),
+            Self::Hapke { albedo, grains } => Bsdf::Hapke(HapkeBsdf {
+                albedo: albedo.lanes(wavelengths),
+                grains: *grains,
+            }),
             Self::Leaf(leaf) => Bsdf::Leaf(leaf.bsdf_at(site, wavelengths)),
             Self::Solid(solid) => Bsdf::Leaf(solid.bsdf(site.uv, wavelengths)),
         }

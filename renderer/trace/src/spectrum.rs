@@ -33,6 +33,7 @@ pub mod sensor;
 pub mod table;
 pub mod tabulated;
 pub mod wavelengths;
+pub mod wet_soil;
 pub mod written;
 
 pub use curve::Curve;

@@ -54,6 +54,7 @@ pub(super) fn check(scene: &Authored, keys: &Keys<'_>, purpose: Purpose) {
     check_strewn(scene, keys);
     check_colours(scene, keys);
     check_samples(scene, keys);
+    check_draws(scene, keys);
     check_incident(scene, keys);
     if cx.error_count() == 0 {
         warn_of_the_unused(scene, keys);
@@ -201,6 +202,27 @@ fn check_samples(scene: &Authored, keys: &Keys<'_>) {
                 "object",
             ];
             keys.refuse(&path, problem, help);
+        }
+    }
+}
+
+/// Several draws of the leaves need something that is drawn.
+fn check_draws(scene: &Authored, keys: &Keys<'_>) {
+    let mut objects = scene.objects.iter();
+    if objects.any(|object| object.value.placed.is_spread()) {
+        return;
+    }
+    for instrument in &scene.instruments {
+        if instrument.value.realisations() > 1 {
+            let kind = instrument.value.word();
+            let path = ["instruments", &instrument.name, kind, "realisations"];
+            let problem =
+                "nothing in the scene is scattered or floats: all draws would be alike".to_owned();
+            keys.refuse(
+                &path,
+                problem,
+                "leave it out, or give an object a `scatter` or a `volume`",
+            );
         }
     }
 }

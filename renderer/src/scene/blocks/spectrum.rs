@@ -14,6 +14,7 @@ use leafmodel::document::values::{finite_at, list, number, number_at, wrong_leng
 
 use super::table_file::{self, Rows, first_gap};
 use crate::spectrum::library;
+use crate::spectrum::wet_soil::wetted;
 use crate::spectrum::written::Spectrum;
 
 /// A spectrum with its role.
@@ -150,6 +151,12 @@ impl SpectrumOf {
         if chosen != ["d65"] {
             keys.key("scale", &mut scale, FACTORS, "Factor on the values.");
         }
+        let mut moisture = None;
+        if self == Self::Share && chosen != ["soil_moisture"] {
+            let limits = Number(Limits::closed(0.0, 60.0));
+            let about = "Water by volume in soil whose reflectance when dry the values are, percent; up to 5 is dry.";
+            keys.optional("wet_percent", &mut moisture, limits, about);
+        }
         for form in chosen {
             let rows = match form {
                 "table" => {
@@ -199,6 +206,11 @@ impl SpectrumOf {
             };
             if let (Some(rows), Some(form)) = (rows, keys.reader()) {
                 *spectrum = checked_table(form, &rows, scale, key, self);
+            }
+            if let (Some(Spectrum::Table { points, .. }), Some(moisture)) =
+                (&mut *spectrum, moisture)
+            {
+                *points = wetted(points, moisture);
             }
         }
     }

@@ -1,27 +1,15 @@
 //! `[objects.NAME.volume]`: leaves afloat in a box, even, in rows or in crowns.
 
+mod inclination;
+
 use glam::DVec3;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
-use leafmodel::document::value_kind::{Integer, ListOf, Number, Numbers, Vector, Word};
+use leafmodel::document::value_kind::{Integer, ListOf, Number, Numbers, Vector};
 
 use crate::geometry::instance::COORDINATES_M;
 use crate::geometry::scatter::{Arrangement, Centres, Inclination, Volume};
 use crate::scene::description::Object;
-
-/// A Beta distribution before its numbers are read.
-const BETA: Inclination = Inclination::Beta { mu: 1.0, nu: 1.0 };
-
-/// Words for distributions of inclinations.
-const INCLINATIONS: [(&str, Inclination); 7] = [
-    ("spherical", Inclination::Spherical),
-    ("uniform", Inclination::Uniform),
-    ("planophile", Inclination::Planophile),
-    ("erectophile", Inclination::Erectophile),
-    ("plagiophile", Inclination::Plagiophile),
-    ("extremophile", Inclination::Extremophile),
-    ("beta", BETA),
-];
 
 /// Lengths of rows and crowns, m.
 const LENGTHS_M: Limits = Limits::above(0.0, 1e6);
@@ -62,10 +50,10 @@ fn afloat(volume: &mut Volume, keys: &mut Keys<'_>) {
     }
     volume.within = [DVec3::new(x0, y0, z0), DVec3::new(x1, y1, z1)];
     let about = "Leaf area index: area of all copies over the area of the box's ground plan, gaps \
-        between rows and crowns included.";
-    let limits = Number(Limits::above(0.0, 1000.0));
+        between rows and crowns included; 0 leaves the box empty.";
+    let limits = Number(Limits::closed(0.0, 1000.0));
     keys.required("lai", &mut volume.lai, limits, about);
-    inclination(volume, keys);
+    inclination::declare(&mut volume.inclination, keys);
     arrangement(volume, keys);
     let seed = Integer::within(0, u64::MAX);
     keys.key(
@@ -74,29 +62,6 @@ fn afloat(volume: &mut Volume, keys: &mut Keys<'_>) {
         seed,
         "Same numbers and seed, same places.",
     );
-}
-
-fn inclination(volume: &mut Volume, keys: &mut Keys<'_>) {
-    let mut beta = None;
-    let own = &mut volume.inclination;
-    if let Inclination::Beta { mu, nu } = *own {
-        (beta, *own) = (Some([mu, nu]), BETA);
-    }
-    let about = "The distribution of the angle between their +z and the vertical, after de Wit, or \
-        a Beta distribution.";
-    keys.key("inclination", own, Word(&INCLINATIONS), about);
-    let about = "µ and ν of the Beta distribution (Goel and Strebel): density (1 − t)^(µ−1) \
-        t^(ν−1) of t, the angle over 90°.";
-    let limits = Numbers::<2>(Limits::closed(0.1, 1000.0));
-    keys.optional("beta", &mut beta, limits, about);
-    if keys.is_sound() && (*own == BETA) != beta.is_some() {
-        let problem = "`inclination = \"beta\"` and `beta` belong together".to_owned();
-        let help = "write both: `inclination = \"beta\"`, `beta = [2.77, 1.172]`";
-        keys.refuse(&["inclination"], problem, help);
-    }
-    if let Some([mu, nu]) = beta.filter(|_| *own == BETA) {
-        *own = Inclination::Beta { mu, nu };
-    }
 }
 
 fn arrangement(volume: &mut Volume, keys: &mut Keys<'_>) {

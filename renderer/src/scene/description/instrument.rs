@@ -124,6 +124,14 @@ impl Instrument {
         own.map_or("", |kind| kind.name)
     }
 
+    /// Independent draws of what is scattered over which its figures are means.
+    pub fn realisations(&self) -> u32 {
+        match &self.kind {
+            InstrumentKind::Canopy(canopy) => canopy.realisations,
+            InstrumentKind::Sphere(_) | InstrumentKind::Gonio(_) | InstrumentKind::Depth(_) => 1,
+        }
+    }
+
     fn declare_kind(&mut self, keys: &mut Keys<'_>) {
         wavelengths::declare(&mut self.wavelengths_nm, keys, |keys| {
             bands::declare(&mut self.bands, &mut self.indices, keys);

@@ -2,6 +2,7 @@
 
 pub mod dielectric;
 pub mod diffuse;
+pub mod hapke;
 pub mod leaf;
 mod measured;
 pub mod model;
@@ -15,6 +16,7 @@ use leafmodel::document::declared::{Declared, Kinds};
 
 use self::dielectric::Boundary;
 use self::diffuse::Diffuse;
+use self::hapke::Hapke;
 use self::leaf::{LeafTissue, PlainLeaf};
 use self::model::GltfSurface;
 use self::plastic::Plastic;
@@ -40,6 +42,8 @@ pub enum Material {
     /// The materials of a mesh from a glTF file: base colour, metal, roughness, normals.
     #[key("gltf")]
     Model(GltfSurface),
+    /// A surface of grains, as bare soil is, after Hapke: brighter from where the light comes.
+    Hapke(Hapke),
     /// A leaf of uniform contents, of a map of contents, or of measured spectra.
     Leaf(PlainLeaf),
     /// Solid tissue of uniform contents or of a map of contents.
@@ -70,6 +74,7 @@ impl Material {
             Self::Dielectric(of) => material::Material::Dielectric(of.built()),
             Self::Plastic(of) => material::Material::Plastic(Box::new(of.built(sources)?)),
             Self::Model(_) => material::Material::Model(Box::new(GltfSurface::built(sources))),
+            Self::Hapke(of) => of.built(),
             Self::Leaf(of) => material::Material::Leaf(Box::new(of.built(sources)?)),
             Self::Solid(of) => material::Material::Solid(Box::new(of.built(sources)?)),
         })
@@ -82,6 +87,7 @@ impl Material {
             Self::Dielectric(of) => of.plugin(surface.id),
             Self::Plastic(of) => of.plugin(surface),
             Self::Model(_) => GltfSurface::plugin(surface),
+            Self::Hapke(of) => of.plugin(surface),
             Self::Leaf(of) => of.plugin(surface),
             Self::Solid(of) => of.optics.plugin(of.held.extrapolates(), surface),
         }
@@ -92,7 +98,9 @@ impl Material {
         match self {
             Self::Diffuse(_) => true,
             Self::Dielectric(of) => of.eta != 1.0,
-            Self::Plastic(_) | Self::Model(_) | Self::Leaf(_) | Self::Solid(_) => false,
+            Self::Plastic(_) | Self::Model(_) | Self::Hapke(_) | Self::Leaf(_) | Self::Solid(_) => {
+                false
+            }
         }
     }
 
@@ -111,7 +119,11 @@ impl Material {
                 LeafTissue::Measured { .. } => None,
             },
             Self::Solid(solid) => Some(&solid.held),
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Model(_) => None,
+            Self::Diffuse(_)
+            | Self::Dielectric(_)
+            | Self::Plastic(_)
+            | Self::Model(_)
+            | Self::Hapke(_) => None,
         }
     }
 
@@ -159,7 +171,11 @@ impl Material {
         match self {
             Self::Diffuse(of) => Some(&of.reflectance),
             Self::Plastic(of) => Some(&of.reflectance),
-            Self::Dielectric(_) | Self::Model(_) | Self::Leaf(_) | Self::Solid(_) => None,
+            Self::Dielectric(_)
+            | Self::Model(_)
+            | Self::Hapke(_)
+            | Self::Leaf(_)
+            | Self::Solid(_) => None,
         }
     }
 }

@@ -10,7 +10,8 @@ use super::needs::Memory;
 use super::placing::Pieces;
 use crate::geometry::TriangleMesh;
 use crate::geometry::scatter::{
-    Amount, Body, Ground, Most, Rest, ScatterError, Strewn, Volume, VolumeError, triangles,
+    Amount, Body, Ground, Most, Rest, Scatter, ScatterError, Strewn, Volume, VolumeError,
+    seed_of_draw, triangles,
 };
 use crate::scene::description::{InstancePlace, Named, Object, ObjectShape, StrewnOn};
 
@@ -36,6 +37,8 @@ pub(super) struct Strewing<'a> {
     meshes: &'a [TriangleMesh],
     pieces: &'a Pieces,
     objects: &'a [Named<Object>],
+    /// Which of several independent draws is made, from 0.
+    draw: u32,
     memory: Memory,
     /// Counts what has come to rest, and of how many things it has.
     at_rest: Option<&'a [AtomicUsize; 2]>,
@@ -52,6 +55,7 @@ impl<'a> Strewing<'a> {
         meshes: &'a [TriangleMesh],
         pieces: &'a Pieces,
         objects: &'a [Named<Object>],
+        draw: u32,
         (most_bytes, at_rest): (Option<f64>, Option<&'a [AtomicUsize; 2]>),
     ) -> Result<Self, WorldError> {
         let mut memory = Memory::new(most_bytes);
@@ -60,6 +64,7 @@ impl<'a> Strewing<'a> {
             meshes,
             pieces,
             objects,
+            draw,
             memory,
             at_rest,
             found: BTreeMap::new(),
@@ -166,9 +171,11 @@ impl<'a> Strewing<'a> {
         };
         let parts = group.map_or(1, <[_]>::len);
         let most = self.memory.most(parts * self.most_parts(object));
-        let places = strewn
-            .plan
-            .places_up_to(&ground, others, &bodies, most, &count)?;
+        let plan = Scatter {
+            seed: seed_of_draw(strewn.plan.seed, self.draw),
+            ..strewn.plan.clone()
+        };
+        let places = plan.places_up_to(&ground, others, &bodies, most, &count)?;
         let most = Most::UNBOUND;
         if places.len() * parts > most.things() {
             let wanted = (places.len() * parts) as f64;
@@ -194,6 +201,10 @@ impl<'a> Strewing<'a> {
         };
         let areas: Vec<f64> = object.shapes.iter().map(area).collect();
         let most = self.memory.most(self.most_parts(object));
+        let volume = Volume {
+            seed: seed_of_draw(volume.seed, self.draw),
+            ..volume.clone()
+        };
         let places = volume.places(&areas, most)?.into_iter();
         let places = places.map(|place| {
             let to_world = DMat4::from(place.to_world) * object.to_world;

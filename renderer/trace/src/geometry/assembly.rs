@@ -108,9 +108,26 @@ impl Geometry {
             instance.translation += by;
             instance
         });
+        self.with_instances(moved.collect(), origin)
+    }
+
+    /// The same meshes as other instances, for rays around a point of the scene.
+    ///
+    /// # Errors
+    ///
+    /// As [`Geometry::build`].
+    ///
+    /// # Panics
+    ///
+    /// If an instance is of a mesh that does not exist.
+    pub fn with_instances(
+        &self,
+        instances: Vec<Instance>,
+        origin: DVec3,
+    ) -> Result<Self, GeometryError> {
         let meshes = Arc::clone(&self.meshes);
-        let moved = (moved.collect(), origin);
-        let geometry = Self::placed(meshes, &self.trees, moved, MOST_REPEATED)?;
+        let placed = (instances, origin);
+        let geometry = Self::placed(meshes, &self.trees, placed, MOST_REPEATED)?;
         Ok(geometry.at_level(self.level))
     }
 
@@ -308,6 +325,11 @@ impl Geometry {
             + self.placements.capacity() * size_of::<Placement>()
             + self.carriers.capacity() * size_of::<Carrier>()
             + self.boxes.capacity() * size_of::<Bounds>()
+    }
+
+    /// All meshes.
+    pub fn meshes(&self) -> &[TriangleMesh] {
+        &self.meshes
     }
 
     /// A mesh by number.

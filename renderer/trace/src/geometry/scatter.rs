@@ -36,7 +36,7 @@ use self::place::from_z;
 use self::points::{Measure, Spaced};
 
 pub use self::body::Body;
-pub use self::inclination::Inclination;
+pub use self::inclination::{BadInclinations, Inclination, InclinationTable};
 pub use self::place::{MOST_AT_REST, MOST_THINGS, Most, NoPlace, ScatterError, Strewn};
 pub use self::points::{Ground, triangles};
 pub use self::volume::{Arrangement, Centres, Volume, VolumeError};
@@ -112,6 +112,14 @@ pub enum Rest {
     },
 }
 
+/// A seed of one of several independent draws; the first has the seed itself.
+pub fn seed_of_draw(seed: u64, draw: u32) -> u64 {
+    if draw == 0 {
+        return seed;
+    }
+    mixer::scramble(mixer::scramble(seed) ^ u64::from(draw))
+}
+
 /// Points that are tried for each thing before a surface counts as full.
 const TRIES: usize = 30;
 
@@ -151,7 +159,7 @@ impl Scatter {
                     Amount::PerSquareMetre(_) => 1,
                 };
                 let about = "How many.";
-                let limits = Integer::within(1, MOST_THINGS as u64);
+                let limits = Integer::within(0, MOST_THINGS as u64);
                 keys.needed("count", &mut count, limits, about);
                 self.amount = Amount::Count(count);
             } else {
@@ -161,7 +169,7 @@ impl Scatter {
                 };
                 let about = "How many for each square metre of the surface; of its ground plan if they \
                 come to rest.";
-                let limits = Number(Limits::above(0.0, 1e12));
+                let limits = Number(Limits::closed(0.0, 1e12));
                 keys.needed("per_m2", &mut density, limits, about);
                 self.amount = Amount::PerSquareMetre(density);
             }
@@ -313,9 +321,9 @@ impl Scatter {
 
     /// How many things are wanted on a surface of this area, m².
     fn wanted(&self, area: f64, rests: bool, most: Most) -> Result<usize, ScatterError> {
-        let wanted = match self.amount {
-            Amount::Count(count) => f64::from(count),
-            Amount::PerSquareMetre(density) => (density * area).round(),
+        let (wanted, is_none) = match self.amount {
+            Amount::Count(count) => (f64::from(count), count == 0),
+            Amount::PerSquareMetre(density) => ((density * area).round(), density == 0.0),
         };
         let most = if rests {
             Most::Ever(MOST_AT_REST).and(most)
@@ -325,7 +333,7 @@ impl Scatter {
         if wanted > most.things() as f64 {
             return Err(ScatterError::TooMany { wanted, most });
         }
-        if wanted < 1.0 {
+        if wanted < 1.0 && !is_none {
             return Err(ScatterError::None { area });
         }
         Ok(wanted as usize)

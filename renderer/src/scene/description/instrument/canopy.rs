@@ -9,6 +9,7 @@ use leafmodel::document::number_lists::{Rectangle, Rising};
 use super::detector::Detector;
 use super::incidence::Incidence;
 use crate::geometry::instance::COORDINATES_M;
+use crate::scene::angle::declare_compass;
 
 /// What `constituents` of an instrument means.
 pub(super) const BY_CONSTITUENT: &str = "Whether absorption is told by constituents of tissue: pigments, water \
@@ -16,6 +17,7 @@ pub(super) const BY_CONSTITUENT: &str = "Whether absorption is told by constitue
 
 /// Fluxes of a canopy that repeats itself without end along x and y.
 #[derive(Clone, Debug, Declared, Defaults)]
+#[key(last = Self::check)]
 pub struct Canopy {
     /// The box that repeats itself: least x and y, greatest x and y.
     #[key("within_m", required, Rectangle(COORDINATES_M), default = [DVec2::ZERO, DVec2::ONE])]
@@ -37,10 +39,12 @@ pub struct Canopy {
     /// Whether absorption is told of each instance of an object: leaf by leaf.
     #[key("instances")]
     pub instances: bool,
-    /// Directions from which the canopy is seen, for its BRF.
-    ///
-    /// `None` measures fluxes alone.
-    #[key("detector", block)]
+    /// Independent draws of all that is scattered or floats, over which figures are means; their errors
+    /// then hold for any such leaves.
+    #[key("realisations", 1..=10_000, default = 1)]
+    pub realisations: u32,
+    /// Directions from which the canopy is seen; `None` measures fluxes alone.
+    #[key(with = Self::declare_detector)]
     pub detector: Option<Detector>,
 }
 
@@ -57,5 +61,24 @@ impl Canopy {
             "Azimuth from which that light comes, from +x towards +y.",
         ];
         self.incidence.declare_from(about, keys);
+        if let Some(azimuth) = declare_compass(keys) {
+            self.incidence.azimuth = azimuth.to_radians();
+        }
+    }
+
+    fn declare_detector(&mut self, keys: &mut Keys<'_>) {
+        let light = self.incidence.azimuth;
+        let about = "Directions from which the canopy is seen, for its BRF.";
+        let new = Detector::default;
+        let declare = |own: &mut Detector, keys: &mut Keys<'_>| own.declare_by_compass(light, keys);
+        keys.optional_block("detector", &mut self.detector, new, about, declare);
+    }
+
+    fn check(&mut self, keys: &mut Keys<'_>) {
+        if self.instances && self.realisations > 1 {
+            let problem = "instances of one draw are not those of another".to_owned();
+            let help = "leave out `instances`, or `realisations`";
+            keys.refuse(&["realisations"], problem, help);
+        }
     }
 }

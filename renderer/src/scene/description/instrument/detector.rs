@@ -9,6 +9,7 @@ use leafmodel::document::number_lists::Rising;
 use leafmodel::document::value_kind::{Degrees, Number, Numbers, degrees};
 
 use super::wavelengths::every;
+use crate::scene::angle::{TURNS_DEG, azimuth_of_bearing};
 
 /// Most angles of a list.
 const MOST_ANGLES: usize = 721;
@@ -16,6 +17,11 @@ const MOST_ANGLES: usize = 721;
 const MOST_DIRECTIONS: usize = 4096;
 /// Angles as they may be written; what is not above the surface gets a message of its own.
 const ZENITHS_DEG: Limits = Limits::closed(-180.0, 180.0);
+const AZIMUTHS_DEG: Rising = Rising {
+    limits: TURNS_DEG,
+    most: MOST_ANGLES,
+    wanted: "a list of 1 to 721 angles, rising",
+};
 const USUAL_RANGE_DEG: [f64; 2] = [-75.0, 75.0];
 const USUAL_STEP_DEG: f64 = 5.0;
 
@@ -97,16 +103,29 @@ impl Detector {
         self.zeniths = in_radians(every(range, step));
     }
 
+    /// All keys, and bearings in the world instead of azimuths from that of the light, which is given.
+    pub(super) fn declare_by_compass(&mut self, light: f64, keys: &mut Keys<'_>) {
+        self.declare(keys);
+        let mut bearings = None;
+        let about = "Compass bearings of the azimuths instead: clockwise from north, which is +y. A positive zenith angle \
+        is on that side.";
+        keys.optional("compass_deg", &mut bearings, AZIMUTHS_DEG, about);
+        keys.exclude("compass_deg", "relative_azimuth_deg");
+        if let Some(bearings) = bearings {
+            let from_light = |bearing: f64| {
+                let turn = (azimuth_of_bearing(bearing) - degrees(light)).rem_euclid(360.0);
+                if turn > 180.0 { turn - 360.0 } else { turn }
+            };
+            self.azimuths = in_radians(bearings.into_iter().map(from_light).collect());
+            self.check_count("compass_deg", keys);
+        }
+    }
+
     fn declare_azimuths(&mut self, keys: &mut Keys<'_>) {
         let mut degrees = vec![0.0];
-        let kind = Rising {
-            limits: Limits::closed(-360.0, 360.0),
-            most: MOST_ANGLES,
-            wanted: "a list of 1 to 721 angles, rising",
-        };
         let about = "Azimuths from that of the light: at 0 a positive zenith angle is on the light's \
         side, where the hot spot is. Each goes with all zenith angles.";
-        keys.key("relative_azimuth_deg", &mut degrees, kind, about);
+        keys.key("relative_azimuth_deg", &mut degrees, AZIMUTHS_DEG, about);
         self.azimuths = in_radians(degrees);
     }
 
@@ -151,6 +170,10 @@ impl Detector {
             let help = "add `half_angle_deg`, or leave out `estimator`";
             keys.refuse(&["estimator"], problem, help);
         }
+        self.check_count(key, keys);
+    }
+
+    fn check_count(&self, key: &str, keys: &Keys<'_>) {
         let count = self.zeniths.len() * self.azimuths.len();
         if count > MOST_DIRECTIONS {
             let problem = format!("{count} directions are more than {MOST_DIRECTIONS}");

@@ -5,6 +5,8 @@ use leafmodel::document::limits::Limits;
 use leafmodel::document::number_lists::Rising;
 use leafmodel::document::value_kind::{Degrees, Flag, degrees};
 
+use crate::scene::angle::TURNS_DEG;
+
 /// Words for the faces that are lit.
 pub(super) const FACES: [(&str, [bool; 2]); 3] = [
     ("both", [true, true]),
@@ -44,8 +46,7 @@ impl Incidence {
         let mut angles_deg: Vec<f64> = self.angles.iter().copied().map(degrees).collect();
         keys.key("incidence_deg", &mut angles_deg, ANGLES_DEG, from);
         self.angles = angles_deg.into_iter().map(f64::to_radians).collect();
-        let limits = Degrees(Limits::closed(-360.0, 360.0));
-        keys.key("azimuth_deg", &mut self.azimuth, limits, about);
+        keys.key("azimuth_deg", &mut self.azimuth, Degrees(TURNS_DEG), about);
         let about = "Whether even light from the whole hemisphere is measured too.";
         keys.key("diffuse", &mut self.diffuse, Flag, about);
     }

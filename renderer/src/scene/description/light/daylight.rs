@@ -15,6 +15,7 @@ use crate::light::daylight::{Daylight, ELEVATIONS_DEG};
 use crate::plugin::element::Element;
 use crate::plugin::emitter::Emitter;
 use crate::plugin::spectra::Spectra;
+use crate::scene::angle::{TURNS_DEG, declare_compass};
 use crate::spectrum::written::Spectrum;
 
 /// Years in which the position of the sun is accurate.
@@ -75,9 +76,11 @@ fn angles(day: &mut Daylight, keys: &mut Keys<'_>) {
     let limits = Degrees(Limits::closed(low, high));
     let about = "Height of the sun above the horizon.";
     keys.needed("elevation_deg", &mut day.elevation, limits, about);
-    let limits = Degrees(Limits::closed(-360.0, 360.0));
     let about = "Direction of the sun along the ground, from +x towards +y.";
-    keys.key("azimuth_deg", &mut day.azimuth, limits, about);
+    keys.key("azimuth_deg", &mut day.azimuth, Degrees(TURNS_DEG), about);
+    if let Some(azimuth) = declare_compass(keys) {
+        day.azimuth = azimuth.to_radians();
+    }
     for of_a_place in ["latitude_deg", "longitude_deg", "north_azimuth_deg"] {
         keys.exclude("elevation_deg", of_a_place);
     }
@@ -100,6 +103,7 @@ fn place_and_time(day: &mut Daylight, keys: &mut Keys<'_>) {
         +x is east.";
     keys.key("north_azimuth_deg", &mut north, limits, about);
     keys.exclude("time", "azimuth_deg");
+    keys.exclude("time", "compass_deg");
     if !keys.is_sound() {
         return;
     }

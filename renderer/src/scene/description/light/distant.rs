@@ -13,7 +13,7 @@ use crate::geometry::instance::COORDINATES_M;
 use crate::light::distant::DistantLight;
 use crate::plugin::emitter::{Emitter, area};
 use crate::plugin::spectra::Spectra;
-use crate::scene::angle::sin_cos_deg;
+use crate::scene::angle::{TURNS_DEG, declare_compass, sin_cos_deg};
 use crate::scene::blocks::spectrum::SpectrumOf;
 use crate::spectrum::Curve;
 use crate::spectrum::written::Spectrum;
@@ -59,6 +59,7 @@ fn direction(light: &mut Distant, keys: &mut Keys<'_>) {
     keys.optional("towards", &mut vector, Vector(COORDINATES_M), about);
     keys.exclude("towards", "elevation_deg");
     keys.exclude("towards", "azimuth_deg");
+    keys.exclude("towards", "compass_deg");
     if keys.reader().is_some() && keys.has("towards") {
         match vector.map(DVec3::try_normalize) {
             Some(Some(direction)) => light.towards = direction,
@@ -77,9 +78,9 @@ fn direction(light: &mut Distant, keys: &mut Keys<'_>) {
     let limits = Number(Limits::closed(-90.0, 90.0));
     let about = "Height above the horizon.";
     keys.needed("elevation_deg", &mut elevation, limits, about);
-    let limits = Number(Limits::closed(-360.0, 360.0));
     let about = "Direction along the ground, from +x towards +y.";
-    keys.key("azimuth_deg", &mut azimuth, limits, about);
+    keys.key("azimuth_deg", &mut azimuth, Number(TURNS_DEG), about);
+    azimuth = declare_compass(keys).unwrap_or(azimuth);
     keys.group(&["towards", "elevation_deg"]);
     let (up, along) = sin_cos_deg(elevation);
     let (sin, cos) = sin_cos_deg(azimuth);

@@ -14,7 +14,7 @@ use crate::sampling::mixer;
 pub struct Volume {
     /// Least and greatest coordinates of the leaves' origins, m.
     pub within: [DVec3; 2],
-    /// Leaf area over the area of the box's ground plan, > 0. Of a closed or thick leaf the whole
+    /// Leaf area over the area of the box's ground plan, ≥ 0. Of a closed or thick leaf the whole
     /// surface counts.
     pub lai: f64,
     /// The distribution of inclinations.
@@ -68,7 +68,7 @@ pub enum VolumeError {
         /// How many there may be.
         most: Most,
     },
-    /// Less than one leaf.
+    /// Less than one leaf, but more than none.
     #[error(
         "`lai`: this takes {wanted:.3} leaves: the box is too small for one, whose area is {area} m²"
     )]
@@ -98,7 +98,7 @@ impl Volume {
     ///
     /// # Errors
     ///
-    /// [`VolumeError`] if that is no leaf, or too many.
+    /// [`VolumeError`] if that is too many, or no leaf although the index is above 0.
     ///
     /// # Panics
     ///
@@ -109,7 +109,7 @@ impl Volume {
         let [least, most] = self.within;
         let size = most - least;
         let wanted = self.lai * size.x * size.y / area;
-        if wanted.round() < 1.0 {
+        if self.lai > 0.0 && wanted.round() < 1.0 {
             return Err(VolumeError::None { wanted, area });
         }
         if wanted > at_most.things() as f64 {

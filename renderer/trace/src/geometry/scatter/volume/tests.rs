@@ -1,5 +1,6 @@
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
+use super::super::inclination::InclinationTable;
 use super::*;
 
 const DE_WIT: [Inclination; 6] = [
@@ -108,13 +109,29 @@ const GOEL: [[f64; 2]; 6] = [
     [0.433, 0.433],
 ];
 
+/// χ of ellipsoids from upright to level leaves.
+const CHIS: [f64; 5] = [0.2, 0.7, 1.0, 1.5, 5.0];
+
 fn all() -> impl Iterator<Item = Inclination> {
     let beta = GOEL.map(|[mu, nu]| Inclination::Beta { mu, nu });
-    DE_WIT.into_iter().chain(beta)
+    let ellipsoidal = CHIS.map(|chi| Inclination::Ellipsoidal { chi });
+    let rows = vec![
+        [5.0, 0.5],
+        [30.0, 2.0],
+        [50.0, 0.0],
+        [60.0, 0.0],
+        [90.0, 3.0],
+    ];
+    let table = InclinationTable::new(rows).expect("it is sound");
+    DE_WIT
+        .into_iter()
+        .chain(beta)
+        .chain(ellipsoidal)
+        .chain([Inclination::Table(table)])
 }
 
 /// `∫ f g dθ` from one inclination to another.
-fn by_density(kind: Inclination, [low, high]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
+fn by_density(kind: &Inclination, [low, high]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     // Midpoints in the fourth root of the distance from the ends, where densities may be infinite.
     let count = 4000;
     let (mut sum, middle) = (0.0, 0.5 * (low + high));
@@ -143,7 +160,7 @@ fn of(inclination: Inclination, lai: f64) -> Volume {
 fn inclinations_are_drawn_as_their_densities_say() {
     // χ² of 18 classes of 5° against the integrals of the density.
     for kind in all() {
-        let places = of(kind, 1.0)
+        let places = of(kind.clone(), 1.0)
             .places(&[1e-5], Most::UNBOUND)
             .expect("there is room");
         let count = places.len() as f64;
@@ -155,10 +172,14 @@ fn inclinations_are_drawn_as_their_densities_say() {
         let mut chi2 = 0.0;
         for (i, found) in classes.into_iter().enumerate() {
             let ends = [i, i + 1].map(|i| (5.0 * i as f64).to_radians());
-            let expected = count * by_density(kind, ends, |_| 1.0);
-            chi2 += (found - expected).powi(2) / expected;
+            let expected = count * by_density(&kind, ends, |_| 1.0);
+            if expected < 1e-6 {
+                assert_eq!(found, 0.0, "{kind:?}");
+            } else {
+                chi2 += (found - expected).powi(2) / expected;
+            }
         }
-        // 17 degrees of freedom: 47 is exceeded once in 10,000; twelve distributions are tried.
+        // 17 degrees of freedom: 47 is exceeded once in 10,000; eighteen distributions are tried.
         assert!(chi2 < 47.0, "{kind:?}: {chi2}");
     }
 }
@@ -176,7 +197,7 @@ fn the_beta_distributions_of_de_wits_six_have_their_mean_inclinations() {
     ];
     for ([mu, nu], expected) in GOEL.into_iter().zip(de_wit) {
         let kind = Inclination::Beta { mu, nu };
-        let mean = by_density(kind, [0.0, FRAC_PI_2], |theta| theta);
+        let mean = by_density(&kind, [0.0, FRAC_PI_2], |theta| theta);
         assert!((mean - FRAC_PI_2 * nu / (mu + nu)).abs() < 1e-4, "{mean}");
         assert!(
             (mean - expected).abs() < 0.01,
@@ -200,7 +221,7 @@ fn projection(theta_leaf: f64, theta_sun: f64) -> f64 {
 #[test]
 fn leaves_cast_the_shade_of_their_projection_function_whatever_the_sun() {
     for kind in all() {
-        let places = of(kind, 1.0)
+        let places = of(kind.clone(), 1.0)
             .places(&[1e-5], Most::UNBOUND)
             .expect("there is room");
         for degrees in [0.0_f64, 20.0, 45.0, 57.5, 80.0] {
@@ -211,7 +232,7 @@ fn leaves_cast_the_shade_of_their_projection_function_whatever_the_sun() {
                 .map(|place| place.to_world.matrix3.z_axis.dot(sun).abs());
             let mean = cast.sum::<f64>() / places.len() as f64;
             let whole = [0.0, FRAC_PI_2];
-            let expected = by_density(kind, whole, |leaf| projection(leaf, theta));
+            let expected = by_density(&kind, whole, |leaf| projection(leaf, theta));
             // |cos| lies between 0 and 1: its deviation is 1/2 at most.
             let slack = 4.0 * 0.5 / (places.len() as f64).sqrt();
             assert!(
@@ -222,6 +243,98 @@ fn leaves_cast_the_shade_of_their_projection_function_whatever_the_sun() {
                 assert!((expected - 0.5).abs() < 1e-4, "{expected}");
             }
         }
+    }
+}
+
+/// Λ of \[campbell1990\]: half of an ellipsoid's surface over π times the product of its axes.
+fn half_surface(chi: f64) -> f64 {
+    if chi < 1.0 {
+        let e = (1.0 - chi * chi).sqrt();
+        chi + libm::asin(e) / e
+    } else if chi > 1.0 {
+        let e = (1.0 - 1.0 / (chi * chi)).sqrt();
+        chi + libm::log((1.0 + e) / (1.0 - e)) / (2.0 * e * chi)
+    } else {
+        2.0
+    }
+}
+
+#[test]
+fn ellipsoidal_leaves_shade_as_campbells_extinction_coefficient_says() {
+    for chi in CHIS {
+        let kind = Inclination::Ellipsoidal { chi };
+        let places = of(kind.clone(), 2.0)
+            .places(&[1e-5], Most::UNBOUND)
+            .expect("there is room");
+        for degrees in [0.0_f64, 30.0, 57.5, 75.0, 85.0] {
+            let (sin, cos) = libm::sincos(degrees.to_radians());
+            // G = K cos θ, K = √(χ² + tan² θ) / Λ.
+            let expected = (chi * chi * cos * cos + sin * sin).sqrt() / half_surface(chi);
+            let whole = [0.0, FRAC_PI_2];
+            let exact = by_density(&kind, whole, |leaf| projection(leaf, degrees.to_radians()));
+            assert!(
+                (exact - expected).abs() < 2e-4,
+                "{chi} {degrees}: {exact} {expected}"
+            );
+            let sun = DVec3::new(sin, 0.0, cos);
+            let cast = places
+                .iter()
+                .map(|place| place.to_world.matrix3.z_axis.dot(sun).abs());
+            let mean = cast.sum::<f64>() / places.len() as f64;
+            // The deviation of |cos| is 1/2 at most.
+            let slack = 4.0 * 0.5 / (places.len() as f64).sqrt();
+            assert!(
+                (mean - expected).abs() < slack,
+                "{chi} {degrees}: {mean} {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn ellipsoidal_leaves_have_the_mean_inclination_of_an_ellipsoids_surface() {
+    for chi in [0.1, 0.3, 0.5, 1.0, 2.0, 4.0, 10.0] {
+        let kind = Inclination::Ellipsoidal { chi };
+        let count = 20_000;
+        let midpoints = || (0..count).map(|i| (f64::from(i) + 0.5) / f64::from(count));
+        let mean = midpoints().map(|u| kind.angle(u)).sum::<f64>() / f64::from(count);
+        // Rings of the surface (χ sin t, cos t), each with its area.
+        let rings = midpoints().map(|t| {
+            let (sin, cos) = libm::sincos(FRAC_PI_2 * t);
+            let area = sin * (chi * chi * cos * cos + sin * sin).sqrt();
+            (area, area * libm::atan2(sin, chi * cos))
+        });
+        let (area, turned) = rings.fold((0.0, 0.0), |sum, ring| (sum.0 + ring.0, sum.1 + ring.1));
+        assert!(
+            (mean - turned / area).abs() < 1e-6,
+            "{chi}: {mean} {}",
+            turned / area
+        );
+    }
+    let sphere = Inclination::Ellipsoidal { chi: 1.0 };
+    for u in [0.0, 0.2, 0.5, 0.9, 1.0 - 1e-12] {
+        let expected = libm::acos(1.0 - u);
+        assert!((sphere.angle(u) - expected).abs() < 1e-6, "{u}");
+    }
+}
+
+#[test]
+fn a_table_of_two_rows_has_the_mean_of_a_triangle() {
+    let table = InclinationTable::new(vec![[0.0, 0.0], [90.0, 7.0]]).expect("it is sound");
+    let kind = Inclination::Table(table);
+    // Density 2 t of t = θ / 90°: its mean is 2/3, half of the leaves lie below √½.
+    assert!((kind.angle(0.5) - FRAC_PI_2 * 0.5_f64.sqrt()).abs() < 1e-12);
+    let mean = by_density(&kind, [0.0, FRAC_PI_2], |theta| theta);
+    assert!((mean - FRAC_PI_2 * 2.0 / 3.0).abs() < 1e-5, "{mean}");
+    for (rows, problem) in [
+        (vec![[0.0, 1.0], [0.0, 2.0]], "row 2: 0° does not"),
+        (vec![[0.0, 1.0], [91.0, 2.0]], "row 2: 91° does not"),
+        (vec![[0.0, 1.0], [9.0, -2.0]], "row 2: the density -2"),
+        (vec![[0.0, 0.0], [9.0, 0.0]], "no density"),
+        (vec![[0.0, 1.0]], "no density"),
+    ] {
+        let error = InclinationTable::new(rows).expect_err(problem).to_string();
+        assert!(error.starts_with(problem), "{error}");
     }
 }
 
