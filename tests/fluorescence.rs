@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use leafmodel::optics::fluorescence::{Leaf, energy_over_photons, matrices};
+use leafmodel::optics::fluorescence::{EmissionSpectrum, Leaf, energy_over_photons, matrices};
 use leafmodel::optics::{Contents, Pigments};
 use renderer::export::mitsuba;
 use renderer::instruments::{Budget, Row, read_out, sets_of};
@@ -31,6 +31,7 @@ fn emitted(emission: f64) -> [f64; 2] {
         contents: Contents::prospect_d(CONTENTS),
         pigments: Pigments::default(),
         quantum_efficiency: EFFICIENCY,
+        emission: EmissionSpectrum::default(),
     };
     let step = 0.5;
     let excitations: Vec<f64> = (0..420).map(|i| 400.25 + step * f64::from(i)).collect();

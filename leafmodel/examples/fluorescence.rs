@@ -10,11 +10,15 @@
 use std::error::Error;
 use std::fmt::Write as _;
 
-use leafmodel::optics::fluorescence::{EMITTED_NM, Leaf, energy_over_photons, matrices};
+use leafmodel::optics::fluorescence::{
+    EMITTED_NM, EmissionSpectrum, Leaf, energy_over_photons, matrices,
+};
 use leafmodel::optics::{Contents, Pigments};
 
 const CHLOROPHYLL: [f64; 5] = [5.0, 10.0, 20.0, 40.0, 60.0];
 const EXCITATIONS_NM: [f64; 3] = [440.0, 550.0, 630.0];
+/// The maxima, and the shoulder of which a mean is taken.
+const RATIOS_NM: [f64; 8] = [690.0, 735.0, 700.0, 702.0, 704.0, 706.0, 708.0, 710.0];
 const COLOURS: [&str; 5] = ["#c8c400", "#8fb80e", "#4f9a22", "#1f7434", "#0b4a2f"];
 
 /// Energy for each unit of energy at 440 nm and each nanometre, of both faces.
@@ -22,7 +26,7 @@ type Spectra = [Vec<f64>; 2];
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!(
-        "| chlorophyll, µg/cm² | excitation, nm | F690/F735 lit | other face | F735/F700 lit | leaves, of emitted |"
+        "| chlorophyll, µg/cm² | excitation, nm | F690/F735 lit | other face | F735/F700–710 lit | leaves, of emitted |"
     );
     println!("| --- | --- | --- | --- | --- | --- |");
     let nm: Vec<f64> = (0..=105)
@@ -35,13 +39,16 @@ fn main() -> Result<(), Box<dyn Error>> {
             contents: Contents::new(1.5, chlorophyll, carotenoids, 0.0, 0.0, 0.01, 0.005)?,
             pigments: Pigments::default(),
             quantum_efficiency: 0.01,
+            emission: EmissionSpectrum::default(),
         };
-        let ratios = matrices(&leaf, &EXCITATIONS_NM, &[690.0, 700.0, 735.0]);
+        let ratios = matrices(&leaf, &EXCITATIONS_NM, &RATIOS_NM);
         let whole = matrices(&leaf, &EXCITATIONS_NM, &nm);
         for (e, excitation) in EXCITATIONS_NM.into_iter().enumerate() {
             let of = |matrix: &[Vec<f64>], i: usize| {
-                matrix[e][i] * energy_over_photons(excitation, [690.0, 700.0, 735.0][i])
+                matrix[e][i] * energy_over_photons(excitation, RATIOS_NM[i])
             };
+            let shoulder = (2..RATIOS_NM.len()).map(|i| of(&ratios.backward, i));
+            let shoulder = shoulder.sum::<f64>() / (RATIOS_NM.len() - 2) as f64;
             let at = leafmodel::optics::ProspectD::coefficients(excitation)?;
             let optics = at.reflectance_transmittance(&leaf.contents);
             let absorbed = 1.0 - optics.reflectance - optics.transmittance;
@@ -53,9 +60,9 @@ fn main() -> Result<(), Box<dyn Error>> {
                 * 2.0;
             println!(
                 "| {chlorophyll} | {excitation} | {:.3} | {:.3} | {:.3} | {:.3} |",
-                of(&ratios.backward, 0) / of(&ratios.backward, 2),
-                of(&ratios.forward, 0) / of(&ratios.forward, 2),
-                of(&ratios.backward, 2) / of(&ratios.backward, 1),
+                of(&ratios.backward, 0) / of(&ratios.backward, 1),
+                of(&ratios.forward, 0) / of(&ratios.forward, 1),
+                of(&ratios.backward, 1) / shoulder,
                 left / (absorbed * share * leaf.quantum_efficiency),
             );
         }

@@ -18,6 +18,7 @@ promises to keep, with its arguments. `reference/run api` writes this page from 
 # Modules beside `lamina` itself, and their names; a module without any has its own text.
 MODULES: dict[str, list[str]] = {
     "lamina": [],
+    "lamina.atmosphere": ["above_canopy", "from_uvspec", "read_atmosphere", "top_of_atmosphere"],
     "lamina.report": ["report"],
     "lamina.noise": ["relative_error", "summary"],
     "lamina.denoise": [],

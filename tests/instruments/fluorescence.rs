@@ -2,7 +2,7 @@
 //! forms of canopies.
 
 use glam::Vec2;
-use leafmodel::optics::fluorescence::{Leaf, energy_over_photons, matrices};
+use leafmodel::optics::fluorescence::{EmissionSpectrum, Leaf, energy_over_photons, matrices};
 use leafmodel::optics::{Contents, Pigments};
 use renderer::bsdf::coat::Coat;
 use renderer::instruments::{Direction, Row};
@@ -24,6 +24,7 @@ fn leaf(contents: [f64; 7]) -> Leaf {
         contents: Contents::prospect_d(contents),
         pigments: Pigments::default(),
         quantum_efficiency: EFFICIENCY,
+        emission: EmissionSpectrum::default(),
     }
 }
 
@@ -229,8 +230,8 @@ fn the_factors_at_a_hit_are_the_matrices_of_the_leaf() {
         // Without coats all light is taken in.
         let coats = [Coat::none(), Coat::none()];
         let tissue = LeafTissue::Held(Held::Uniform(leaf.contents));
-        let material =
-            LeafMaterial::new(tissue, Palette::default(), None, coats).fluorescing(EFFICIENCY);
+        let material = LeafMaterial::new(tissue, Palette::default(), None, coats)
+            .fluorescing(EFFICIENCY, EmissionSpectrum::default());
         let excited = material.excited(Vec2::ZERO, &Wavelengths::new(EXCITATIONS));
         let emitting = material.emitting(Vec2::ZERO, &Wavelengths::new(EMISSIONS));
         for e in 0..8 {

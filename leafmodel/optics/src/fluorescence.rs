@@ -3,8 +3,8 @@
 //! The leaf is one of Fluspect's: PROSPECT's reflectance and transmittance of a wavelength, less the
 //! two outer surfaces, are those of a [`Mesophyll`] in which two streams of diffuse light are
 //! absorbed and scattered evenly with depth. Chlorophyll emits a share of the photons that it
-//! absorbs ([`Leaf::quantum_efficiency`]), half up and half down, with the spectrum
-//! [`emission_spectrum`], wherever in the leaf that is; what it emits is scattered, absorbed again
+//! absorbs ([`Leaf::quantum_efficiency`]), half up and half down, with an
+//! [`EmissionSpectrum`], wherever in the leaf that is; what it emits is scattered, absorbed again
 //! and reflected by the surfaces from within on its way out. Fluspect sums this up by doubling thin
 //! layers. Here it is an integral over depth of the closed solution, which gives the same matrices
 //! and splits them into factors of the excitation and of the emission alone.
@@ -22,19 +22,20 @@
 //! `docs/src/theory/fluorescence.md` derives it.
 //!
 //! ```
-//! use optics::fluorescence::{Leaf, emission_spectrum, matrices};
+//! use optics::fluorescence::{EmissionSpectrum, Leaf, matrices};
 //! use optics::{Contents, Pigments};
 //!
 //! let leaf = Leaf {
 //!     contents: Contents::new(1.5, 40.0, 10.0, 0.0, 0.0, 0.01, 0.009)?,
 //!     pigments: Pigments::default(),
 //!     quantum_efficiency: 0.01,
+//!     emission: EmissionSpectrum::default(),
 //! };
 //! let found = matrices(&leaf, &[440.0], &[685.0, 740.0]);
 //! // More red light is absorbed again on the way through the leaf than on the way back.
 //! let back = found.backward[0][0] / found.backward[0][1];
 //! let through = found.forward[0][0] / found.forward[0][1];
-//! assert!(through < 0.5 * back && back < emission_spectrum(685.0) / emission_spectrum(740.0));
+//! assert!(through < 0.5 * back && back < leaf.emission.at(685.0) / leaf.emission.at(740.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -46,7 +47,7 @@
 mod emission;
 mod mesophyll;
 
-pub use emission::{EMITTED_NM, emission_spectrum};
+pub use emission::{EMITTED_NM, EmissionSpectrum, RATIO_NM, RED_OVER_FAR_RED};
 pub use mesophyll::{DEPTHS, Mesophyll, Profile};
 
 use super::constituent::Constituent;
@@ -68,6 +69,8 @@ pub struct Leaf {
     /// Photons emitted for each photon that chlorophyll absorbs, in [0, 1]; some 0.005 to 0.02 in
     /// daylight.
     pub quantum_efficiency: f64,
+    /// The spectrum of what it emits within.
+    pub emission: EmissionSpectrum,
 }
 
 /// Excitation–emission matrices, by excitation and emission: photons for each incident photon and
@@ -107,7 +110,7 @@ pub fn matrices(leaf: &Leaf, excitations_nm: &[f64], emissions_nm: &[f64]) -> Ma
     };
     let emitted: Vec<(f64, Profile)> = emissions_nm
         .iter()
-        .map(|&nm| (emission_spectrum(nm), of(nm).2.escaping()))
+        .map(|&nm| (leaf.emission.at(nm), of(nm).2.escaping()))
         .collect();
     let mut found = Matrices {
         backward: Vec::new(),

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use leafmodel::optics::fluorescence::EmissionSpectrum;
 use leafmodel::optics::solid::ReflectanceTable;
 
 use super::description::tissue::{self, Fluorescence, LeafFaces, LeafOptics, SolidOptics};
@@ -26,7 +27,10 @@ pub(super) fn leaf(
     };
     let leaf = LeafMaterial::new(tissue, palette, abaxial, faces.coats.map(coat_of));
     let leaf = match fluorescence {
-        Some(own) => leaf.fluorescing(own.quantum_efficiency),
+        Some(own) => leaf.fluorescing(
+            own.quantum_efficiency,
+            EmissionSpectrum::new(own.red_over_far_red),
+        ),
         None => leaf,
     };
     match faces.optics {

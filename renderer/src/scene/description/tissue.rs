@@ -8,6 +8,7 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::{FileOnly, FilePath, Number};
 use leafmodel::optics::Contents;
+use leafmodel::optics::fluorescence::RED_OVER_FAR_RED;
 use leafmodel::optics::solid::{ETA, SCATTERING_PER_MM, Solid as Tissue};
 use leafmodel::plan_file::require_prospect;
 
@@ -146,6 +147,10 @@ pub struct Fluorescence {
     /// photosynthesis is blocked.
     #[key("quantum_efficiency", 1e-6..=1.0, default = 0.01)]
     pub quantum_efficiency: f64,
+    /// Emission within the leaf at 685 nm over that at 737 nm, in photons: about 2 in leaves, more if photosystem
+    /// II emits more of it, as in the dark, and less if photosystem I does.
+    #[key("red_over_far_red", 0.2..=50.0, default = RED_OVER_FAR_RED)]
+    pub red_over_far_red: f64,
 }
 
 impl Fluorescence {

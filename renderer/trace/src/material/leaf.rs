@@ -4,6 +4,7 @@ pub mod fluorescence;
 
 use glam::Vec2;
 use optics::ProspectD;
+use optics::fluorescence::EmissionSpectrum;
 
 use crate::bsdf::leaf::{Coat, LeafBsdf, LeafShape, Tissue, usual_abaxial_ratio};
 use crate::material::contents_texture::{Around, ContentsTexture};
@@ -36,6 +37,8 @@ pub struct LeafMaterial {
     half: Option<Half>,
     /// Photons that its chlorophyll emits for each that it absorbs.
     quantum_efficiency: f64,
+    /// The spectrum of these photons.
+    emission: EmissionSpectrum,
     /// The relief of its faces, if they are not smooth.
     pub relief: Option<Relief>,
     /// Its layers, if light is followed through them.
@@ -124,6 +127,7 @@ impl LeafMaterial {
             spread: None,
             half: None,
             quantum_efficiency: 0.0,
+            emission: EmissionSpectrum::default(),
             relief: None,
             layers: None,
         }

@@ -6,7 +6,7 @@
 
 use glam::Vec2;
 use optics::fast::PileLanes;
-use optics::fluorescence::{DEPTHS, EXCITED_NM, Mesophyll, Profile, emission_spectrum};
+use optics::fluorescence::{DEPTHS, EXCITED_NM, EmissionSpectrum, Mesophyll, Profile};
 use optics::{Constituent, Texel};
 
 use super::{LeafMaterial, LeafTissue};
@@ -65,10 +65,11 @@ impl<const N: usize> Emitting<N> {
 }
 
 impl LeafMaterial {
-    /// The same leaf, whose chlorophyll emits so many photons for each that it absorbs.
+    /// The same leaf, whose chlorophyll emits so many photons for each that it absorbs, with this spectrum.
     #[must_use]
-    pub fn fluorescing(mut self, quantum_efficiency: f64) -> Self {
+    pub fn fluorescing(mut self, quantum_efficiency: f64, emission: EmissionSpectrum) -> Self {
         self.quantum_efficiency = quantum_efficiency;
+        self.emission = emission;
         self
     }
 
@@ -115,7 +116,7 @@ impl LeafMaterial {
     /// What is emitted at these wavelengths at texture coordinates `uv`.
     pub fn emitting<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Emitting<N> {
         let mut escaping = [Profile([0.0; DEPTHS]); N];
-        let phi = wavelengths.nm.map(|nm| emission_spectrum(f64::from(nm)));
+        let phi = wavelengths.nm.map(|nm| self.emission.at(f64::from(nm)));
         if phi.iter().any(|phi| *phi > 0.0)
             && let Some((contents, pile)) = self.held_at(uv, wavelengths)
         {
