@@ -45,6 +45,7 @@ pub(crate) mod blade;
 pub mod caption;
 pub(crate) mod daylight;
 pub mod drawing;
+pub mod gltf;
 pub mod mitsuba;
 pub mod overlay;
 pub(crate) mod sheet;

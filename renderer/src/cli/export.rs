@@ -1,16 +1,87 @@
-//! `lamina export`: a scene for another renderer.
+//! `lamina export`: a scene, or a leaf, for another program.
 
 use std::path::Path;
 
-use crate::cli::arguments::MitsubaArguments;
-use crate::cli::building::{Building, load_scene};
-use crate::cli::needs;
-use crate::cli::places::check_writable;
-use crate::cli::signals::Signals;
-use crate::cli::terminal::{Failure, say};
-use crate::export::mitsuba::{self, ExportError};
+use leafmodel::species;
 
-pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
+use crate::cli::arguments::{GltfArguments, MitsubaArguments, SceneArguments};
+use crate::cli::building::{Building, load_scene};
+use crate::cli::grow::{is_word, unknown_preset};
+use crate::cli::needs;
+use crate::cli::places::{check_outputs, check_writable, require_ending, write_and_say};
+use crate::cli::signals::Signals;
+use crate::cli::terminal::{Failure, note, say, warn};
+use crate::export::gltf::{self, GltfError, GltfOptions};
+use crate::export::mitsuba::{self, ExportError};
+use crate::scene::description::Description;
+use crate::scene::load;
+
+pub(super) fn gltf(arguments: &GltfArguments) -> Result<(), Failure> {
+    let signals = Signals::listen()?;
+    require_ending([&arguments.out], "glb", "--out writes one binary glTF file")?;
+    check_outputs(
+        [&arguments.out],
+        std::slice::from_ref(&arguments.scene),
+        "the export",
+    )?;
+    let scene = scene_or_preset(&arguments.scene, &arguments.overrides)?;
+    needs::check_geometry(&scene, "export", arguments.memory)?;
+    let wavelengths = gltf::wavelengths();
+    let building = Building {
+        memory: arguments.memory,
+        wavelengths: Some(&wavelengths),
+        ..Building::default()
+    };
+    let world = building.world(&scene)?;
+    note(&world.notes);
+    let options = GltfOptions {
+        illuminant: arguments.illuminant,
+        texture: arguments.texture,
+        plain_nodes: arguments.plain_nodes,
+        one_face: arguments.one_face,
+    };
+    let (bytes, extent) = gltf::glb(&scene, &world, options).map_err(|error| match error {
+        GltfError::TooLarge(_) => Failure::bad(error),
+        GltfError::Image(_) => Failure::system(error),
+    })?;
+    signals.begin_work();
+    write_and_say(&arguments.out, bytes)?;
+    note([extent]);
+    Ok(())
+}
+
+/// The scene of a file, or one of a preset's leaf.
+fn scene_or_preset(scene: &Path, overrides: &[String]) -> Result<Description, Failure> {
+    let word = scene.to_string_lossy();
+    if !is_word(&word) || scene.exists() {
+        let arguments = SceneArguments {
+            scene: scene.to_owned(),
+            overrides: overrides.to_owned(),
+        };
+        return Ok(load_scene(&arguments)?.description);
+    }
+    let preset = species::find(&word).ok_or_else(|| unknown_preset(&word))?;
+    let loaded = load::parse(
+        &portrait(preset.name),
+        preset.name,
+        Path::new("."),
+        overrides,
+    )?;
+    warn(&loaded.warnings);
+    Ok(loaded.description)
+}
+
+/// A scene of a preset's leaf; what a scene needs besides is not exported.
+fn portrait(preset: &str) -> String {
+    format!(
+        "format = 1\n[film.rgb]\nsize = [64, 64]\nspp = 1\n\
+         [camera.perspective]\nposition_m = [0, 0, 1]\nlook_at_m = [0, 0.001, 0]\nvertical_fov_deg = 30\n\
+         [leaves.{preset}]\npreset = \"{preset}\"\n[objects.{preset}]\nleaf = \"{preset}\"\n\
+         [lights.sky.constant]\nradiance_w_m2_sr_nm = 1\n"
+    )
+}
+
+pub(super) fn mitsuba(arguments: &MitsubaArguments) -> Result<(), Failure> {
     let signals = Signals::listen()?;
     check_folder(&arguments.out)?;
     let scene = load_scene(&arguments.scene)?.description;

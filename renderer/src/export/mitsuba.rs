@@ -24,6 +24,7 @@ use leafmodel::optics::{Constituent, Pigments, ProspectD};
 use serde_json::json;
 use thiserror::Error;
 
+pub(super) use self::bsdf::material_id;
 use crate::image::{ImageError, Layer, Picture, openexr};
 use crate::material::colour_map::ColourMap;
 use crate::material::contents_texture::ContentsTexture;
@@ -252,7 +253,7 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         save(colours::BASIS, rgb::basis_text().as_bytes())
     };
     for (number, material) in world.materials.iter().enumerate() {
-        let id = bsdf::material_id(scene, world, number);
+        let id = material_id(scene, world, number);
         if let Some(map) = material.contents_map() {
             show(&format!("maps/{id}.exr"), &map_picture(map))?;
         }
