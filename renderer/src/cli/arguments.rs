@@ -357,6 +357,12 @@ pub struct GltfArguments {
     /// Most texels along a side of a texture, a power of two
     #[arg(long, value_name = "SIZE", default_value_t = 1024, value_parser = power_of_two)]
     pub texture: u32,
+    /// Most triangles of a blade, whose margin and holes a mask then shows, and of a stalk, an axis or a hair
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..))]
+    pub triangles: Option<u32>,
+    /// Write each blade as a card of two triangles, with the pictures of all blades in one
+    #[arg(long)]
+    pub cards: bool,
     /// Write a node for each place, instead of instances (`EXT_mesh_gpu_instancing`)
     #[arg(long)]
     pub plain_nodes: bool,

@@ -37,6 +37,8 @@ pub(super) fn gltf(arguments: &GltfArguments) -> Result<(), Failure> {
     let options = GltfOptions {
         illuminant: arguments.illuminant,
         texture: arguments.texture,
+        triangles: arguments.triangles,
+        cards: arguments.cards,
         plain_nodes: arguments.plain_nodes,
         one_face: arguments.one_face,
     };

@@ -7,16 +7,18 @@
 //! - **Always true**: the same scene gives the same bytes.
 //! - **Left out**: lights, camera, media, fluorescence, dust and bloom.
 
+mod coarse;
 mod colours;
 mod document;
 mod mesh;
 mod places;
 mod surface;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 
-use glam::{DAffine3, DVec3, Mat3};
+use glam::{DAffine3, DVec3, Mat3, Vec2};
 use rayon::prelude::*;
 use serde_json::json;
 use thiserror::Error;
@@ -26,10 +28,12 @@ pub use self::colours::{Illuminant, wavelengths};
 use self::document::GltfDocument;
 use self::mesh::Dressing;
 use self::places::MeshPlace;
-use self::surface::{Observation, Surface};
+use self::surface::{Blade, Observation, Surface};
 use super::mitsuba::material_id;
+use crate::geometry::TriangleMesh;
 use crate::image::ImageError;
 use crate::material::Material;
+use crate::material::leaf::LeafMaterial;
 use crate::scene::description::Description;
 use crate::scene::world::{MaterialOwner, World};
 
@@ -54,6 +58,10 @@ pub struct GltfOptions {
     pub illuminant: Illuminant,
     /// Most texels along a side of a texture, a power of two.
     pub texture: u32,
+    /// Most triangles of a blade or of a tube; of all other meshes each triangle is there.
+    pub triangles: Option<u32>,
+    /// Whether each blade is a card of two triangles, with all pictures of blades in one.
+    pub cards: bool,
     /// Whether each place is a node of its own.
     pub plain_nodes: bool,
     /// Whether a leaf is one surface, seen from both sides, with the adaxial face's colours.
@@ -65,6 +73,8 @@ impl Default for GltfOptions {
         Self {
             illuminant: Illuminant::default(),
             texture: 1024,
+            triangles: None,
+            cards: false,
             plain_nodes: false,
             one_face: false,
         }
@@ -121,16 +131,18 @@ pub fn glb(
         let group = groups.entry((object.object, mesh, object.material));
         group.or_default().push(instance);
     }
-    let surfaces = surfaces(scene, world, options, groups.keys())?;
+    let coarse = Coarse { world, options };
+    let dresses = dresses(scene, &coarse, groups.keys())?;
     let mut file = GltfDocument::default();
-    let mut materials: BTreeMap<(usize, bool), Vec<usize>> = BTreeMap::new();
+    let mut materials: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     let mut meshes: BTreeMap<(usize, usize), (usize, usize)> = BTreeMap::new();
     let mut nodes: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     let (mut triangles, mut stored) = (0, 0);
     for (&(object, mesh, material), instances) in &groups {
-        let is_sheet = is_sheet(world, mesh, material);
-        let surface = &surfaces[&(material, is_sheet)];
-        let numbers = materials.entry((material, is_sheet));
+        let is_sheet = coarse.is_sheet(mesh, material);
+        let (number, place) = dresses.of[&(mesh, material)];
+        let surface = &dresses.surfaces[number];
+        let numbers = materials.entry(number);
         let is_seen_from_behind = options.one_face || !is_sheet;
         let numbers = numbers.or_insert_with(|| surface.written(&mut file, is_seen_from_behind));
         let dressing = Dressing {
@@ -138,11 +150,11 @@ pub fn glb(
             materials: numbers,
             is_one_face: options.one_face,
             is_tinted: world.materials[material].is_tinted(),
+            place,
         };
         let id = material_id(scene, world, material);
         let mut add = |file: &mut GltfDocument, linear: Mat3| {
-            let own = world.geometry.mesh(mesh as u32);
-            let added = mesh::add(file, &id, own, linear, &dressing);
+            let added = mesh::add(file, &id, &coarse.mesh(mesh, material), linear, &dressing);
             stored += added.1;
             added
         };
@@ -205,37 +217,123 @@ fn size_of(world: &World) -> DVec3 {
     around.map_or(DVec3::ZERO, |(low, high)| high - low)
 }
 
-/// Whether a mesh of a leaf's material is a blade: stalks and hairs, which are tubes, have no texture
-/// coordinates.
-fn is_sheet(world: &World, mesh: usize, material: usize) -> bool {
-    let is_grown = matches!(world.owners[material], MaterialOwner::Leaf { .. });
-    let is_tissue = matches!(world.materials[material], Material::Leaf(_));
-    is_tissue && (!is_grown || world.geometry.mesh(mesh as u32).uvs().is_some())
-}
-
-/// The surfaces of all materials that are seen, as sheets or as bodies.
-fn surfaces<'a>(
-    scene: &Description,
+/// The meshes of a world as they are written.
+#[derive(Clone, Copy, Debug)]
+struct Coarse<'a> {
     world: &'a World,
     options: GltfOptions,
+}
+
+impl<'a> Coarse<'a> {
+    /// The leaf, if a mesh of its material is a blade: stalks and hairs, which are tubes, have no texture
+    /// coordinates.
+    fn sheet(&self, mesh: usize, material: usize) -> Option<&'a LeafMaterial> {
+        let is_grown = matches!(self.world.owners[material], MaterialOwner::Leaf { .. });
+        let is_blade = !is_grown || self.own(mesh).uvs().is_some();
+        let leaf = if let Material::Leaf(leaf) = &self.world.materials[material] {
+            Some(&**leaf)
+        } else {
+            None
+        };
+        leaf.filter(|_| is_blade)
+    }
+
+    fn is_sheet(&self, mesh: usize, material: usize) -> bool {
+        self.sheet(mesh, material).is_some()
+    }
+
+    /// The mesh that is traced.
+    fn own(&self, mesh: usize) -> &'a TriangleMesh {
+        self.world.geometry.mesh(mesh as u32)
+    }
+
+    /// How many triangles a mesh may have.
+    fn most(&self, mesh: usize, material: usize) -> Option<usize> {
+        let most = match self.options.triangles.map(|most| most as usize) {
+            _ if self.options.cards && self.is_sheet(mesh, material) => Some(2),
+            most => most,
+        };
+        most.filter(|&most| self.own(mesh).triangles().len() > most)
+    }
+
+    /// A mesh as it is written.
+    fn mesh(&self, mesh: usize, material: usize) -> Cow<'a, TriangleMesh> {
+        let own = self.own(mesh);
+        let most = self.most(mesh, material);
+        let fewer = most.and_then(|most| {
+            if self.is_sheet(mesh, material) {
+                coarse::grid(own, most)
+            } else if own.uvs().is_none() && own.colours().is_none() {
+                coarse::joined(own, most)
+            } else {
+                None
+            }
+        });
+        fewer.map_or(Cow::Borrowed(own), Cow::Owned)
+    }
+
+    /// A blade as it is shown.
+    fn blade(&self, mesh: usize, leaf: &'a LeafMaterial, material: usize) -> Blade<'a> {
+        Blade {
+            leaf,
+            masked: self.most(mesh, material).map(|_| self.own(mesh)),
+            is_card: self.options.cards,
+        }
+    }
+}
+
+/// The surfaces of all materials that are seen.
+struct Dresses<'a> {
+    surfaces: Vec<Surface<'a>>,
+    /// For a mesh and a material the number of the surface, and its place in the pictures there.
+    of: BTreeMap<(usize, usize), (usize, [Vec2; 2])>,
+}
+
+fn dresses<'a>(
+    scene: &Description,
+    coarse: &Coarse<'a>,
     groups: impl Iterator<Item = &'a Dressed>,
-) -> Result<BTreeMap<(usize, bool), Surface<'a>>, GltfError> {
+) -> Result<Dresses<'a>, GltfError> {
+    const WHOLE: [Vec2; 2] = [Vec2::ZERO, Vec2::ONE];
+    let Coarse { world, options } = *coarse;
     let colorimetry = Colorimetry::under(options.illuminant);
     let seen = Observation {
         colorimetry: &colorimetry,
         wavelengths: world.wavelengths.grid().set(0),
         texture: options.texture,
     };
-    let kinds = groups.map(|&(_, mesh, material)| (material, is_sheet(world, mesh, material)));
-    let mut kinds: Vec<(usize, bool)> = kinds.collect();
-    kinds.sort_unstable();
-    kinds.dedup();
-    let surfaces = kinds.into_par_iter().map(|(material, is_sheet)| {
+    let mut pairs: Vec<(usize, usize)> = groups
+        .map(|&(_, mesh, material)| (mesh, material))
+        .collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    let (cards, others): (Vec<_>, Vec<_>) = pairs
+        .into_iter()
+        .partition(|&(mesh, material)| options.cards && coarse.is_sheet(mesh, material));
+    let surfaces = others.par_iter().map(|&(mesh, material)| {
         let name = material_id(scene, world, material);
-        let surface = Surface::of(&world.materials[material], &name, is_sheet, seen)?;
-        Ok(((material, is_sheet), surface))
+        match coarse.sheet(mesh, material) {
+            Some(leaf) => Surface::of_blade(coarse.blade(mesh, leaf, material), &name, seen),
+            None => Surface::of(&world.materials[material], &name, seen),
+        }
     });
-    surfaces.collect()
+    let mut surfaces: Vec<Surface<'a>> = surfaces.collect::<Result<_, _>>()?;
+    let numbered = others.into_iter().enumerate();
+    let mut of: BTreeMap<_, _> = numbered
+        .map(|(number, pair)| (pair, (number, WHOLE)))
+        .collect();
+    let blades = cards.iter().filter_map(|&(mesh, material)| {
+        let leaf = coarse.sheet(mesh, material)?;
+        Some(coarse.blade(mesh, leaf, material))
+    });
+    let blades: Vec<Blade<'a>> = blades.collect();
+    if !blades.is_empty() {
+        let (surface, places) = Surface::of_cards(&blades, "cards", seen)?;
+        let places = places.into_iter().map(|place| (surfaces.len(), place));
+        of.extend(cards.into_iter().zip(places));
+        surfaces.push(surface);
+    }
+    Ok(Dresses { surfaces, of })
 }
 
 #[cfg(test)]

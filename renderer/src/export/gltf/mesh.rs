@@ -29,6 +29,8 @@ pub(super) struct Dressing<'a> {
     pub(super) is_one_face: bool,
     /// Whether colours of vertices are factors.
     pub(super) is_tinted: bool,
+    /// The first corner and the sides of its place in the pictures of several meshes.
+    pub(super) place: [Vec2; 2],
 }
 
 /// Adds a mesh, each of whose vertices is moved by `linear`, and returns its number and how many triangles
@@ -54,10 +56,7 @@ pub(super) fn add(
             let faces = vec![(materials[0], false), (materials[1], true)];
             vec![(gather(all.to_vec(), None), faces)]
         }
-        Arrangement::Face(face) => {
-            let own = vec![(materials[*face], *face == 1)];
-            vec![(gather(all.to_vec(), None), own)]
-        }
+        Arrangement::Backs => vec![(gather(all.to_vec(), None), vec![(materials[0], true)])],
         Arrangement::Slots(map) => {
             let slot_of = |triangle: &[u32; 3]| {
                 let uvs = mesh
@@ -168,7 +167,9 @@ fn gathered(
                 let shift = Vec2::new(map.slots()[slot].shift, 0.0);
                 own.map(|uv| (uv - shift) * map.repeats()).collect()
             }
-            None => own.collect(),
+            None => own
+                .map(|uv| dressing.place[0] + uv * dressing.place[1])
+                .collect(),
         }
     });
     let mut vertices = Vertices::default();

@@ -9,16 +9,18 @@ use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
+use super::coarse::{BladePlane, coverage};
 use super::colours::{Colorimetry, WAVELENGTHS, stored, stored_number};
 use super::document::GltfDocument;
 use crate::bsdf::Bsdf;
-use crate::bsdf::leaf::{Coat, LeafBsdf};
+use crate::bsdf::leaf::Coat;
+use crate::geometry::TriangleMesh;
 use crate::image::pixels::{Depth, Pixels};
 use crate::image::{ImageError, portable_network};
 use crate::material::Material;
 use crate::material::colour_map::{ColourMap, ColourTexture, Wrap};
+use crate::material::contents_texture::ContentsTexture;
 use crate::material::leaf::LeafMaterial;
-use crate::material::relief::Relief;
 use crate::spectrum::{Lanes, Wavelengths};
 
 /// Looks at a texel, across and down: several, because the map is finer where textures are small and
@@ -45,8 +47,8 @@ pub(super) enum Arrangement<'a> {
     Whole,
     /// That of the adaxial face on all triangles and that of the abaxial one on their backs.
     Faces,
-    /// That of one face of a closed blade, the abaxial one on the backs of its triangles.
-    Face(usize),
+    /// One on the backs of all triangles.
+    Backs,
     /// One for each slot of a map of colours.
     Slots(&'a ColourMap),
 }
@@ -75,6 +77,8 @@ struct Finish {
     /// Refractive index of the coat; 1 is none.
     eta: f32,
     is_clear: bool,
+    /// Whether the alpha of its base map says what is there.
+    is_masked: bool,
 }
 
 impl Finish {
@@ -90,6 +94,7 @@ impl Finish {
             normals: None,
             eta,
             is_clear: false,
+            is_masked: false,
         }
     }
 
@@ -106,15 +111,13 @@ fn roughness_of([across, along]: [f32; 2]) -> f32 {
 }
 
 impl<'a> Surface<'a> {
-    /// The surface of a material; `is_sheet` says of a leaf's whether it is a blade or a tube.
+    /// The surface of a material that is no blade's.
     pub(super) fn of(
         material: &'a Material,
         name: &str,
-        is_sheet: bool,
         seen: Observation<'_>,
     ) -> Result<Self, ImageError> {
         match material {
-            Material::Leaf(leaf) if is_sheet => sheet(leaf, name, seen),
             Material::Leaf(_) | Material::Solid(_) => body(material, name, seen),
             Material::Diffuse(_) | Material::Plastic(_) | Material::Model(_) => {
                 painted(material, name, seen)
@@ -154,14 +157,16 @@ impl<'a> Surface<'a> {
         wrap: [Wrap; 2],
         store: fn(f32) -> u16,
     ) -> Result<usize, ImageError> {
-        let pixels = Pixels {
-            width: width as u32,
-            height: (texels.len() / width) as u32,
-            depth: Depth::Eight,
-            channels: 3,
-            values: texels.as_flattened().iter().copied().map(store).collect(),
-        };
-        let bytes = portable_network::encoded_pixels(&pixels)?;
+        self.add(what, &pixels(width, texels, store), wrap)
+    }
+
+    fn add(
+        &mut self,
+        what: &'static str,
+        pixels: &Pixels,
+        wrap: [Wrap; 2],
+    ) -> Result<usize, ImageError> {
+        let bytes = portable_network::encoded_pixels(pixels)?;
         self.pictures.push((what, bytes, wrap));
         Ok(self.pictures.len() - 1)
     }
@@ -248,10 +253,23 @@ impl Finish {
             material["normalTexture"] = texture(picture);
             material["normalTexture"]["scale"] = rounded(scale).into();
         }
+        if self.is_masked {
+            material["alphaMode"] = "MASK".into();
+        }
         if !extensions.is_empty() {
             material["extensions"] = extensions.into();
         }
         material
+    }
+}
+
+fn pixels(width: usize, texels: &[[f32; 3]], store: fn(f32) -> u16) -> Pixels {
+    Pixels {
+        width: width as u32,
+        height: (texels.len() / width) as u32,
+        depth: Depth::Eight,
+        channels: 3,
+        values: texels.as_flattened().iter().copied().map(store).collect(),
     }
 }
 
@@ -299,111 +317,235 @@ fn greatest<'c>(colours: impl Iterator<Item = &'c [f32; 3]>) -> f32 {
     colours.flatten().copied().fold(0.0, f32::max)
 }
 
-/// A leaf: what both faces send back, and what it lets through.
-fn sheet<'a>(
-    leaf: &'a LeafMaterial,
-    name: &str,
-    seen: Observation<'_>,
-) -> Result<Surface<'a>, ImageError> {
-    let look = |uv: Vec2| {
-        let bsdf = leaf.whole_bsdf(uv, &seen.wavelengths);
-        let [[adaxial, from_above], [abaxial, from_below]] =
-            [0, 1].map(|face| bsdf.below_coat(face));
-        [adaxial, abaxial, (from_above + from_below) * 0.5]
-            .map(|spectrum| seen.colorimetry.linear(&spectrum))
-    };
-    let map = leaf.tissue.map();
-    let size = map.map(|map| texture_size(map.size(), seen.texture));
-    let texels = match size {
-        Some(size) => each_texel(size, |uv| mean_over_looks(size, uv, look)),
-        None => vec![look(Vec2::ZERO)],
-    };
-    let back = greatest(
-        texels
-            .iter()
-            .flat_map(|[adaxial, abaxial, _]| [adaxial, abaxial]),
-    );
-    let through = greatest(texels.iter().map(|[_, _, through]| through));
-    // Where both together exceed 1, which no wavelength does, both are clipped alike.
-    let fraction = (through / (back + through).max(1.0)).min(MOST_THROUGH);
-    let over = |colour: [f32; 3], part: f32| colour.map(|value| value / part.max(1e-6));
-    let bsdf: LeafBsdf<'_, WAVELENGTHS> = leaf.whole_bsdf(Vec2::ZERO, &seen.wavelengths);
-    let faces = ["adaxial", "abaxial"].into_iter().zip(bsdf.coats());
-    let mut surface = Surface {
-        name: name.to_owned(),
-        arrangement: leaf
-            .half_face()
-            .map_or(Arrangement::Faces, Arrangement::Face),
-        pictures: Vec::new(),
-        finishes: Vec::new(),
-    };
-    for (face, (word, coat)) in faces.enumerate() {
-        let own = format!("{name}.{word}");
-        let base = over(texels[0][face], 1.0 - fraction);
-        surface.finishes.push(Finish {
-            through: (fraction > 0.0).then(|| (fraction, over(texels[0][2], fraction), None)),
-            ..Finish::coated(&own, base, coat)
+/// A blade that is to be shown, and how.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Blade<'a> {
+    pub(super) leaf: &'a LeafMaterial,
+    /// Its own mesh, where a mask has to show what that covers of its texture.
+    pub(super) masked: Option<&'a TriangleMesh>,
+    /// Whether it is shown by a card, so that its form appears in the map of normals.
+    pub(super) is_card: bool,
+}
+
+/// What is seen of a blade: for each texel, row by row from the top, what the adaxial and the abaxial face
+/// send back and what is let through; and what is covered, with its slope, if there is a mask.
+struct BladeTexels<'a> {
+    blade: Blade<'a>,
+    size: [usize; 2],
+    colours: Vec<[[f32; 3]; 3]>,
+    covered: Option<Vec<(f32, Vec2)>>,
+}
+
+impl<'a> BladeTexels<'a> {
+    fn of(blade: Blade<'a>, size: [usize; 2], seen: Observation<'_>) -> Self {
+        let look = |uv: Vec2| {
+            let bsdf = blade.leaf.whole_bsdf(uv, &seen.wavelengths);
+            let [[adaxial, from_above], [abaxial, from_below]] =
+                [0, 1].map(|face| bsdf.below_coat(face));
+            [adaxial, abaxial, (from_above + from_below) * 0.5]
+                .map(|spectrum| seen.colorimetry.linear(&spectrum))
+        };
+        let colours = if blade.leaf.tissue.map().is_some() {
+            each_texel(size, |uv| mean_over_looks(size, uv, look))
+        } else {
+            vec![look(Vec2::splat(0.5)); size[0] * size[1]]
+        };
+        let covered = blade.masked.map(|mesh| {
+            let plane = BladePlane::of(mesh).filter(|_| blade.is_card);
+            coverage(mesh, size, plane.as_ref())
         });
+        Self {
+            blade,
+            size,
+            colours,
+            covered,
+        }
     }
-    let Some(size) = size else {
-        return Ok(surface);
-    };
-    let colours = |part: usize, of: f32| -> Vec<[f32; 3]> {
-        texels.iter().map(|texel| over(texel[part], of)).collect()
-    };
-    let clamped = [Wrap::Clamp; 2];
-    let light = surface.picture(
-        "transmission",
-        size[0],
-        &colours(2, fraction),
-        clamped,
-        stored,
-    )?;
-    let words = [
-        ["adaxial", "adaxial.normals", "adaxial.roughness"],
-        ["abaxial", "abaxial.normals", "abaxial.roughness"],
-    ];
-    for (face, [base, normals, roughness]) in words.into_iter().enumerate() {
-        let map = surface.picture(
-            base,
+
+    /// The normals of a face in its own frame, away from the blade (part 0), or the roughness that its texels
+    /// do not resolve (part 1), as stored.
+    fn finish(&self, face: usize, part: usize) -> Vec<[f32; 3]> {
+        let leaf = self.blade.leaf;
+        let relief = leaf.relief.as_ref();
+        let coat = leaf.coats()[face].numbers();
+        let mut texels = each_texel(self.size, |uv| {
+            let (slope, alphas) = relief.map_or((Vec2::ZERO, coat.1), |relief| {
+                let seen = relief.seen(uv, None, 1.0 / self.size[1] as f32);
+                let own = &relief.faces(&seen)[face];
+                (own.slope, [own.coat.ggx.alpha_x, own.coat.ggx.alpha_y])
+            });
+            (slope, roughness_of(alphas))
+        });
+        if let Some(covered) = &self.covered {
+            for ((slope, _), (_, of_form)) in texels.iter_mut().zip(covered) {
+                *slope += *of_form;
+            }
+        }
+        let outward = if face == 0 { -1.0 } else { 1.0 };
+        let stored = texels.into_iter().map(|(slope, roughness)| {
+            let normal = (slope * outward).extend(1.0).normalize();
+            [(normal * 0.5 + 0.5).to_array(), [1.0, roughness, 0.0]][part]
+        });
+        stored.collect()
+    }
+}
+
+impl<'a> Surface<'a> {
+    /// The surface of a blade.
+    pub(super) fn of_blade(
+        blade: Blade<'a>,
+        name: &str,
+        seen: Observation<'_>,
+    ) -> Result<Self, ImageError> {
+        let map = blade.leaf.tissue.map().map(ContentsTexture::size);
+        let size = map.map_or([16; 2], |map| texture_size(map, seen.texture));
+        let needs_texture = map.is_some() || blade.masked.is_some();
+        let size = if needs_texture { size } else { [1; 2] };
+        let texels = BladeTexels::of(blade, size, seen);
+        let mut surface = Self::of_texels(name, &[(texels, [0; 2])], size)?;
+        if let Some(face) = blade.leaf.half_face() {
+            surface.finishes = vec![surface.finishes.swap_remove(face)];
+            surface.arrangement = [Arrangement::Whole, Arrangement::Backs][face].clone();
+        }
+        Ok(surface)
+    }
+
+    /// The surface of cards of blades, whose pictures lie in one, and the place of each there: its first
+    /// corner and its sides in texture coordinates.
+    pub(super) fn of_cards(
+        blades: &[Blade<'a>],
+        name: &str,
+        seen: Observation<'_>,
+    ) -> Result<(Self, Vec<[Vec2; 2]>), ImageError> {
+        let side = seen.texture as usize;
+        let across = (1..=blades.len())
+            .find(|across| across * across >= blades.len())
+            .unwrap_or(1);
+        let cell = side / across;
+        let corner = |number: usize| [number % across * cell, number / across * cell];
+        let cards = blades
+            .iter()
+            .enumerate()
+            .map(|(number, &blade)| (BladeTexels::of(blade, [cell; 2], seen), corner(number)));
+        let cards: Vec<_> = cards.collect();
+        let places = (0..blades.len()).map(|number| {
+            let [x, y] = corner(number).map(|at| at as f32);
+            // Rows are counted from the top, v from below.
+            let lowest = side as f32 - y - cell as f32;
+            [Vec2::new(x, lowest), Vec2::splat(cell as f32)].map(|of| of / side as f32)
+        });
+        let places = places.collect();
+        Ok((Self::of_texels(name, &cards, [side; 2])?, places))
+    }
+
+    /// A surface whose pictures hold the texels of blades at places of theirs.
+    fn of_texels(
+        name: &str,
+        blades: &[(BladeTexels<'a>, [usize; 2])],
+        size: [usize; 2],
+    ) -> Result<Self, ImageError> {
+        let colours = || blades.iter().flat_map(|(blade, _)| &blade.colours);
+        let back = greatest(colours().flat_map(|[adaxial, abaxial, _]| [adaxial, abaxial]));
+        let through = greatest(colours().map(|[_, _, through]| through));
+        // Where both together exceed 1, which no wavelength does, both are clipped alike.
+        let fraction = (through / (back + through).max(1.0)).min(MOST_THROUGH);
+        let over = |colour: [f32; 3], part: f32| colour.map(|value| value / part.max(1e-6));
+        let (first, _) = &blades[0];
+        let mut surface = Surface {
+            name: name.to_owned(),
+            arrangement: Arrangement::Faces,
+            pictures: Vec::new(),
+            finishes: Vec::new(),
+        };
+        for (face, word) in ["adaxial", "abaxial"].into_iter().enumerate() {
+            let own = format!("{name}.{word}");
+            let base = over(first.colours[0][face], 1.0 - fraction);
+            let of_light = over(first.colours[0][2], fraction);
+            surface.finishes.push(Finish {
+                through: (fraction > 0.0).then_some((fraction, of_light, None)),
+                ..Finish::coated(&own, base, &first.blade.leaf.coats()[face])
+            });
+        }
+        if size == [1; 2] {
+            return Ok(surface);
+        }
+        let laid = |texels: &dyn Fn(&BladeTexels<'a>) -> Vec<[f32; 3]>| {
+            let mut picture = vec![[0.0; 3]; size[0] * size[1]];
+            for (blade, [x, y]) in blades {
+                for (row, texels) in texels(blade).chunks(blade.size[0]).enumerate() {
+                    picture[(y + row) * size[0] + x..][..texels.len()].copy_from_slice(texels);
+                }
+            }
+            picture
+        };
+        let colours = |part: usize, of: f32| {
+            laid(&|blade| {
+                blade
+                    .colours
+                    .iter()
+                    .map(|texel| over(texel[part], of))
+                    .collect()
+            })
+        };
+        let has_mask = blades.iter().any(|(blade, _)| blade.covered.is_some());
+        let mask = has_mask.then(|| {
+            let covered = |blade: &BladeTexels<'_>| match &blade.covered {
+                Some(covered) => covered.iter().map(|(part, _)| [*part; 3]).collect(),
+                None => vec![[1.0; 3]; blade.colours.len()],
+            };
+            laid(&covered)
+        });
+        let clamped = [Wrap::Clamp; 2];
+        let light = surface.picture(
+            "transmission",
             size[0],
-            &colours(face, 1.0 - fraction),
+            &colours(2, fraction),
             clamped,
             stored,
         )?;
-        let finish = &mut surface.finishes[face];
-        (finish.base, finish.base_map) = ([1.0; 3], Some(map));
-        if let Some((_, _, of_light)) = &mut finish.through {
-            *of_light = Some(light);
-        }
-        if let Some(relief) = &leaf.relief {
-            let (slopes, rough) = relief_texels(relief, face, size);
-            let slopes = surface.picture(normals, size[0], &slopes, clamped, stored_number)?;
-            let rough = surface.picture(roughness, size[0], &rough, clamped, stored_number)?;
+        let has_finish =
+            blades.len() > 1 || first.blade.leaf.relief.is_some() || first.blade.is_card;
+        let words = [
+            ["adaxial", "adaxial.normals", "adaxial.roughness"],
+            ["abaxial", "abaxial.normals", "abaxial.roughness"],
+        ];
+        for (face, [base, normals, roughness]) in words.into_iter().enumerate() {
+            let mut pixels = pixels(size[0], &colours(face, 1.0 - fraction), stored);
+            if let Some(mask) = &mask {
+                pixels = with_alpha(&pixels, mask);
+            }
+            let map = surface.add(base, &pixels, clamped)?;
             let finish = &mut surface.finishes[face];
-            finish.normals = Some((slopes, 1.0));
-            (finish.roughness, finish.rough_map) = (1.0, Some(rough));
+            finish.is_masked = mask.is_some();
+            (finish.base, finish.base_map) = ([1.0; 3], Some(map));
+            if let Some((_, _, of_light)) = &mut finish.through {
+                *of_light = Some(light);
+            }
+            if has_finish {
+                let [slopes, rough] = [0, 1].map(|part| laid(&|blade| blade.finish(face, part)));
+                let slopes = surface.picture(normals, size[0], &slopes, clamped, stored_number)?;
+                let rough = surface.picture(roughness, size[0], &rough, clamped, stored_number)?;
+                let finish = &mut surface.finishes[face];
+                finish.normals = Some((slopes, 1.0));
+                (finish.roughness, finish.rough_map) = (1.0, Some(rough));
+            }
         }
+        Ok(surface)
     }
-    Ok(surface)
 }
 
-/// The normals of a face in its own frame, away from the blade, and the roughness that its texels do not
-/// resolve, as stored.
-fn relief_texels(relief: &Relief, face: usize, size: [usize; 2]) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
-    let texels = each_texel(size, |uv| {
-        let [adaxial, abaxial] = relief.faces(&relief.seen(uv, None, 1.0 / size[1] as f32));
-        let (seen, outward) = if face == 0 {
-            (adaxial, -1.0)
-        } else {
-            (abaxial, 1.0)
-        };
-        let normal = (seen.slope * outward).extend(1.0).normalize();
-        let ggx = seen.coat.ggx;
-        let roughness = roughness_of([ggx.alpha_x, ggx.alpha_y]);
-        ((normal * 0.5 + 0.5).to_array(), [1.0, roughness, 0.0])
+/// The same pixels with alpha.
+fn with_alpha(pixels: &Pixels, mask: &[[f32; 3]]) -> Pixels {
+    let colours = pixels.values.chunks(3).zip(mask);
+    let values = colours.flat_map(|(colour, [alpha, ..])| {
+        let alpha = stored_number(*alpha);
+        [colour[0], colour[1], colour[2], alpha]
     });
-    texels.into_iter().unzip()
+    Pixels {
+        channels: 4,
+        values: values.collect(),
+        ..*pixels
+    }
 }
 
 /// Solid tissue, and the walls of stalks and hairs. Of the light that a wall lets into its tube all

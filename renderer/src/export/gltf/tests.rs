@@ -6,7 +6,6 @@ use glam::{Mat4, Vec3};
 use gltf::json::validation::Error;
 
 use super::*;
-use crate::material::leaf::LeafMaterial;
 use crate::scene::load;
 use crate::scene::world::BuildOptions;
 
@@ -155,11 +154,14 @@ fn every_place_arrives_in_metres_with_y_up_and_the_same_scene_gives_the_same_byt
         })
         .collect();
     keys.sort_unstable();
+    let coarse = Coarse {
+        world,
+        options: plain,
+    };
     for instance in 0..world.objects.len() as u32 {
         let placed = world.geometry.instance(instance);
         let (mesh, to_scene) = (world.geometry.mesh(placed.mesh), placed.to_scene());
-        let faces = 1 + usize::from(is_sheet(
-            world,
+        let faces = 1 + usize::from(coarse.is_sheet(
             placed.mesh as usize,
             world.objects[instance as usize].material,
         ));
