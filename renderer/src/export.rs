@@ -41,7 +41,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub(crate) mod blade;
+pub mod blade;
 pub mod caption;
 pub(crate) mod daylight;
 pub mod drawing;

@@ -11,6 +11,8 @@ use crate::geometry::TriangleMesh;
 const LOOKS: usize = 4;
 /// Steepest slope, of a blade against its card, that a map of normals shows.
 const STEEPEST: f32 = 3.0;
+/// Fraction of its area that a tube keeps: with less it falls apart.
+const LEAST_AREA: f32 = 0.75;
 /// Factor between widths of cells that are tried for a tube.
 const WIDER: f32 = 1.2;
 
@@ -242,19 +244,29 @@ fn extend(
     }
 }
 
-/// A tube of at most so many triangles: vertices in one cell of a lattice become one. `None` if nothing would
-/// be left.
+/// A tube of so many triangles, or as few as keep most of its area: vertices in one cell of a lattice become
+/// one. `None` if it has to stay as it is.
 pub(super) fn joined(mesh: &TriangleMesh, most: usize) -> Option<TriangleMesh> {
     let (low, high) = mesh.bounds();
-    let mut cell = (high - low).length() / most as f32;
+    let mut cell = (high - low).length() / (mesh.triangles().len() as f32).sqrt() / 16.0;
+    let least = LEAST_AREA * area(mesh);
+    let mut fewest = None;
     loop {
-        let triangles = joined_in(mesh, low, cell);
-        match triangles {
-            Some(joined) if joined.triangles().len() <= most => return Some(joined),
-            Some(_) => cell *= WIDER,
-            None => return None,
+        let next = joined_in(mesh, low, cell).filter(|next| area(next) >= least);
+        match next {
+            Some(next) if next.triangles().len() <= most => return Some(next),
+            Some(next) => fewest = Some(next),
+            None => return fewest,
         }
+        cell *= WIDER;
     }
+}
+
+/// Twice the area.
+fn area(mesh: &TriangleMesh) -> f32 {
+    let triangles = mesh.triangles().iter();
+    let corners = triangles.map(|triangle| triangle.map(|v| mesh.positions()[v as usize]));
+    corners.map(|[a, b, c]| (b - a).cross(c - a).length()).sum()
 }
 
 fn joined_in(mesh: &TriangleMesh, low: Vec3, cell: f32) -> Option<TriangleMesh> {
