@@ -384,6 +384,9 @@ pub struct MitsubaArguments {
     /// Folder to write into
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// Use materials of Mitsuba's own alone, with colours under D65 instead of spectra
+    #[arg(long)]
+    pub stock: bool,
     /// Memory that building the scene may take; the default is what the machine has free
     #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,

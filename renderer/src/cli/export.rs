@@ -89,15 +89,24 @@ pub(super) fn mitsuba(arguments: &MitsubaArguments) -> Result<(), Failure> {
     let scene = load_scene(&arguments.scene)?.description;
     mitsuba::check(&scene).map_err(Failure::bad)?;
     needs::check_geometry(&scene, "export", arguments.memory)?;
+    let wavelengths = gltf::wavelengths();
     let building = Building {
         memory: arguments.memory,
+        wavelengths: arguments.stock.then_some(&wavelengths),
         ..Building::default()
     };
     let world = building.world(&scene)?;
+    let write = if arguments.stock {
+        mitsuba::write_stock
+    } else {
+        mitsuba::write
+    };
     // What is begun is written to its end, or not at all.
     signals.begin_work();
-    mitsuba::write(&scene, &world, &arguments.out).map_err(|error| match error {
-        ExportError::Write { .. } | ExportError::Image(_) => Failure::system(error),
+    write(&scene, &world, &arguments.out).map_err(|error| match error {
+        ExportError::Write { .. } | ExportError::Image(_) | ExportError::Colours(_) => {
+            Failure::system(error)
+        }
         ExportError::Asset(_)
         | ExportError::Fluorescence
         | ExportError::Lens(_)
@@ -105,16 +114,20 @@ pub(super) fn mitsuba(arguments: &MitsubaArguments) -> Result<(), Failure> {
         | ExportError::CameraInside
         | ExportError::Layers(_)
         | ExportError::Tangents(_)
+        | ExportError::Slots(_)
         | ExportError::NotOurs(_) => Failure::bad(error),
     })?;
     say(arguments.out.display());
+    if !arguments.stock {
+        note(["lamina.mitsuba.load of the Python package lamina-render[mitsuba] opens it"]);
+    }
     if world.objects.have_drops() {
         eprintln!(
             "note: under drops Mitsuba takes leaves as they are in air, so that they send out 1/eta² of their \
              light; Lamina does not"
         );
     }
-    let leaking = mitsuba::leaking(&scene, &world);
+    let leaking = mitsuba::leaking(&scene, &world, arguments.stock);
     if !leaking.is_empty() {
         eprintln!(
             "note: {} smooth and {} Mitsuba's own diffuse or dielectric BSDF, with which some light passes \

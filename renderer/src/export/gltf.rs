@@ -28,7 +28,8 @@ pub use self::colours::{Illuminant, wavelengths};
 use self::document::GltfDocument;
 use self::mesh::Dressing;
 use self::places::MeshPlace;
-use self::surface::{Blade, Observation, Surface};
+pub(super) use self::surface::{Arrangement, Finish, Surface};
+use self::surface::{Blade, Observation};
 use super::mitsuba::material_id;
 use crate::geometry::TriangleMesh;
 use crate::image::ImageError;
@@ -289,10 +290,10 @@ struct Dresses<'a> {
     of: BTreeMap<(usize, usize), (usize, [Vec2; 2])>,
 }
 
-fn dresses<'a>(
+fn dresses<'a, 'd>(
     scene: &Description,
     coarse: &Coarse<'a>,
-    groups: impl Iterator<Item = &'a Dressed>,
+    groups: impl Iterator<Item = &'d Dressed>,
 ) -> Result<Dresses<'a>, GltfError> {
     const WHOLE: [Vec2; 2] = [Vec2::ZERO, Vec2::ONE];
     let Coarse { world, options } = *coarse;
@@ -334,6 +335,32 @@ fn dresses<'a>(
         surfaces.push(surface);
     }
     Ok(Dresses { surfaces, of })
+}
+
+/// The surface of each material that is seen, by its number, with all meshes as they are.
+pub(super) fn surfaces_of<'a>(
+    scene: &Description,
+    world: &'a World,
+    texture: u32,
+    illuminant: Illuminant,
+) -> Result<BTreeMap<usize, Surface<'a>>, GltfError> {
+    let options = GltfOptions {
+        illuminant,
+        texture,
+        ..GltfOptions::default()
+    };
+    let mut seen: BTreeMap<usize, Dressed> = BTreeMap::new();
+    for instance in 0..world.objects.len() as u32 {
+        let material = world.objects[instance as usize].material;
+        let mesh = world.geometry.instance(instance).mesh as usize;
+        seen.entry(material).or_insert((0, mesh, material));
+    }
+    let Dresses { surfaces, of } = dresses(scene, &Coarse { world, options }, seen.values())?;
+    let mut surfaces: Vec<Option<Surface<'a>>> = surfaces.into_iter().map(Some).collect();
+    let numbered = of
+        .into_iter()
+        .filter_map(|((_, material), (number, _))| Some((material, surfaces[number].take()?)));
+    Ok(numbered.collect())
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ pub(super) struct Observation<'a> {
 
 /// How the materials of a surface lie on its meshes.
 #[derive(Clone, Debug)]
-pub(super) enum Arrangement<'a> {
+pub(in crate::export) enum Arrangement<'a> {
     /// One on all triangles.
     Whole,
     /// That of the adaxial face on all triangles and that of the abaxial one on their backs.
@@ -55,27 +55,30 @@ pub(super) enum Arrangement<'a> {
 
 /// A surface: its pictures, and its materials, which name them by number.
 #[derive(Clone, Debug)]
-pub(super) struct Surface<'a> {
-    name: String,
-    pub(super) arrangement: Arrangement<'a>,
-    pictures: Vec<(&'static str, Vec<u8>, [Wrap; 2])>,
-    finishes: Vec<Finish>,
+pub(in crate::export) struct Surface<'a> {
+    pub(in crate::export) name: String,
+    pub(in crate::export) arrangement: Arrangement<'a>,
+    /// What each shows, its file, and what lies beside it.
+    pub(in crate::export) pictures: Vec<(&'static str, Vec<u8>, [Wrap; 2])>,
+    pub(in crate::export) finishes: Vec<Finish>,
 }
 
 /// One material. Numbers are those of pictures of the surface.
 #[derive(Clone, Debug)]
-struct Finish {
+pub(in crate::export) struct Finish {
     name: String,
-    base: [f32; 3],
-    base_map: Option<usize>,
+    pub(in crate::export) base: [f32; 3],
+    pub(in crate::export) base_map: Option<usize>,
     /// What is let through: the fraction, and its colour.
-    through: Option<(f32, [f32; 3], Option<usize>)>,
-    metallic: f32,
-    roughness: f32,
+    pub(in crate::export) through: Option<(f32, [f32; 3], Option<usize>)>,
+    pub(in crate::export) metallic: f32,
+    pub(in crate::export) roughness: f32,
     rough_map: Option<usize>,
+    /// Whether that map holds the roughness itself, no factor on it.
+    has_own_roughness: bool,
     normals: Option<(usize, f32)>,
     /// Refractive index of the coat; 1 is none.
-    eta: f32,
+    pub(in crate::export) eta: f32,
     is_clear: bool,
     /// Whether the alpha of its base map says what is there.
     is_masked: bool,
@@ -91,6 +94,7 @@ impl Finish {
             metallic: 0.0,
             roughness,
             rough_map: None,
+            has_own_roughness: false,
             normals: None,
             eta,
             is_clear: false,
@@ -212,7 +216,7 @@ impl Finish {
         let mut surface = json!({
             "baseColorFactor": [r, g, b, 1.0],
             "metallicFactor": rounded(self.metallic),
-            "roughnessFactor": rounded(self.roughness),
+            "roughnessFactor": if self.has_own_roughness { 1.0 } else { rounded(self.roughness) },
         });
         let maps = [
             ("baseColorTexture", self.base_map),
@@ -527,7 +531,8 @@ impl<'a> Surface<'a> {
                 let rough = surface.picture(roughness, size[0], &rough, clamped, stored_number)?;
                 let finish = &mut surface.finishes[face];
                 finish.normals = Some((slopes, 1.0));
-                (finish.roughness, finish.rough_map) = (1.0, Some(rough));
+                finish.rough_map = Some(rough);
+                finish.has_own_roughness = true;
             }
         }
         Ok(surface)
