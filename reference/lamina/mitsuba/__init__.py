@@ -21,10 +21,12 @@ imported.
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Any
 
 from lamina.extras import require
+from lamina.mitsuba import variant
 
 
 def load(scene: str | Path, **parameters: Any) -> Any:
@@ -33,12 +35,12 @@ def load(scene: str | Path, **parameters: Any) -> Any:
     `parameters` are Mitsuba's of `load_file`. Raises LaminaError without Mitsuba.
     """
     require("mitsuba", "lamina.mitsuba")
-    from lamina.mitsuba import variant
-
+    known = sys.modules.get("mitsuba")
+    if known is None or known.variant() is None:
+        # Before Mitsuba is imported, which is bound to the libLLVM that it finds first.
+        variant.choose()
     import mitsuba as mi
 
-    if mi.variant() is None:
-        variant.choose()
     from lamina.mitsuba import plugins
 
     plugins.register()
