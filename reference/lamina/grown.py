@@ -96,7 +96,7 @@ def grow(
         files = [str(network), *([str(blade)] if mesh else [])]
         run(
             ["grow", str(leaf), *overrides("--set", values), *allowing(allow)]
-            + ["--out", *files, "--measure", str(measures)]
+            + ["--out", *files, "--units", "mm", "--measure", str(measures)]
         )
         measured = json.loads(measures.read_text(encoding="utf-8"))
         vertices, faces = obj(blade) if mesh else (None, None)

@@ -41,10 +41,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub(crate) mod blade;
+pub mod blade;
 pub mod caption;
 pub(crate) mod daylight;
 pub mod drawing;
+pub mod gltf;
 pub mod mitsuba;
 pub mod overlay;
 pub(crate) mod sheet;

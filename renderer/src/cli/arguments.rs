@@ -23,9 +23,9 @@ use std::path::PathBuf;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use clap_complete::Shell;
 
+use self::numbers::{MOST_GIB, MOST_SECONDS, between, power_of_two, samples, size};
+use crate::export::gltf::Illuminant;
 use crate::scene::portrait::Stage;
-
-use self::numbers::{MOST_GIB, MOST_SECONDS, between, samples, size};
 
 pub use cache::{CacheArguments, CacheCommandArguments};
 pub use compare_networks::{Alignment, CompareNetworksArguments, Group, Groups};
@@ -101,6 +101,11 @@ Examples:
   lamina fit leaves.csv --out contents.csv --spectra-out fitted.csv --plot fitted.svg
   lamina fit visible.csv --range 400..800 --fix water=0.012 --fix dry_matter=0.006
   lamina fit --adaxial upper.sig --abaxial lower.sig --transmittance through.sig";
+
+const GLTF_EXAMPLES: &str = "\
+Examples:
+  lamina export gltf birch-autumn --out birch.glb
+  lamina export gltf first-leaf/scene.toml --out leaves.glb --texture 2048";
 
 const SCHEMA_EXAMPLES: &str = "\
 Examples:
@@ -198,7 +203,7 @@ pub enum Command {
     /// Compute a result again from what its file says, and compare
     #[command(after_help = reproduce::EXAMPLES)]
     Reproduce(ReproduceArguments),
-    /// Hand a scene to another renderer
+    /// Hand a scene or a leaf to another program
     #[command(subcommand)]
     Export(ExportCommand),
     /// Compare two pictures number by number
@@ -343,8 +348,47 @@ pub struct MergeArguments {
 /// `lamina export`.
 #[derive(Clone, Debug, Subcommand)]
 pub enum ExportCommand {
+    /// One glTF file of a scene or of a preset leaf: meshes, textures, instances
+    #[command(after_help = GLTF_EXAMPLES)]
+    Gltf(GltfArguments),
     /// XML, meshes, maps and spectra for Mitsuba 3
     Mitsuba(MitsubaArguments),
+}
+
+/// `lamina export gltf`.
+#[derive(Args, Clone, Debug, PartialEq)]
+pub struct GltfArguments {
+    /// The scene file, or a preset of a leaf, which becomes an object of its name
+    #[arg(value_name = "SCENE.toml|PRESET")]
+    pub scene: PathBuf,
+    /// Override a value of the scene, written as in the file: -D leaves.birch.seed=3
+    #[arg(short = 'D', value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+    /// File to write
+    #[arg(long, value_name = "FILE.glb")]
+    pub out: PathBuf,
+    /// Light under which colours are seen, to which the eye has adapted
+    #[arg(long, value_name = "NAME", value_enum, default_value_t)]
+    pub illuminant: Illuminant,
+    /// Most texels along a side of a texture, a power of two
+    #[arg(long, value_name = "SIZE", default_value_t = 1024, value_parser = power_of_two)]
+    pub texture: u32,
+    /// Most triangles of a blade, whose margin and holes a mask then shows, and of a stalk, an axis or a hair
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..))]
+    pub triangles: Option<u32>,
+    /// Write each blade as a card of two triangles, with the pictures of all blades in one
+    #[arg(long)]
+    pub cards: bool,
+    /// Write a node for each place, instead of instances (`EXT_mesh_gpu_instancing`)
+    #[arg(long)]
+    pub plain_nodes: bool,
+    /// Write a leaf as one surface with the adaxial face's colours on both sides, for path tracers,
+    /// instead of two surfaces back to back
+    #[arg(long)]
+    pub one_face: bool,
+    /// Memory that building the scene may take; the default is what the machine has free
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
+    pub memory: Option<f64>,
 }
 
 /// `lamina export mitsuba`.
@@ -356,6 +400,9 @@ pub struct MitsubaArguments {
     /// Folder to write into
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// Use materials of Mitsuba's own alone, with colours under D65 instead of spectra
+    #[arg(long)]
+    pub stock: bool,
     /// Memory that building the scene may take; the default is what the machine has free
     #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,

@@ -1,31 +1,96 @@
-//! `lamina export`: a scene for another renderer.
+//! `lamina export`: a scene, or a leaf, for another program.
 
 use std::path::Path;
 
-use crate::cli::arguments::{CacheArguments, MitsubaArguments};
-use crate::cli::building::{Building, load_scene};
+use crate::cli::arguments::{CacheArguments, GltfArguments, MitsubaArguments, SceneArguments};
+use crate::cli::building::{Building, load_scene, preset_of};
+use crate::cli::grow::unknown_preset;
 use crate::cli::needs;
-use crate::cli::places::check_writable;
+use crate::cli::places::{check_outputs, check_writable, require_ending, write_and_say};
 use crate::cli::signals::Signals;
-use crate::cli::terminal::{Failure, say};
+use crate::cli::terminal::{Failure, note, say, warn};
+use crate::export::gltf::{self, GltfError, GltfOptions};
 use crate::export::mitsuba::{self, ExportError};
+use crate::scene::description::Description;
+use crate::scene::load;
+use crate::scene::portrait::alone;
 
-pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
+pub(super) fn gltf(arguments: &GltfArguments) -> Result<(), Failure> {
+    let signals = Signals::listen()?;
+    require_ending([&arguments.out], "glb", "--out writes one binary glTF file")?;
+    check_outputs(
+        [&arguments.out],
+        std::slice::from_ref(&arguments.scene),
+        "the export",
+    )?;
+    let scene = scene_or_preset(&arguments.scene, &arguments.overrides)?;
+    needs::check_geometry(&scene, "export", arguments.memory)?;
+    let wavelengths = gltf::wavelengths();
+    let building = Building {
+        memory: arguments.memory,
+        cache: Some(&CacheArguments::USUAL),
+        wavelengths: Some(&wavelengths),
+    };
+    let world = building.world(&scene)?;
+    note(&world.notes);
+    let options = GltfOptions {
+        illuminant: arguments.illuminant,
+        texture: arguments.texture,
+        triangles: arguments.triangles,
+        cards: arguments.cards,
+        plain_nodes: arguments.plain_nodes,
+        one_face: arguments.one_face,
+    };
+    let (bytes, extent) = gltf::glb(&scene, &world, options).map_err(|error| match error {
+        GltfError::TooLarge(_) => Failure::bad(error),
+        GltfError::Image(_) => Failure::system(error),
+    })?;
+    signals.begin_work();
+    write_and_say(&arguments.out, bytes)?;
+    note([extent]);
+    Ok(())
+}
+
+/// The scene of a file, or one of a preset by itself.
+fn scene_or_preset(scene: &Path, overrides: &[String]) -> Result<Description, Failure> {
+    let Some(preset) = preset_of(scene) else {
+        let arguments = SceneArguments {
+            scene: scene.to_owned(),
+            overrides: overrides.to_owned(),
+        };
+        return Ok(load_scene(&arguments)?.description);
+    };
+    let text = alone(preset).ok_or_else(|| unknown_preset(preset))?;
+    let loaded = load::parse(&text, preset, Path::new("."), overrides)?;
+    warn(&loaded.warnings);
+    Ok(loaded.description)
+}
+
+pub(super) fn mitsuba(arguments: &MitsubaArguments) -> Result<(), Failure> {
     let signals = Signals::listen()?;
     check_folder(&arguments.out)?;
     let scene = load_scene(&arguments.scene)?.description;
     mitsuba::check(&scene).map_err(Failure::bad)?;
     needs::check_geometry(&scene, "export", arguments.memory)?;
+    let wavelengths = gltf::wavelengths();
     let building = Building {
         memory: arguments.memory,
         cache: Some(&CacheArguments::USUAL),
+        wavelengths: arguments.stock.then_some(&wavelengths),
         ..Building::default()
     };
     let world = building.world(&scene)?;
+    let write = if arguments.stock {
+        mitsuba::write_stock
+    } else {
+        mitsuba::write
+    };
     // What is begun is written to its end, or not at all.
     signals.begin_work();
-    mitsuba::write(&scene, &world, &arguments.out).map_err(|error| match error {
-        ExportError::Write { .. } | ExportError::Image(_) => Failure::system(error),
+    write(&scene, &world, &arguments.out).map_err(|error| match error {
+        ExportError::Write { .. } | ExportError::Image(_) | ExportError::Colours(_) => {
+            Failure::system(error)
+        }
         ExportError::Asset(_)
         | ExportError::Fluorescence
         | ExportError::Lens(_)
@@ -33,16 +98,20 @@ pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
         | ExportError::CameraInside
         | ExportError::Layers(_)
         | ExportError::Tangents(_)
+        | ExportError::Slots(_)
         | ExportError::NotOurs(_) => Failure::bad(error),
     })?;
     say(arguments.out.display());
+    if !arguments.stock {
+        note(["lamina.mitsuba.load of the Python package lamina-render[mitsuba] opens it"]);
+    }
     if world.objects.have_drops() {
         eprintln!(
             "note: under drops Mitsuba takes leaves as they are in air, so that they send out 1/eta² of their \
              light; Lamina does not"
         );
     }
-    let leaking = mitsuba::leaking(&scene, &world);
+    let leaking = mitsuba::leaking(&scene, &world, arguments.stock);
     if !leaking.is_empty() {
         eprintln!(
             "note: {} smooth and {} Mitsuba's own diffuse or dielectric BSDF, with which some light passes \

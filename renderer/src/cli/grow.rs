@@ -12,10 +12,11 @@ mod individuals;
 mod maps;
 mod outputs;
 
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use leafmodel::compound::{CompoundLeaf, StalkKind};
+use leafmodel::compound::{CompoundLeaf, StalkKind, WholeLeaf};
 use leafmodel::document::written::Extent;
 use leafmodel::leaf::{Lamina, LeafPlan};
 use leafmodel::measure::description::describe;
@@ -40,6 +41,8 @@ use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
 use crate::cli::terminal::{Failure, say};
 use crate::export::blade::{self, Parts};
+use crate::export::daylight::{colour_in_daylight, in_daylight};
+use crate::image::portable_network;
 
 pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     if arguments.list {
@@ -76,7 +79,7 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     if arguments.ages.is_some() {
         ages::check(&chosen.plan)?;
     }
-    let grown = grown_plan(arguments, &chosen.plan)?;
+    let grown = grown_plan(arguments, &outputs, &chosen.plan)?;
     if outputs.veins {
         check_memory(&grown, outputs.blade, arguments.memory)?;
     }
@@ -105,9 +108,39 @@ fn check_memory(plan: &LeafPlan, has_blade: bool, allowed: Option<f64>) -> Resul
     needs::compare("growth", &needs, allowed)
 }
 
+/// Writes the materials of an OBJ and their pictures beside it, and returns the name of their file.
+fn materials_beside(
+    path: &Path,
+    leaf: &WholeLeaf,
+    plan: &LeafPlan,
+    stop: &AtomicBool,
+) -> Result<String, Failure> {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let mut pictures = Vec::new();
+    for (number, blade) in leaf.blades.iter().enumerate() {
+        let name = format!("{stem}-blade-{}.png", number + 1);
+        let map = &blade.contents;
+        let rgb = in_daylight(map, &plan.pigments, None);
+        let png =
+            portable_network::encoded(map.width, map.height, &rgb).map_err(Failure::system)?;
+        finish(&path.with_file_name(&name), &png, stop)?;
+        pictures.push(name);
+    }
+    let stalks = leaf.stalk_contents(plan).map_err(Failure::bad)?;
+    let stalks = colour_in_daylight(&stalks, &plan.pigments);
+    let materials = path.with_extension("mtl");
+    finish(&materials, blade::mtl(&pictures, stalks).as_bytes(), stop)?;
+    Ok(format!("{stem}.mtl"))
+}
+
 /// What has to grow of a plan: its form alone where nothing of its contents is written.
-fn grown_plan(arguments: &GrowArguments, plan: &LeafPlan) -> Result<LeafPlan, Failure> {
-    if arguments.contents.is_some() && arguments.ages.is_none() {
+fn grown_plan(
+    arguments: &GrowArguments,
+    outputs: &Outputs,
+    plan: &LeafPlan,
+) -> Result<LeafPlan, Failure> {
+    let writes_contents = arguments.contents.is_some() && arguments.ages.is_none();
+    if writes_contents || outputs.show_colours() {
         Ok(plan.clone())
     } else {
         plan.form_alone().map_err(Failure::bad)
@@ -156,8 +189,16 @@ fn carry_out(
         let bytes = match *kind {
             Kind::Veins(format) => look.file(format, without_sources(outlines, all_veins), None)?,
             Kind::Ply | Kind::Obj => match &grown {
-                Grown::Whole(leaf) if *kind == Kind::Ply => blade::ply(&Parts::of(leaf)),
-                Grown::Whole(leaf) => blade::obj(&Parts::of(leaf)).into_bytes(),
+                Grown::Whole(leaf) => {
+                    let parts = Parts::of(leaf, arguments.units);
+                    eprintln!("{}: {}", path.display(), parts.extent());
+                    if *kind == Kind::Ply {
+                        blade::ply(&parts)
+                    } else {
+                        let materials = materials_beside(path, leaf, to_grow, stop)?;
+                        blade::obj(&parts, &materials).into_bytes()
+                    }
+                }
                 Grown::Flat { .. } => continue,
             },
             Kind::Film(_) | Kind::Mp4 | Kind::Toml => continue,

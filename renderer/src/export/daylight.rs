@@ -50,10 +50,19 @@ fn encoded(linear: f64) -> u8 {
     (255.0 * to_srgb(linear.clamp(0.0, 1.0))).round() as u8
 }
 
-/// The reflectance of each texel under D65 as sRGB, apex up, on white paper.
-pub(crate) fn in_daylight(map: &ContentsMap, pigments: &Pigments, outline: &Outline) -> Vec<u8> {
+/// sRGB of the light that tissue of these contents reflects under D65.
+pub(crate) fn colour_in_daylight(contents: &Contents, pigments: &Pigments) -> [u8; 3] {
+    Daylight::new(pigments).colour(contents)
+}
+
+/// The reflectance of each texel under D65 as sRGB, apex up; outside of an outline there is white paper.
+pub(crate) fn in_daylight(
+    map: &ContentsMap,
+    pigments: &Pigments,
+    outline: Option<&Outline>,
+) -> Vec<u8> {
     let daylight = Daylight::new(pigments);
-    let frame = UvFrame::around(outline.points());
+    let within = outline.map(|outline| (outline, UvFrame::around(outline.points())));
     let (width, height) = (map.width as usize, map.height as usize);
     let mut picture = vec![PAPER; 3 * width * height];
     let rows = picture.par_chunks_mut(3 * width).enumerate();
@@ -62,7 +71,10 @@ pub(crate) fn in_daylight(map: &ContentsMap, pigments: &Pigments, outline: &Outl
         let v = (row as f64 + 0.5) / height as f64;
         for (column, pixel) in pixels.chunks_exact_mut(3).enumerate() {
             let u = (column as f64 + 0.5) / width as f64;
-            if outline.contains(frame.point(DVec2::new(u, v))) {
+            let is_outside = within
+                .as_ref()
+                .is_some_and(|(outline, frame)| !outline.contains(frame.point(DVec2::new(u, v))));
+            if !is_outside {
                 let texel = map.texels[row * width + column];
                 let contents = Contents::from_texel(texel);
                 pixel.copy_from_slice(&daylight.colour(&contents));

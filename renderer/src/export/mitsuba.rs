@@ -13,6 +13,7 @@ mod media;
 mod mesh;
 mod sensor;
 mod shapes;
+mod stock;
 mod surroundings;
 mod xml;
 
@@ -24,6 +25,9 @@ use leafmodel::optics::{Constituent, Pigments, ProspectD};
 use serde_json::json;
 use thiserror::Error;
 
+pub(super) use self::bsdf::material_id;
+use self::stock::Stock;
+use super::gltf::GltfError;
 use crate::image::{ImageError, Layer, Picture, openexr};
 use crate::material::colour_map::ColourMap;
 use crate::material::contents_texture::ContentsTexture;
@@ -93,6 +97,14 @@ pub enum ExportError {
          plugin for Mitsuba has those of the texture coordinates; save the glTF file without tangents"
     )]
     Tangents(String),
+    /// A model of several materials, for which Mitsuba has no BSDF of its own; the material.
+    #[error(
+        "`{0}` is a model of several materials, which only the plugins have: leave --stock out"
+    )]
+    Slots(String),
+    /// A picture of a material cannot be made.
+    #[error(transparent)]
+    Colours(#[from] GltfError),
     /// The folder exists and holds something other than an export.
     #[error(
         "{0} exists and holds no lamina.json: name a new folder, or one that was exported before"
@@ -159,12 +171,12 @@ pub fn check(scene: &Description) -> Result<(), ExportError> {
 
 /// Names of the smooth objects whose material is a BSDF of Mitsuba's own: there light may pass a
 /// closed body, because the shading normal decides on which side of a triangle it is.
-pub fn leaking<'s>(scene: &'s Description, world: &World) -> Vec<&'s str> {
+pub fn leaking<'s>(scene: &'s Description, world: &World, are_stock: bool) -> Vec<&'s str> {
     let mut objects: Vec<usize> = (0..world.objects.len() as u32)
         .filter(|&number| {
             let mesh = world.geometry.mesh(world.geometry.instance(number).mesh);
             let object = world.objects[number as usize];
-            mesh.normals().is_some() && bsdf::is_stock(scene, world, object.material)
+            mesh.normals().is_some() && (are_stock || bsdf::is_stock(scene, world, object.material))
         })
         .map(|number| world.objects[number as usize].object)
         .collect();
@@ -198,6 +210,26 @@ fn with_tangents<'s>(scene: &'s Description, world: &World) -> Option<&'s str> {
 /// [`ExportError`] if the scene has a lens that Mitsuba lacks or a leaf that fluoresces, something
 /// cannot be written, or `dir` is a folder of another kind.
 pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), ExportError> {
+    write_with(scene, world, dir, None)
+}
+
+/// As [`write`] with materials of Mitsuba's own alone; the world has to be built with
+/// [`super::gltf::wavelengths`].
+///
+/// # Errors
+///
+/// As [`write`], and [`ExportError::Slots`].
+pub fn write_stock(scene: &Description, world: &World, dir: &Path) -> Result<(), ExportError> {
+    check_ours(dir)?;
+    write_with(scene, world, dir, Some(&Stock::of(scene, world)?))
+}
+
+fn write_with(
+    scene: &Description,
+    world: &World,
+    dir: &Path,
+    stock: Option<&Stock<'_>>,
+) -> Result<(), ExportError> {
     check(scene)?;
     if world.fluoresces {
         return Err(ExportError::Fluorescence);
@@ -225,7 +257,7 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
         .prefix(".lamina-export")
         .tempdir_in(parent)
         .map_err(at(parent))?;
-    fill(scene, world, folder.path())?;
+    fill(scene, world, folder.path(), stock)?;
     let new = folder.keep();
     if dir.exists() {
         fs::remove_dir_all(dir).map_err(at(dir))?;
@@ -233,7 +265,12 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
     fs::rename(&new, dir).map_err(at(dir))
 }
 
-fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportError> {
+fn fill(
+    scene: &Description,
+    world: &World,
+    folder: &Path,
+    stock: Option<&Stock<'_>>,
+) -> Result<(), ExportError> {
     let save = |name: &str, bytes: &[u8]| {
         let path = folder.join(name);
         fs::File::create(&path)
@@ -251,8 +288,16 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         }
         save(colours::BASIS, rgb::basis_text().as_bytes())
     };
-    for (number, material) in world.materials.iter().enumerate() {
-        let id = bsdf::material_id(scene, world, number);
+    for (name, bytes) in stock.into_iter().flat_map(Stock::pictures) {
+        save(&name, bytes)?;
+    }
+    let of_plugins = if stock.is_some() {
+        &[]
+    } else {
+        &world.materials[..]
+    };
+    for (number, material) in of_plugins.iter().enumerate() {
+        let id = material_id(scene, world, number);
         if let Some(map) = material.contents_map() {
             show(&format!("maps/{id}.exr"), &map_picture(map))?;
         }
@@ -283,12 +328,12 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
             show(&plugin::weights_file(&light.name), &picture)?;
         }
     }
-    for palette in world.palettes.iter() {
+    for palette in world.palettes.iter().filter(|_| stock.is_none()) {
         let table = absorption_table(palette.pigments());
         save(&absorption_file(palette), table.as_bytes())?;
     }
     let mut spectra = Spectra::default();
-    let (xml, meshes) = xml::scene(scene, world, &mut spectra);
+    let (xml, meshes) = xml::scene(scene, world, stock, &mut spectra);
     save("scene.xml", xml.as_bytes())?;
     for file in meshes {
         let mesh = world.geometry.mesh(file.mesh as u32);

@@ -26,6 +26,33 @@ pub fn portrait(preset: &str, stage: Stage) -> Option<String> {
     Some(of_plant(found.name, found.leaf?))
 }
 
+/// The text of a scene with nothing but a leaf or a plant by the name of its preset, for exports.
+pub fn alone(preset: &str) -> Option<String> {
+    let (name, blocks) = if let Some(found) = species::find(preset) {
+        let name = found.name;
+        (
+            name,
+            format!("[leaves.{name}]\npreset = \"{name}\"\n[objects.{name}]\nleaf = \"{name}\"\n"),
+        )
+    } else {
+        let found = plant::presets::find(preset)?;
+        (found.name, plant_blocks(found.name, found.leaf?))
+    };
+    Some(format!(
+        "format = 1\n[film.rgb]\nsize = [64, 64]\nspp = 1\n\
+         [camera.perspective]\nposition_m = [0, 0, 1]\nlook_at_m = [0, 0.001, 0]\nvertical_fov_deg = 30\nframe = \"{name}\"\n\
+         {blocks}[lights.sky.constant]\nradiance_w_m2_sr_nm = 1\n"
+    ))
+}
+
+/// A plant with its leaves.
+fn plant_blocks(preset: &str, leaf: &str) -> String {
+    format!(
+        "[leaves.leaf]\npreset = \"{leaf}\"\nmap_size = 768\n[plants.{preset}]\npreset = \"{preset}\"\nleaf = \"leaf\"\n\
+         [objects.{preset}]\nplant = \"{preset}\"\n"
+    )
+}
+
 fn of_leaf(preset: &str, length_m: f64, stage: Stage) -> String {
     let leaf = format!("[leaves.leaf]\npreset = \"{preset}\"\nmap_size = 2048\n");
     let whole = match stage {
@@ -67,16 +94,14 @@ fn of_leaf(preset: &str, length_m: f64, stage: Stage) -> String {
     format!("format = 1\n[film.rgb]\nsize = [750, 1000]\nspp = 128\n{leaf}{whole}")
 }
 
-/// Out of doors: a bough before an overcast sky.
+/// A bough below an overcast sky.
 fn of_plant(preset: &str, leaf: &str) -> String {
     format!(
         "format = 1\n[film.rgb]\nsize = [1000, 1000]\nspp = 128\n\
          [picture]\ntone = \"agx\"\nauto_exposure = true\n\
          [camera.perspective]\nposition_m = [1, -0.35, 0.15]\nlook_at_m = [0, 0, 0]\nfocal_length_mm = 85\nf_number = 8\n\
-         frame = \"plant\"\n\
-         [leaves.leaf]\npreset = \"{leaf}\"\nmap_size = 768\n\
-         [plants.plant]\npreset = \"{preset}\"\nleaf = \"leaf\"\n\
-         [objects.plant]\nplant = \"plant\"\n\
-         [lights.day.rig]\npreset = \"overcast\"\n"
+         frame = \"{preset}\"\n{}\
+         [lights.day.rig]\npreset = \"overcast\"\n",
+        plant_blocks(preset, leaf)
     )
 }

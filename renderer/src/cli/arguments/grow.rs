@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::numbers::{MOST_GIB, between, number};
+use crate::export::blade::LengthUnit;
 
 /// Examples of the command.
 pub(super) const EXAMPLES: &str = "\
@@ -64,9 +65,12 @@ pub struct GrowArguments {
     #[arg(short = 'D', value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
     /// Files to write, their kind by their ending: svg, png, json, graphml, geojson, csv (veins),
-    /// gif, apng, mp4 (films, with --frames or --ages), ply, obj (blade), toml (plan)
+    /// gif, apng, mp4 (films, with --frames or --ages), ply, obj (blade; obj with mtl and pictures beside it), toml (plan)
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub out: Vec<PathBuf>,
+    /// Unit of lengths in ply and obj
+    #[arg(long, value_name = "UNIT", value_enum, default_value_t)]
+    pub units: LengthUnit,
     /// Write every number of the plan into a toml, not only what differs from the preset
     #[arg(long)]
     pub full: bool,

@@ -48,6 +48,13 @@ pub(super) fn two_numbers(text: &str, wanted: &str) -> Result<[f64; 2], String> 
     pair.ok_or_else(|| wanted.to_owned())
 }
 
+/// A side of a texture.
+pub(super) fn power_of_two(text: &str) -> Result<u32, String> {
+    let side = text.parse().ok();
+    let side = side.filter(|side: &u32| side.is_power_of_two() && (16..=8192).contains(side));
+    side.ok_or_else(|| "write a power of two from 16 to 8192: 1024".to_owned())
+}
+
 /// Numbers of samples of a pixel.
 pub(super) fn samples() -> clap::builder::RangedI64ValueParser<u32> {
     clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES))

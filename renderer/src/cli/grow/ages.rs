@@ -110,7 +110,7 @@ pub(super) fn write(
             let picture = Drawing {
                 width: map.width,
                 height: map.height,
-                rgb: in_daylight(&map, &plan.pigments, lamina.intact()),
+                rgb: in_daylight(&map, &plan.pigments, Some(lamina.intact())),
             };
             let across = UvFrame::around(lamina.intact().points()).size.x;
             let notes = [

@@ -8,7 +8,7 @@ use leafmodel::leaf::{Lamina, Leaf, LeafError, LeafPlan};
 
 use crate::cli::signals;
 use crate::cli::terminal::Failure;
-use crate::export::blade::Parts;
+use crate::export::blade::{LengthUnit, Parts};
 use crate::report::warnings;
 
 /// The parts of a leaf that the outputs need.
@@ -93,7 +93,7 @@ impl Grown {
     pub(super) fn triangles(&self) -> Option<usize> {
         match self {
             Self::Flat { .. } => None,
-            Self::Whole(leaf) => Some(Parts::of(leaf).triangles()),
+            Self::Whole(leaf) => Some(Parts::of(leaf, LengthUnit::default()).triangles()),
         }
     }
 }

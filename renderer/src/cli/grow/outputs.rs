@@ -103,11 +103,15 @@ impl Outputs {
                 "--frames needs an --out that shows veins: svg, png, json, graphml, geojson, csv, gif, apng or mp4"
             );
         }
+        let is_obj = |path: &&PathBuf| Kind::of(path).is_ok_and(|kind| kind == Kind::Obj);
+        let materials = arguments.out.iter().filter(is_obj);
+        let materials: Vec<_> = materials.map(|path| path.with_extension("mtl")).collect();
         let reports = [&arguments.measure, &arguments.stats, &arguments.fields];
         let reports = reports.into_iter().flatten();
         let what = "--fields writes a texture with float channels";
         require_ending(&arguments.fields, "exr", what)?;
-        check_outputs(arguments.out.iter().chain(reports), &[], "the command")?;
+        let named = arguments.out.iter().chain(&materials);
+        check_outputs(named.chain(reports), &[], "the command")?;
         if let Some(folder) = &arguments.contents {
             check_folder(folder)?;
         }
@@ -128,6 +132,11 @@ impl Outputs {
 }
 
 impl Outputs {
+    /// Whether the blade is painted for an output.
+    pub(super) fn show_colours(&self) -> bool {
+        self.whole.iter().any(|(_, kind)| *kind == Kind::Obj)
+    }
+
     /// Whether no output depends on the contents of the leaf.
     pub(super) fn show_only_veins(&self, arguments: &GrowArguments) -> bool {
         let has_plan = self.whole.iter().any(|(_, kind)| *kind == Kind::Toml);

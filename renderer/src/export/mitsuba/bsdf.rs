@@ -69,7 +69,7 @@ pub(super) fn bsdf(
 
 /// Name of a material in the export: the scene's, or that of a grown leaf, whose further parts are
 /// numbered from 2.
-pub(super) fn material_id(scene: &Description, world: &World, number: usize) -> String {
+pub(in crate::export) fn material_id(scene: &Description, world: &World, number: usize) -> String {
     match world.owners[number] {
         MaterialOwner::Scene(material) => format!("material-{}", scene.materials[material].name),
         MaterialOwner::Leaf { leaf, part: 0 } => format!("leaf-{}", scene.leaves[leaf].name),

@@ -621,5 +621,5 @@ reflectance = 0.5
         );
     }
     let (scene, world) = scene_with(&blocks, folder.path());
-    assert_eq!(leaking(&scene, &world), ["painted", "clear"]);
+    assert_eq!(leaking(&scene, &world, false), ["painted", "clear"]);
 }

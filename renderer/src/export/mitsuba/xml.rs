@@ -6,11 +6,12 @@ use crate::plugin::element::{Document, Element};
 use crate::scene::description::Description;
 use crate::scene::world::World;
 
-use super::bsdf::bsdf;
+use super::bsdf::{bsdf, material_id};
 use super::emitter::emitter;
 use super::media::media;
 use super::sensor::sensor;
 use super::shapes::{self, MeshFile};
+use super::stock::Stock;
 use super::surroundings;
 use crate::plugin::spectra::Spectra;
 
@@ -19,6 +20,7 @@ use crate::plugin::spectra::Spectra;
 pub(super) fn scene(
     scene: &Description,
     world: &World,
+    stock: Option<&Stock<'_>>,
     spectra: &mut Spectra,
 ) -> (String, BTreeSet<MeshFile>) {
     let root = Element::new("scene").with("version", "3.0.0");
@@ -26,7 +28,9 @@ pub(super) fn scene(
     document.add(&integrator(scene, world.media.are_present));
     document.add(&sensor(scene, &world.view));
     for number in 0..world.materials.len() {
-        document.add(&bsdf(scene, world, number, spectra));
+        let id = material_id(scene, world, number);
+        let own = stock.and_then(|stock| stock.bsdf(number, &id));
+        document.add(&own.unwrap_or_else(|| bsdf(scene, world, number, spectra)));
     }
     for medium in media(scene, spectra) {
         document.add(&medium);

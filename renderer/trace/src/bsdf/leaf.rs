@@ -109,6 +109,20 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
         self.seen_from(wo).map_or(0.0, |view| view.scatter(wi).pdf)
     }
 
+    /// The adaxial and the abaxial coat.
+    pub fn coats(&self) -> &'a [Coat; 2] {
+        self.coats
+    }
+
+    /// Fractions of light along the normal of a face (0 adaxial, 1 abaxial) that the tissue sends
+    /// back and lets through, once it has passed the coat.
+    pub fn below_coat(&self, face: usize) -> [Lanes<N>; 2] {
+        let coats = [&self.coats[face], &self.coats[1 - face]].map(Coat::passed);
+        let x = slant(1.0);
+        let seen = self.tissue.seen(self.shape, face, coats.each_ref(), x, 1.0);
+        seen.shares
+    }
+
     /// Samples a direction; lobes are chosen in proportion to the light that they scatter.
     pub fn sample(&self, wo: Vec3, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
         self.seen_from(wo)?.sample(lobe, u)

@@ -79,6 +79,16 @@ pub enum LeafTissue {
     },
 }
 
+impl LeafTissue {
+    /// The map of its contents, if it has one.
+    pub fn map(&self) -> Option<&ContentsTexture> {
+        match self {
+            Self::Held(Held::Map(map)) => Some(map),
+            Self::Held(Held::Uniform(_)) | Self::Measured { .. } => None,
+        }
+    }
+}
+
 /// What is known of the abaxial face.
 #[derive(Clone, Debug)]
 pub enum Abaxial {
@@ -294,6 +304,22 @@ impl LeafMaterial {
         LeafBsdf::new(self.outer_coats(), shape, tissue)
     }
 
+    /// The BSDF of the whole leaf at texture coordinates `uv`, of which this may be one face with half
+    /// of the tissue.
+    pub fn whole_bsdf<const N: usize>(
+        &self,
+        uv: Vec2,
+        wavelengths: &Wavelengths<N>,
+    ) -> LeafBsdf<'_, N> {
+        let tissue = self.palette.level().run(TissueAt {
+            leaf: self,
+            half: None,
+            site: &self.site(uv, wavelengths),
+            wavelengths,
+        });
+        LeafBsdf::new(&self.coats, &self.shape, tissue)
+    }
+
     pub(super) fn tissue_at<const N: usize>(
         &self,
         uv: Vec2,
@@ -306,6 +332,7 @@ impl LeafMaterial {
     fn tissue_of<const N: usize>(&self, site: &Site<N>, wavelengths: &Wavelengths<N>) -> Tissue<N> {
         self.palette.level().run(TissueAt {
             leaf: self,
+            half: self.half.as_ref(),
             site,
             wavelengths,
         })
@@ -367,6 +394,8 @@ impl<const N: usize> Task for Approach<'_, N> {
 /// The tissue of a leaf at a site.
 struct TissueAt<'a, const N: usize> {
     leaf: &'a LeafMaterial,
+    /// The face with half of the tissue that is meant, if it is not the whole leaf.
+    half: Option<&'a Half>,
     site: &'a Site<N>,
     wavelengths: &'a Wavelengths<N>,
 }
@@ -378,6 +407,7 @@ impl<const N: usize> Task for TissueAt<'_, N> {
     fn run<E: Sixteen>(self, _: E) -> Tissue<N> {
         let Self {
             leaf,
+            half,
             site: Site { uv, spreading, .. },
             wavelengths,
         } = self;
@@ -417,7 +447,7 @@ impl<const N: usize> Task for TissueAt<'_, N> {
         if let Some(through) = through {
             tissue = tissue.passing(&leaf.coats, through);
         }
-        match &leaf.half {
+        match half {
             Some(half) => tissue.half(&leaf.coats, half.face),
             None => tissue,
         }

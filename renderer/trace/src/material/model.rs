@@ -78,6 +78,11 @@ impl ModelMaterial {
         &self.colours
     }
 
+    /// For each slot of the colours what its material says besides.
+    pub fn finishes(&self) -> &[Finish] {
+        &self.finishes
+    }
+
     /// Roughness and metal of all slots as a map of which they are green and blue, and the normals as
     /// stored.
     pub fn finish_maps(&self) -> [ColourMap; 2] {
