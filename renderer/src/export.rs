@@ -46,6 +46,7 @@ pub mod caption;
 pub(crate) mod daylight;
 pub mod drawing;
 pub mod gltf;
+mod material_id;
 pub mod mitsuba;
 pub mod overlay;
 pub(crate) mod sheet;

@@ -77,7 +77,6 @@ pub(super) fn mitsuba(arguments: &MitsubaArguments) -> Result<(), Failure> {
         memory: arguments.memory,
         cache: Some(&CacheArguments::USUAL),
         wavelengths: arguments.stock.then_some(&wavelengths),
-        ..Building::default()
     };
     let world = building.world(&scene)?;
     let write = if arguments.stock {

@@ -13,6 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DMat4, DVec3};
 
+use crate::export::material_id::material_id;
 use crate::plugin::element::{Document, Element, Layout};
 use crate::plugin::spectra::Spectra;
 use crate::plugin::{UNITS_PER_METRE, matrix};
@@ -20,7 +21,6 @@ use crate::scene::description::{Description, Object, ObjectShape};
 use crate::scene::plants::Piece;
 use crate::scene::world::World;
 
-use super::bsdf::material_id;
 use super::{emitter, media};
 
 /// A mesh of the world, or its mirror image in x.

@@ -6,9 +6,10 @@
 
 use std::collections::BTreeMap;
 
-use super::ExportError;
-use super::bsdf::{is_stock, material_id};
+use super::bsdf::is_stock;
+use super::error::ExportError;
 use crate::export::gltf::{Arrangement, Finish, Illuminant, Surface, surfaces_of};
+use crate::export::material_id::material_id;
 use crate::material::colour_map::Wrap;
 use crate::plugin::element::Element;
 use crate::scene::description::Description;

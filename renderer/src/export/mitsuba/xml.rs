@@ -2,11 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use crate::export::material_id::material_id;
 use crate::plugin::element::{Document, Element};
 use crate::scene::description::Description;
 use crate::scene::world::World;
 
-use super::bsdf::{bsdf, material_id};
+use super::bsdf::bsdf;
 use super::emitter::emitter;
 use super::media::media;
 use super::sensor::sensor;
