@@ -245,7 +245,7 @@ impl World {
         // Lamps stand in one place each, and these come first.
         for number in 0..traced.objects.len().min(objects.len()) {
             if let Some(light) = traced.objects[number].light {
-                objects.shine(number, light as usize);
+                objects.shine(number, light);
             }
         }
         traced.geometry = traced

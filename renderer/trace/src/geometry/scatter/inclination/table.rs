@@ -75,7 +75,9 @@ impl InclinationTable {
         if !(total > 0.0 && total.is_finite()) {
             return Err(BadInclinations::Empty);
         }
-        below.iter_mut().for_each(|share| *share /= total);
+        for share in &mut below {
+            *share /= total;
+        }
         Ok(Self {
             points,
             below,
