@@ -28,14 +28,16 @@ fn text_of(name: &str) -> String {
     fs::read_to_string(own_folder().join(name)).expect("the test's own file is there")
 }
 
-/// Responses of sensors, a reflectance, and tables of specific absorption: a sound one, one that ends too early, and one
-/// below 0.
-fn tables_of_spectra() -> [(&'static str, String); 6] {
+/// Inclinations of leaves, responses of sensors, a reflectance, and tables of specific absorption: a sound one, one that ends
+/// too early, and one below 0.
+fn tables() -> [(&'static str, String); 7] {
     let with = |rows: &str| format!("wavelength_nm,absorption_cm2_per_ug\n{rows}");
+    let inclined = "density;inclination_deg\n0,5;0\n2;45\n1;90\n";
     let sensor = "nm,red,far\n600,0,0\n650,1,0\n700,0,0.5\n2600,0,0.1\n";
     let multispectral = "nm,red\n600,0\n650,1\n700,0\n";
     let paper = "wavelength_nm,percent\n380,70\n800,90\n";
     [
+        ("angles.csv", inclined.to_owned()),
         ("sensor.csv", sensor.to_owned()),
         ("multispectral.csv", multispectral.to_owned()),
         ("paper.csv", paper.to_owned()),
@@ -66,7 +68,7 @@ fn folder() -> TempDir {
         "camera.csv",
         "wavelength_nm,r,g,b\n400,0,0.1,0.8\n410,0,-0.02,0.9\n420,0,0.2,1\n",
     );
-    for (name, table) in tables_of_spectra() {
+    for (name, table) in tables() {
         write(name, &table);
     }
     write(
@@ -94,7 +96,6 @@ fn folder() -> TempDir {
         "quoted.csv",
         "\"x_m\",\"y_m\",\"z_m\",\"rotate_z_deg\",\"scale\",\"shape\"\n0,0,0,0,1,\"floor\"\n\"1\",2,3,90,0.5,\"ball\"\n",
     );
-    write("angles.csv", "density;inclination_deg\n0,5;0\n2;45\n1;90\n");
     write("no_header.csv", "0, 0, 0\n");
     write("no_rows.csv", "x_m, y_m, z_m\n# to come\n");
     write(

@@ -81,11 +81,11 @@ fn a_compass_bearing_is_an_azimuth_clockwise_from_plus_y() {
         |overrides: &[&str]| accept(&text_of("whole.toml"), "whole.toml", overrides).description;
     let sun_of = |overrides: &[&str]| {
         let lights = scene(overrides).lights;
-        let mut suns = lights.iter().filter_map(|light| match &light.value {
-            Light::Daylight(day) => Some(day.towards_sun()),
-            _ => None,
-        });
-        suns.next().expect("there is daylight")
+        let noon = lights.iter().find(|light| light.name == "noon");
+        let Some(Light::Daylight(day)) = noon.map(|noon| &noon.value) else {
+            panic!("{noon:?}");
+        };
+        day.towards_sun()
     };
     // The example of Reda and Andreas (2004): 194.340° from north over east, 50.11° from the zenith.
     let by_time = [
