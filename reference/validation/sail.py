@@ -134,9 +134,9 @@ def main() -> None:
     heads = [f"{zenith:.0f}°, {azimuth:.0f}°" for zenith, azimuth in VIEWS]
     text = [
         "<!-- Written by reference/run sail. -->\n",
-        "Bidirectional reflectance factor by zenith of the view and azimuth from the sun, exact, and how\n"
-        "far 4SAIL is off, percent. Over black soil, the second number is that of light scattered once\n"
-        "and the third that of the rest.\n",
+        "Bidirectional reflectance factor by zenith of the view and azimuth from the sun, exact,\n"
+        "and how far 4SAIL is off, percent. Over black soil, the second number is that of light\n"
+        "scattered once and the third that of the rest.\n",
     ]
     for name, (r, t, soil) in CASES.items():
         text.append(f"## {name}: R {r}, T {t}, soil {soil}\n")
