@@ -47,6 +47,7 @@ pub(crate) mod daylight;
 pub mod drawing;
 pub mod gltf;
 pub mod mitsuba;
+mod names;
 pub mod overlay;
 pub(crate) mod sheet;
 pub(crate) mod veins;

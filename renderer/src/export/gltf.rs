@@ -10,6 +10,7 @@
 mod coarse;
 mod colours;
 mod document;
+mod error;
 mod mesh;
 mod places;
 mod surface;
@@ -21,36 +22,21 @@ use std::fmt;
 use glam::{DAffine3, DVec3, Mat3, Vec2};
 use rayon::prelude::*;
 use serde_json::json;
-use thiserror::Error;
 
 use self::colours::Colorimetry;
 pub use self::colours::{Illuminant, wavelengths};
 use self::document::GltfDocument;
+pub use self::error::GltfError;
 use self::mesh::Dressing;
 use self::places::MeshPlace;
 pub(super) use self::surface::{Arrangement, Finish, Surface};
 use self::surface::{Blade, Observation};
-use super::mitsuba::material_id;
+use super::names::material_id;
 use crate::geometry::TriangleMesh;
-use crate::image::ImageError;
 use crate::material::Material;
 use crate::material::leaf::LeafMaterial;
 use crate::scene::description::Description;
 use crate::scene::world::{MaterialOwner, World};
-
-/// Why there is no file.
-#[derive(Debug, Error)]
-pub enum GltfError {
-    /// More bytes than the numbers of a `.glb` file hold.
-    #[error(
-        "the file would have {0} bytes, and a .glb file has 4294967295 at most: ask for smaller textures \
-         or fewer triangles"
-    )]
-    TooLarge(usize),
-    /// A texture cannot be made.
-    #[error(transparent)]
-    Image(#[from] ImageError),
-}
 
 /// What the file should be like.
 #[derive(Clone, Copy, Debug)]

@@ -25,9 +25,9 @@ use leafmodel::optics::{Constituent, Pigments, ProspectD};
 use serde_json::json;
 use thiserror::Error;
 
-pub(super) use self::bsdf::material_id;
 use self::stock::Stock;
-use super::gltf::GltfError;
+pub use self::stock::StockError;
+use crate::export::names::material_id;
 use crate::image::{ImageError, Layer, Picture, openexr};
 use crate::material::colour_map::ColourMap;
 use crate::material::contents_texture::ContentsTexture;
@@ -97,14 +97,9 @@ pub enum ExportError {
          plugin for Mitsuba has those of the texture coordinates; save the glTF file without tangents"
     )]
     Tangents(String),
-    /// A model of several materials, for which Mitsuba has no BSDF of its own; the material.
-    #[error(
-        "`{0}` is a model of several materials, which only the plugins have: leave --stock out"
-    )]
-    Slots(String),
-    /// A picture of a material cannot be made.
+    /// Mitsuba's own materials cannot show one of the scene's.
     #[error(transparent)]
-    Colours(#[from] GltfError),
+    Stock(#[from] StockError),
     /// The folder exists and holds something other than an export.
     #[error(
         "{0} exists and holds no lamina.json: name a new folder, or one that was exported before"
@@ -218,7 +213,7 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
 ///
 /// # Errors
 ///
-/// As [`write`], and [`ExportError::Slots`].
+/// As [`write`], and [`ExportError::Stock`].
 pub fn write_stock(scene: &Description, world: &World, dir: &Path) -> Result<(), ExportError> {
     check_ours(dir)?;
     write_with(scene, world, dir, Some(&Stock::of(scene, world)?))

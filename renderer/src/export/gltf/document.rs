@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde_json::{Map, Value, json};
 
-use super::GltfError;
+use super::error::GltfError;
 use crate::checkpoint::PROGRAM;
 
 /// Numbers of glTF for a component of 16 and 32 bits and for a float.

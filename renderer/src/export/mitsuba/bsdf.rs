@@ -1,5 +1,6 @@
 //! Materials.
 
+use crate::export::names::material_id;
 use crate::plugin::element::Element;
 use crate::plugin::spectra::Spectra;
 use crate::plugin::surface::Exported;
@@ -64,19 +65,5 @@ pub(super) fn bsdf(
             solid.optics.plugin(solid.extrapolate, &surface)
         }
         MaterialOwner::Scene(number) => scene.materials[number].value.plugin(&mut surface),
-    }
-}
-
-/// Name of a material in the export: the scene's, or that of a grown leaf, whose further parts are
-/// numbered from 2.
-pub(in crate::export) fn material_id(scene: &Description, world: &World, number: usize) -> String {
-    match world.owners[number] {
-        MaterialOwner::Scene(material) => format!("material-{}", scene.materials[material].name),
-        MaterialOwner::Leaf { leaf, part: 0 } => format!("leaf-{}", scene.leaves[leaf].name),
-        MaterialOwner::Leaf { leaf, part } => {
-            // No name in a scene contains a point.
-            format!("leaf-{}.{}", scene.leaves[leaf].name, part + 1)
-        }
-        MaterialOwner::Solid(solid) => format!("solid-{}", scene.solids[solid].name),
     }
 }

@@ -20,8 +20,8 @@ use crate::scene::description::{Description, Object, ObjectShape};
 use crate::scene::plants::Piece;
 use crate::scene::world::World;
 
-use super::bsdf::material_id;
 use super::{emitter, media};
+use crate::export::names::material_id;
 
 /// A mesh of the world, or its mirror image in x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

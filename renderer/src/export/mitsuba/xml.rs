@@ -6,13 +6,14 @@ use crate::plugin::element::{Document, Element};
 use crate::scene::description::Description;
 use crate::scene::world::World;
 
-use super::bsdf::{bsdf, material_id};
+use super::bsdf::bsdf;
 use super::emitter::emitter;
 use super::media::media;
 use super::sensor::sensor;
 use super::shapes::{self, MeshFile};
 use super::stock::Stock;
 use super::surroundings;
+use crate::export::names::material_id;
 use crate::plugin::spectra::Spectra;
 
 /// The text of `scene.xml`, and the meshes that it uses; spectra that go into files are added to
