@@ -92,14 +92,14 @@ def grow(
     """
     with tempfile.TemporaryDirectory() as folder:
         network, measures = Path(folder, "leaf.json"), Path(folder, "measures.json")
-        blade = Path(folder, "leaf.obj")
+        blade = Path(folder, "leaf.ply")
         files = [str(network), *([str(blade)] if mesh else [])]
         run(
             ["grow", str(leaf), *overrides("--set", values), *allowing(allow)]
-            + ["--out", *files, "--units", "mm", "--measure", str(measures)]
+            + ["--out", *files, "--measure", str(measures)]
         )
         measured = json.loads(measures.read_text(encoding="utf-8"))
-        vertices, faces = obj(blade) if mesh else (None, None)
+        vertices, faces = mesh_of(blade) if mesh else (None, None)
         return leaf_of(network, measured, vertices, faces)
 
 
@@ -161,13 +161,14 @@ def numbers_of(measures: str) -> dict[str, float]:
     return numbers
 
 
-def obj(file: Path) -> tuple[Array, NDArray[np.int64]]:
-    """Vertices (m) and triangles of the OBJ that the program writes, which has millimetres."""
-    vertices, faces = [], []
-    for line in file.read_text(encoding="utf-8").splitlines():
-        kind, *words = line.split() or [""]
-        if kind == "v":
-            vertices.append([float(word) for word in words[:3]])
-        elif kind == "f":
-            faces.append([int(word.partition("/")[0]) - 1 for word in words])
-    return np.asarray(vertices, float) / 1000, np.asarray(faces, np.int64)
+def mesh_of(file: Path) -> tuple[Array, NDArray[np.int64]]:
+    """Vertices (m) and triangles of the PLY that the program writes."""
+    data = file.read_bytes()
+    head, _, _ = data.partition(b"end_header\n")
+    counts = [int(line.split()[2]) for line in head.splitlines() if line.startswith(b"element")]
+    floats = head.count(b"property float")
+    start = len(head) + len(b"end_header\n")
+    vertices = np.frombuffer(data, "<f4", counts[0] * floats, start).reshape(-1, floats)
+    face = np.dtype([("corners", "u1"), ("vertices", "<i4", 3), ("part", "u1")])
+    faces = np.frombuffer(data, face, counts[1], start + vertices.nbytes)
+    return vertices[:, :3].astype(float), faces["vertices"].astype(np.int64)

@@ -87,9 +87,7 @@ pub(super) fn mitsuba(arguments: &MitsubaArguments) -> Result<(), Failure> {
     // What is begun is written to its end, or not at all.
     signals.begin_work();
     write(&scene, &world, &arguments.out).map_err(|error| match error {
-        ExportError::Write { .. } | ExportError::Image(_) | ExportError::Colours(_) => {
-            Failure::system(error)
-        }
+        ExportError::Write { .. } | ExportError::Image(_) => Failure::system(error),
         ExportError::Asset(_)
         | ExportError::Fluorescence
         | ExportError::Lens(_)
@@ -97,7 +95,7 @@ pub(super) fn mitsuba(arguments: &MitsubaArguments) -> Result<(), Failure> {
         | ExportError::CameraInside
         | ExportError::Layers(_)
         | ExportError::Tangents(_)
-        | ExportError::Slots(_)
+        | ExportError::Stock(_)
         | ExportError::NotOurs(_) => Failure::bad(error),
     })?;
     say(arguments.out.display());

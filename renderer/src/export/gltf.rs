@@ -31,7 +31,7 @@ use self::mesh::Dressing;
 use self::places::MeshPlace;
 pub(super) use self::surface::{Arrangement, Finish, Surface};
 use self::surface::{Blade, Observation};
-use super::material_id::material_id;
+use super::names::material_id;
 use crate::geometry::TriangleMesh;
 use crate::material::Material;
 use crate::material::leaf::LeafMaterial;

@@ -9,7 +9,6 @@
 
 mod bsdf;
 mod emitter;
-mod error;
 mod media;
 mod mesh;
 mod sensor;
@@ -20,15 +19,16 @@ mod xml;
 
 use std::fs;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use leafmodel::optics::{Constituent, Pigments, ProspectD};
 use serde_json::json;
+use thiserror::Error;
 
-pub use self::error::ExportError;
 use self::stock::Stock;
-use super::material_id::material_id;
-use crate::image::{Layer, Picture, openexr};
+pub use self::stock::StockError;
+use crate::export::names::material_id;
+use crate::image::{ImageError, Layer, Picture, openexr};
 use crate::material::colour_map::ColourMap;
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::relief::Relief;
@@ -36,10 +36,76 @@ use crate::plugin::emitter::Emitter;
 use crate::plugin::spectra::Spectra;
 use crate::plugin::surface::{absorption_file, relief_file};
 use crate::plugin::{self, colours};
-use crate::scene::assets;
+use crate::scene::assets::{self, AssetError};
 use crate::scene::description::Description;
 use crate::scene::world::World;
 use crate::spectrum::rgb;
+
+/// Why a scene could not be exported.
+#[derive(Debug, Error)]
+pub enum ExportError {
+    /// The folder or a file in it cannot be written.
+    #[error("{path}: {source}")]
+    Write {
+        /// The file or folder that was being written.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// A map cannot be written.
+    #[error(transparent)]
+    Image(#[from] ImageError),
+    /// The picture of a light cannot be read any more.
+    #[error(transparent)]
+    Asset(#[from] AssetError),
+    /// Light that changes its wavelength.
+    #[error(
+        "a leaf fluoresces, which cannot be exported: Mitsuba's light keeps its wavelength; leave \
+         `fluorescence` out"
+    )]
+    Fluorescence,
+    /// A lens that Mitsuba does not have; the key that says so.
+    #[error(
+        "camera.perspective.{0} cannot be exported: Mitsuba's thin lens is round, open over the \
+         whole picture and parallel to the film; leave the key out"
+    )]
+    Lens(&'static str),
+    /// Bodies within each other.
+    #[error(
+        "the objects `{first}` and `{second}` are transparent bodies that touch or lie within each \
+         other, of which one holds a medium or has the index of air: Mitsuba must be told what is \
+         around the inner one, and a scene does not say so; move them apart"
+    )]
+    Nested {
+        /// Name of an object.
+        first: String,
+        /// Name of the other.
+        second: String,
+    },
+    /// The camera stands in a medium.
+    #[error("the camera stands within a transparent body: move it out, to export the scene")]
+    CameraInside,
+    /// A leaf whose inside is followed; the block that says so.
+    #[error(
+        "{0}.optics = \"layers\" cannot be exported: Mitsuba follows no light through a leaf of \
+         layers; write \"plates\""
+    )]
+    Layers(String),
+    /// Tangents for a map of normals; the object that has them.
+    #[error(
+        "the object `{0}` has a map of normals with tangents of its file, which cannot be exported: the \
+         plugin for Mitsuba has those of the texture coordinates; save the glTF file without tangents"
+    )]
+    Tangents(String),
+    /// Mitsuba's own materials cannot show one of the scene's.
+    #[error(transparent)]
+    Stock(#[from] StockError),
+    /// The folder exists and holds something other than an export.
+    #[error(
+        "{0} exists and holds no lamina.json: name a new folder, or one that was exported before"
+    )]
+    NotOurs(PathBuf),
+}
 
 /// PROSPECT-D's table with its notice, with the columns of these pigments and additional columns
 /// for the absorption of betalains.
@@ -147,7 +213,7 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
 ///
 /// # Errors
 ///
-/// As [`write`], and [`ExportError::Slots`].
+/// As [`write`], and [`ExportError::Stock`].
 pub fn write_stock(scene: &Description, world: &World, dir: &Path) -> Result<(), ExportError> {
     check_ours(dir)?;
     write_with(scene, world, dir, Some(&Stock::of(scene, world)?))

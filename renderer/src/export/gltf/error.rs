@@ -1,4 +1,4 @@
-//! Why a scene is no glTF file.
+//! Errors of glTF files.
 
 use thiserror::Error;
 

@@ -1,6 +1,6 @@
 //! Materials.
 
-use crate::export::material_id::material_id;
+use crate::export::names::material_id;
 use crate::plugin::element::Element;
 use crate::plugin::spectra::Spectra;
 use crate::plugin::surface::Exported;

@@ -13,7 +13,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DMat4, DVec3};
 
-use crate::export::material_id::material_id;
 use crate::plugin::element::{Document, Element, Layout};
 use crate::plugin::spectra::Spectra;
 use crate::plugin::{UNITS_PER_METRE, matrix};
@@ -22,6 +21,7 @@ use crate::scene::plants::Piece;
 use crate::scene::world::World;
 
 use super::{emitter, media};
+use crate::export::names::material_id;
 
 /// A mesh of the world, or its mirror image in x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,19 +1,33 @@
 //! Materials of Mitsuba's own alone, in the colours that glTF gets.
 //!
-//! A blade is a `blendbsdf` of what its two faces send back (`twosided` of two `roughplastic`) and of what it
-//! lets through (`principledthin`), all else a `roughplastic`, a `diffuse` or a `principled`. Relief and the
-//! direction of stretched highlights are left out.
+//! A blade is a `blendbsdf` of what its two faces send back (`twosided` of two `principled`) and of what it
+//! lets through (`principledthin`), all else a `principled` or a `diffuse`. Relief and the direction of stretched
+//! highlights are left out. A `roughplastic` would lose up to half of what the body below a rough coat sends back.
 
 use std::collections::BTreeMap;
 
+use thiserror::Error;
+
 use super::bsdf::is_stock;
-use super::error::ExportError;
-use crate::export::gltf::{Arrangement, Finish, Illuminant, Surface, surfaces_of};
-use crate::export::material_id::material_id;
+use crate::export::gltf::{Arrangement, Finish, GltfError, Illuminant, Surface, surfaces_of};
+use crate::export::names::material_id;
 use crate::material::colour_map::Wrap;
 use crate::plugin::element::Element;
 use crate::scene::description::Description;
 use crate::scene::world::World;
+
+/// Why materials of Mitsuba's own cannot show a scene.
+#[derive(Debug, Error)]
+pub enum StockError {
+    /// A model of several materials; the scene's material.
+    #[error(
+        "`{0}` is a model of several materials, which only the plugins have: leave --stock out"
+    )]
+    Slots(String),
+    /// The pictures of a material cannot be made.
+    #[error(transparent)]
+    Colours(#[from] GltfError),
+}
 
 /// Most texels along a side of a picture.
 const TEXTURE: u32 = 2048;
@@ -24,12 +38,12 @@ const NO_COAT: f64 = 1.0001;
 pub(super) struct Stock<'w>(BTreeMap<usize, Surface<'w>>);
 
 impl<'w> Stock<'w> {
-    pub(super) fn of(scene: &Description, world: &'w World) -> Result<Self, ExportError> {
+    pub(super) fn of(scene: &Description, world: &'w World) -> Result<Self, StockError> {
         let mut surfaces = surfaces_of(scene, world, TEXTURE, Illuminant::D65)?;
         surfaces.retain(|&number, _| !is_stock(scene, world, number));
         for (&number, surface) in &surfaces {
             if surface.finishes.len() > 1 && !matches!(surface.arrangement, Arrangement::Faces) {
-                return Err(ExportError::Slots(material_id(scene, world, number)));
+                return Err(StockError::Slots(material_id(scene, world, number)));
             }
         }
         Ok(Self(surfaces))
@@ -83,22 +97,14 @@ fn path(surface: &Surface<'_>, number: usize) -> String {
 /// What a surface sends back.
 fn face(surface: &Surface<'_>, finish: &Finish) -> Element {
     let colour = |name| coloured(surface, name, finish.base, finish.base_map);
-    let roughness = f64::from(finish.roughness);
-    if finish.metallic > 0.0 {
-        return Element::plugin("bsdf", "principled")
-            .holding(colour("base_color"))
-            .float("metallic", f64::from(finish.metallic))
-            .float("roughness", roughness);
-    }
     if finish.eta == 1.0 {
         return Element::plugin("bsdf", "diffuse").holding(colour("reflectance"));
     }
-    Element::plugin("bsdf", "roughplastic")
-        .holding(colour("diffuse_reflectance"))
-        .string("distribution", "ggx")
-        .float("alpha", roughness * roughness)
-        .float("int_ior", f64::from(finish.eta))
-        .float("ext_ior", 1.0)
+    Element::plugin("bsdf", "principled")
+        .holding(colour("base_color"))
+        .float("metallic", f64::from(finish.metallic))
+        .float("roughness", f64::from(finish.roughness))
+        .float("eta", f64::from(finish.eta))
 }
 
 /// A parameter that is a colour or a picture.

@@ -623,3 +623,42 @@ reflectance = 0.5
     let (scene, world) = scene_with(&blocks, folder.path());
     assert_eq!(leaking(&scene, &world, false), ["painted", "clear"]);
 }
+
+#[test]
+fn stock_materials_need_no_plugin_and_hold_the_colours_of_both_faces() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, _) = scene(folder.path());
+    let wavelengths = crate::export::gltf::wavelengths();
+    let options = crate::scene::world::BuildOptions {
+        wavelengths: Some(&wavelengths),
+        ..Default::default()
+    };
+    let world = World::build_with(&scene, &options).expect("a scene that can be built");
+    let out = folder.path().join("out");
+    write_stock(&scene, &world, &out).expect("it is written");
+    let xml = fs::read_to_string(out.join("scene.xml")).expect("scene.xml");
+    assert!(!xml.contains("lamina_"), "{xml}");
+    let pictures: Vec<&str> = xml
+        .split('"')
+        .filter(|file| {
+            Path::new(file)
+                .extension()
+                .is_some_and(|ending| ending == "png")
+        })
+        .collect();
+    assert_eq!(pictures.len(), 3, "{pictures:?}");
+    for picture in pictures {
+        assert!(out.join(picture).is_file(), "{picture} is missing");
+    }
+    let after = xml.split("<float name=\"weight\" value=\"").skip(1);
+    let weights = after.map(|text| text.split('"').next().expect("a value"));
+    let weights: Vec<f64> = weights
+        .map(|text| text.parse().expect("a number"))
+        .collect();
+    // The plain leaf lets half of the light through, more than it sends back.
+    assert_eq!(weights.len(), 2);
+    assert!(
+        weights.iter().any(|weight| (weight - 0.5).abs() < 0.05),
+        "{weights:?}"
+    );
+}

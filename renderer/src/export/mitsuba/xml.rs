@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use crate::export::material_id::material_id;
 use crate::plugin::element::{Document, Element};
 use crate::scene::description::Description;
 use crate::scene::world::World;
@@ -14,6 +13,7 @@ use super::sensor::sensor;
 use super::shapes::{self, MeshFile};
 use super::stock::Stock;
 use super::surroundings;
+use crate::export::names::material_id;
 use crate::plugin::spectra::Spectra;
 
 /// The text of `scene.xml`, and the meshes that it uses; spectra that go into files are added to

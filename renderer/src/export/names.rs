@@ -1,4 +1,4 @@
-//! Names of materials in exports.
+//! Names of what is exported.
 
 use crate::scene::description::Description;
 use crate::scene::world::{MaterialOwner, World};
