@@ -107,11 +107,17 @@ impl GrowOptions<'_> {
         let (kept, of_form) = (self.kept, plan.of_form());
         // The mesh is mostly the work of one thread, the map of all.
         let mut form = None;
+        let formed = || Stage::Form.take_or_make(kept, &of_form, || Form::of(&of_form, &lamina));
+        // A blade narrower than its veins can mostly not be built, and painting so many veins takes minutes.
+        if lamina.is_narrower_than_its_veins() {
+            form = Some(Ok(formed()?));
+        }
         let contents = rayon::in_place_scope(|scope| {
-            let (form, of_form, lamina) = (&mut form, &of_form, &lamina);
+            let (form, formed, lamina) = (&mut form, &formed, &lamina);
             scope.spawn(move |_| {
-                let made = || Form::of(of_form, lamina);
-                *form = Some(Stage::Form.take_or_make(kept, of_form, made));
+                if form.is_none() {
+                    *form = Some(formed());
+                }
             });
             let part = plan.of_contents();
             Stage::Contents.take_or_make(kept, &part, || self.contents(&part, lamina))

@@ -98,6 +98,7 @@ impl Scene {
             "height_m",
             "focal_length_mm",
             "magnification",
+            "frame",
             "sensor_height_mm",
         ];
         self.block(&path, &["camera", camera], true, &skip, &lines);

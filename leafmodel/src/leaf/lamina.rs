@@ -38,6 +38,13 @@ impl Lamina {
         self.wounds.as_ref().map_or(&[], |wounds| &wounds.holes)
     }
 
+    /// Whether a vein is wider than the blade.
+    pub(super) fn is_narrower_than_its_veins(&self) -> bool {
+        let (low, high) = self.outline.bounds();
+        let radii = self.network.edges().iter().map(|edge| edge.radius_from);
+        2.0 * radii.fold(0.0, f64::max) > (high - low).min_element()
+    }
+
     /// Area of the blade without its holes, mm².
     pub fn area(&self) -> f64 {
         let wounds = self.wounds.as_ref();
