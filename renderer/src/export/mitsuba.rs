@@ -208,12 +208,12 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
     write_with(scene, world, dir, None)
 }
 
-/// As [`write`] with materials of Mitsuba's own alone; the world has to be built with
+/// As [`write()`] with materials of Mitsuba's own alone; the world has to be built with
 /// [`super::gltf::wavelengths`].
 ///
 /// # Errors
 ///
-/// As [`write`], and [`ExportError::Stock`].
+/// As [`write()`], and [`ExportError::Stock`].
 pub fn write_stock(scene: &Description, world: &World, dir: &Path) -> Result<(), ExportError> {
     check_ours(dir)?;
     write_with(scene, world, dir, Some(&Stock::of(scene, world)?))
