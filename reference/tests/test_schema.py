@@ -16,17 +16,17 @@ ROOT = Path(__file__).resolve().parents[2]
 BEYOND_A_SCHEMA = """
     area_light bands camera_at_itself camera_upside colours_of_mesh compound_bipinnate
     compound_overlap compound_pair compound_palmate compound_palmate_round coverage dark_light
-    energy file_missing growth_arrival growth_steps instances_flood instances_rows leaf_individual
-    lens_angle lens_behind lens_blades lens_magnification lens_near lens_object lens_tilt matrix
-    model mosaic_shares no_light outline_cubic_crossing outline_curve_crossing outline_curve_end
-    outline_growth_crossing outline_growth_crossing_axis outline_specimen_inside
+    energy file_missing foliage_bright growth_arrival growth_steps instances_flood instances_rows
+    leaf_individual lens_angle lens_behind lens_blades lens_magnification lens_near lens_object
+    lens_tilt matrix model mosaic_shares no_light outline_cubic_crossing outline_curve_crossing
+    outline_curve_end outline_growth_crossing outline_growth_crossing_axis outline_specimen_inside
     outline_specimen_nested outline_specimen_notch outline_svg_crossing outline_svg_end
     outline_svg_parts outline_teeth_crossing outline_transport_cells path_outside picture_infrared
     plant_climbs_on_many plant_days plant_flower plant_leaf plant_order plant_pot plant_relief
     plant_room plant_shines plant_wall realisations scatter_days scatter_effect scatter_order
     senescence_auxin sensitivities_file sensor_file sensor_width solid_mesh solid_mosaic
-    surface_cells surface_stomata table_file unknown_name unsorted venation_agrophic venation_cells
-    venation_craspedodromous venation_origin venation_origins_meet venation_pairs
+    surface_cells surface_stomata table_file unknown_name unsorted venation_agrophic
+    venation_cells venation_craspedodromous venation_origin venation_origins_meet venation_pairs
     venation_quaternaries venation_sinus venation_transport_fine venation_young white_light
     wilting_on_ground wrong_file
 """.split()

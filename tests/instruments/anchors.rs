@@ -130,3 +130,56 @@ fn canopies_of_small_discs_have_the_fluxes_of_a_turbid_layer() {
     assert!(greatest_error <= most, "{report}");
     assert!(worst < limit, "{report}");
 }
+
+/// The same leaves without extent as a medium, and over it what a disc stands for there.
+fn foliage(lai: f64) -> String {
+    format!(
+        "[media.foliage.leaves]\narea_m2_per_m3 = {lai}\n\
+         reflectance = {{ table = [[560, 0.1], [650, 0.0546], [700, 0.5], [860, 0.4957]] }}\n\
+         transmittance = {{ table = [[560, 0.05], [650, 0.0149], [700, 0.5], [860, 0.4409]] }}\n\
+         [materials.foliage.dielectric]\neta = 1\ninterior = \"foliage\"\n\
+         [meshes.layer.box]\nsize_m = [32, 32, 1]\n\
+         [meshes.ground.rectangle]\nwidth_m = 8\nheight_m = 8\n\
+         [materials.soil.diffuse]\n\
+         reflectance = {{ table = [[560, 0.1], [650, 0.127], [700, 0], [860, 0.159]] }}\n\
+         [objects.ground]\nmesh = \"ground\"\nmaterial = \"soil\"\nposition_m = [4, 4, -0.01]\n\
+         [objects.layer]\nmesh = \"layer\"\nmaterial = \"foliage\"\nposition_m = [4, 4, 0.5]\n\
+         [instruments.field.canopy]\nwithin_m = [0, 0, 8, 8]\n\
+         wavelengths_nm = [560, 650, 700, 860]\nincidence_deg = [20, 60]\nsoil = \"ground\"\n"
+    )
+}
+
+#[test]
+fn foliage_as_a_medium_has_the_fluxes_of_a_turbid_layer() {
+    let (mut report, mut worst, mut greatest_error) = (String::new(), 0.0_f64, 0.0_f64);
+    for lai in [1.0, 3.0] {
+        let rows = figures(&foliage(lai), &super::rays(1 << 15)).expect("it can be measured");
+        for anchor in anchors().iter().filter(|anchor| anchor.lai == lai) {
+            let sun = Direction::Beam(anchor.sun_deg.to_radians());
+            let quantities = ["reflected", "arriving_at_soil", "uncollided"];
+            for (quantity, expected) in quantities.into_iter().zip(anchor.fluxes) {
+                let row = of(&rows, quantity, sun, wavelength_of(anchor.rho)).next();
+                let row = row.expect("it is measured");
+                let z = (row.value - expected) / row.error.max(1e-5);
+                report += &format!(
+                    "{anchor:?} {quantity}: {:.5} for {expected:.5}, error {:.1e}, z {z:+.2}\n",
+                    row.value, row.error
+                );
+                worst = worst.max(z.abs());
+                greatest_error = greatest_error.max(row.error);
+            }
+        }
+        let balance: f64 = rows
+            .iter()
+            .filter(|row| row.incidence == Direction::Beam(20_f64.to_radians()))
+            .filter(|row| row.wavelength_nm == Some(860.0))
+            .filter(|row| ["reflected", "absorbed_by_soil", "absorbed"].contains(&row.quantity))
+            .filter(|row| row.quantity != "absorbed" || row.part.as_deref() != Some("ground"))
+            .map(|row| row.value)
+            .sum();
+        assert!((balance - 1.0).abs() < 1e-6, "{balance}");
+    }
+    eprintln!("{report}");
+    assert!(greatest_error <= 4e-3, "{report}");
+    assert!(worst < 4.5, "{report}");
+}

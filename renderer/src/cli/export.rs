@@ -90,6 +90,7 @@ pub(super) fn mitsuba(arguments: &MitsubaArguments) -> Result<(), Failure> {
         ExportError::Write { .. } | ExportError::Image(_) => Failure::system(error),
         ExportError::Asset(_)
         | ExportError::Fluorescence
+        | ExportError::Foliage(_)
         | ExportError::Lens(_)
         | ExportError::Nested { .. }
         | ExportError::CameraInside

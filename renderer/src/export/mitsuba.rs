@@ -85,6 +85,12 @@ pub enum ExportError {
     /// The camera stands in a medium.
     #[error("the camera stands within a transparent body: move it out, to export the scene")]
     CameraInside,
+    /// A medium of leaves; its name.
+    #[error(
+        "media.{0}.leaves cannot be exported: Mitsuba has no phase function of leaves; scatter small discs \
+         with `volume` instead"
+    )]
+    Foliage(String),
     /// A leaf whose inside is followed; the block that says so.
     #[error(
         "{0}.optics = \"layers\" cannot be exported: Mitsuba follows no light through a leaf of \
@@ -153,6 +159,13 @@ pub fn check(scene: &Description) -> Result<(), ExportError> {
     }
     if let Some(place) = bsdf::layered(scene) {
         return Err(ExportError::Layers(place));
+    }
+    if let Some(medium) = scene
+        .media
+        .iter()
+        .find(|medium| medium.value.leaves.is_some())
+    {
+        return Err(ExportError::Foliage(medium.name.clone()));
     }
     let mut leaves = scene.leaves.iter();
     let mut materials = scene.materials.iter();

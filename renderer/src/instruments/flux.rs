@@ -404,7 +404,8 @@ impl<'m, C: Course, W: Witness<'m>> Walk<'m, LANES, W> for Flux<'m, C> {
         witness: &mut W,
     ) -> bool {
         passage.is_straight = false;
-        let after = self.play(leg.throughput, || stream.next4()[0]);
+        let (scattering, weight) = at.medium.turn(leg.ray.direction(), at.u);
+        let after = self.play(leg.throughput * weight, || stream.next4()[0]);
         witness.event(&Event {
             is_scattered: true,
             ..passing(
@@ -413,7 +414,6 @@ impl<'m, C: Course, W: Witness<'m>> Walk<'m, LANES, W> for Flux<'m, C> {
                 [at.before, after],
             )
         });
-        let scattering = at.medium.phase.sample(leg.ray.direction(), at.u);
         *leg = Leg {
             ray: Ray::new(at.position, scattering.direction),
             cone: leg.cone.from(at.moved + leg.ray.t_max()),

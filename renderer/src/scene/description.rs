@@ -35,7 +35,7 @@ pub use self::instrument::{
 };
 pub use self::light::Light;
 pub use self::material::Material;
-pub use self::medium::{Medium, MediumPhase};
+pub use self::medium::{Foliage, Medium, MediumPhase};
 pub use self::mesh::{FileMesh, Mesh};
 pub use self::object::{InstancePlace, Object, ObjectShape, StrewnOn};
 pub use self::reflectance::Reflectance;

@@ -27,6 +27,9 @@
 mod inside;
 mod phase;
 
+use glam::{Vec2, Vec3};
+
+use crate::bsdf::Scattered;
 use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthGrid, Wavelengths};
 
 pub use self::inside::{Body, BodyPlace, Inside};
@@ -35,9 +38,25 @@ pub use self::phase::{Phase, Scattering};
 /// A homogeneous medium.
 #[derive(Clone, Debug)]
 pub struct Medium {
-    absorption: Spectrum,
-    scattering: Spectrum,
-    phase: Phase,
+    fill: Fill,
+}
+
+/// What it consists of.
+#[derive(Clone, Debug)]
+enum Fill {
+    /// Particles.
+    Particles {
+        absorption: Spectrum,
+        scattering: Spectrum,
+        phase: Phase,
+    },
+    /// Leaves without extent, in all directions alike.
+    Leaves {
+        /// Area that they turn to light from any direction, m⁻¹: half of the area of one side.
+        turned: f32,
+        reflectance: Spectrum,
+        transmittance: Spectrum,
+    },
 }
 
 /// The media of a scene.
@@ -59,33 +78,126 @@ pub struct Coefficients<const N: usize> {
     pub absorption: Lanes<N>,
     /// Scattering, m⁻¹, ≥ 0.
     pub scattering: Lanes<N>,
-    /// Where light goes that is scattered.
+    /// Where light goes that is scattered, in the mean over wavelengths.
     pub phase: Phase,
+    /// Fraction of the light that leaves scatter which they let through, at each wavelength.
+    through: Lanes<N>,
 }
 
 impl Medium {
     /// A medium with these coefficients, m⁻¹, ≥ 0.
     pub fn new(absorption: Curve, scattering: Curve, phase: Phase) -> Self {
         Self {
-            absorption: absorption.into(),
-            scattering: scattering.into(),
-            phase,
+            fill: Fill::Particles {
+                absorption: absorption.into(),
+                scattering: scattering.into(),
+                phase,
+            },
         }
     }
 
-    /// Evaluates its coefficients at every wavelength of a grid.
+    /// Foliage: `area` of leaves in each volume, m⁻¹, in all directions alike, whose faces are Lambertian. The leaves have no
+    /// extent, so light that is scattered back finds no way that it came by.
+    ///
+    /// # Source
+    ///
+    /// \[ross1981\]: light from any direction meets half of their area, and what they scatter depends on the angle alone.
+    pub fn of_leaves(area: f32, reflectance: Curve, transmittance: Curve) -> Self {
+        Self {
+            fill: Fill::Leaves {
+                turned: 0.5 * area,
+                reflectance: reflectance.into(),
+                transmittance: transmittance.into(),
+            },
+        }
+    }
+
+    /// Evaluates its spectra at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
-        self.absorption.tabulate(grid);
-        self.scattering.tabulate(grid);
+        let spectra = match &mut self.fill {
+            Fill::Particles {
+                absorption,
+                scattering,
+                ..
+            } => [absorption, scattering],
+            Fill::Leaves {
+                reflectance,
+                transmittance,
+                ..
+            } => [reflectance, transmittance],
+        };
+        for spectrum in spectra {
+            spectrum.tabulate(grid);
+        }
     }
 
     /// Its coefficients at a path's wavelengths.
     pub fn at<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> Coefficients<N> {
-        Coefficients {
-            absorption: self.absorption.lanes(wavelengths),
-            scattering: self.scattering.lanes(wavelengths),
-            phase: self.phase,
+        match &self.fill {
+            Fill::Particles {
+                absorption,
+                scattering,
+                phase,
+            } => Coefficients {
+                absorption: absorption.lanes(wavelengths),
+                scattering: scattering.lanes(wavelengths),
+                phase: *phase,
+                through: Lanes::ZERO,
+            },
+            Fill::Leaves {
+                turned,
+                reflectance,
+                transmittance,
+            } => {
+                let [back, forth] = [reflectance, transmittance].map(|s| s.lanes(wavelengths));
+                let scattered = back + forth;
+                let through = Lanes::from_fn(|lane| {
+                    if scattered.0[lane] > 0.0 {
+                        forth.0[lane] / scattered.0[lane]
+                    } else {
+                        0.0
+                    }
+                });
+                Coefficients {
+                    absorption: Lanes::from_fn(|lane| turned * (1.0 - scattered.0[lane]).max(0.0)),
+                    scattering: scattered * *turned,
+                    phase: Phase::Leaves {
+                        through: through.sum() / N as f32,
+                    },
+                    through,
+                }
+            }
         }
+    }
+}
+
+/// Directions of scattering. They are drawn by the mean over wavelengths, and each wavelength has its own value.
+impl<const N: usize> Coefficients<N> {
+    /// The value at each wavelength for a cosine of the angle between the ways before and after, sr⁻¹, and the density with
+    /// which the direction is drawn.
+    pub fn turned_by(&self, cos: f32) -> Scattered<N> {
+        let pdf = self.phase.value(cos);
+        let f = match self.phase {
+            Phase::HenyeyGreenstein { .. } | Phase::Rayleigh => Lanes::splat(pdf),
+            Phase::Leaves { .. } => Lanes::from_fn(|lane| {
+                let through = self.through.0[lane];
+                Phase::Leaves { through }.value(cos)
+            }),
+        };
+        Scattered { f, pdf }
+    }
+
+    /// Draws a direction for light that went along `way`, as [`Phase::sample`], and the factor on each wavelength.
+    pub fn turn(&self, way: Vec3, u: Vec2) -> (Scattering, Lanes<N>) {
+        let drawn = self.phase.sample(way, u);
+        let weight = match self.phase {
+            Phase::HenyeyGreenstein { .. } | Phase::Rayleigh => Lanes::ONE,
+            Phase::Leaves { .. } if drawn.pdf > 0.0 => {
+                self.turned_by(drawn.direction.dot(way)).f * (1.0 / drawn.pdf)
+            }
+            Phase::Leaves { .. } => Lanes::ZERO,
+        };
+        (drawn, weight)
     }
 }
 
@@ -203,6 +315,7 @@ mod tests {
             absorption: Lanes([0.0, 0.5, 3.0, 1.0]),
             scattering: Lanes([2.0, 2.0, 0.3, 0.0]),
             phase: Phase::HenyeyGreenstein { g: 0.0 },
+            through: Lanes::ZERO,
         }
     }
 

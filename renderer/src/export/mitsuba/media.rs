@@ -74,6 +74,7 @@ fn medium(id: &str, named: &Named<Medium>, spectra: &mut Spectra) -> Element {
         scattering,
         phase,
         g,
+        leaves: _,
     } = &named.value;
     let [absorbed, scattered] = [absorption, scattering].map(Curve::from_description);
     let at = |nm: f64| [&absorbed, &scattered].map(|curve| f64::from(curve.at(nm as f32)));

@@ -1,9 +1,10 @@
 //! What fills bodies.
 
-use leafmodel::document::declared::{Declared, Words};
+use leafmodel::document::declared::{Declared, Defaults, Words};
 use leafmodel::document::keys::Keys;
 
 use crate::scene::blocks::spectrum::SpectrumOf;
+use crate::spectrum::Curve;
 use crate::spectrum::written::Spectrum;
 
 /// Millimetres per metre.
@@ -25,6 +26,42 @@ pub struct Medium {
     /// Mean cosine of the angle of scattering, for `henyey-greenstein`: 0 is even, 1 straight on.
     #[key("g", -0.999..=0.999)]
     pub g: f64,
+    /// Leaves without extent, instead of all the other keys.
+    #[key("leaves", block)]
+    pub leaves: Option<Foliage>,
+}
+
+/// Leaves without extent that fill a body, in all directions alike. Both faces are Lambertian.
+#[derive(Clone, Debug, Declared, Defaults)]
+#[key(last = Self::check)]
+pub struct Foliage {
+    /// Area of leaves, one side, in each volume: leaf area index over the height of the layer.
+    #[key("area_m2_per_m3", required, above(0.0, 1e4), default = 1.0)]
+    pub area: f64,
+    /// Reflectance of both faces.
+    #[key("reflectance", required, SpectrumOf::Share, default = Spectrum::Constant(0.0))]
+    pub reflectance: Spectrum,
+    /// Transmittance, by which no wavelength may get more than all of its light.
+    #[key("transmittance", required, SpectrumOf::Share, default = Spectrum::Constant(0.0))]
+    pub transmittance: Spectrum,
+}
+
+impl Foliage {
+    fn check(&mut self, keys: &mut Keys<'_>) {
+        if !keys.is_sound() {
+            return;
+        }
+        let [back, forth] = [&self.reflectance, &self.transmittance].map(Curve::from_description);
+        let steps = (0..=428_u16).map(|step| 360.0 + 5.0 * f32::from(step));
+        let most = steps.map(|nm| (back.at(nm) + forth.at(nm), nm));
+        let most = most.max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((sum, nm)) = most.filter(|(sum, _)| *sum > 1.0 + 1e-6) {
+            let problem =
+                format!("leaves would send on {sum:.3} of the light that they get at {nm} nm");
+            let help = "let `reflectance` and `transmittance` add up to 1 at most";
+            keys.refuse(&["transmittance"], problem, help);
+        }
+    }
 }
 
 /// The phase functions of media, a closed set.
@@ -74,6 +111,17 @@ fn coefficient(
 }
 
 fn refuse_g(medium: &mut Medium, keys: &mut Keys<'_>) {
+    let others = [
+        "absorption_per_mm",
+        "absorption_per_m",
+        "scattering_per_mm",
+        "scattering_per_m",
+        "phase",
+        "g",
+    ];
+    for other in others {
+        keys.exclude("leaves", other);
+    }
     if keys.is_sound() && keys.has("g") && medium.phase == MediumPhase::Rayleigh {
         let problem = "the phase `rayleigh` has no mean cosine to set".to_owned();
         let help = "leave `g` out, or write `phase = \"henyey-greenstein\"`";

@@ -9,7 +9,7 @@ use super::error::WorldError;
 use super::placing::MaterialOwner;
 use crate::geometry::{Geometry, Instance, Ray, TriangleMesh};
 use crate::medium::{Body, Inside, Media, Medium, Phase};
-use crate::scene::description::{self, Description, MediumPhase};
+use crate::scene::description::{self, Description, Foliage, MediumPhase};
 use crate::spectrum::{Curve, WavelengthGrid};
 use trace::world::{WorldObject, WorldObjects};
 
@@ -24,13 +24,21 @@ pub(super) fn build_media(scene: &Description, grid: &WavelengthGrid) -> Media {
             scattering,
             phase,
             g,
+            leaves,
         } = &named.value;
         let phase = match phase {
             MediumPhase::HenyeyGreenstein => Phase::HenyeyGreenstein { g: *g as f32 },
             MediumPhase::Rayleigh => Phase::Rayleigh,
         };
         let curve = Curve::from_description;
-        let mut medium = Medium::new(curve(absorption), curve(scattering), phase);
+        let mut medium = match leaves {
+            Some(Foliage {
+                area,
+                reflectance,
+                transmittance,
+            }) => Medium::of_leaves(*area as f32, curve(reflectance), curve(transmittance)),
+            None => Medium::new(curve(absorption), curve(scattering), phase),
+        };
         medium.tabulate(grid);
         medium
     });

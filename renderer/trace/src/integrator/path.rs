@@ -195,7 +195,7 @@ impl<'w, const N: usize> Walk<'w, N, PathResult<N>> for Paths<'w, N> {
             scatterer: Scatterer::Medium {
                 position: *position,
                 way,
-                phase: medium.phase,
+                medium: *medium,
             },
             receiver: Receiver {
                 position: *position,

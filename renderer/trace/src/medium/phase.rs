@@ -15,6 +15,12 @@ pub enum Phase {
     },
     /// That of particles far smaller than the wavelength, unpolarised.
     Rayleigh,
+    /// That of small level plates in all directions alike, both faces Lambertian, which let the fraction
+    /// `through` of the light that they scatter pass.
+    Leaves {
+        /// The fraction.
+        through: f32,
+    },
 }
 
 /// A direction in which light is scattered.
@@ -36,6 +42,10 @@ impl Phase {
                 (1.0 - g * g) / (4.0 * PI * base * base.sqrt())
             }
             Self::Rayleigh => 3.0 / (16.0 * PI) * (1.0 + cos * cos),
+            Self::Leaves { through } => {
+                let [back, forth] = lobes_of_leaves(cos);
+                (1.0 - through) * back + through * forth
+            }
         }
     }
 
@@ -58,6 +68,14 @@ impl Phase {
                     (1.0 + g * g - root * root) / (2.0 * g)
                 }
             }
+            Self::Leaves { through } => {
+                let through = f64::from(through);
+                if x < through {
+                    -cosine_of_leaves(x / through)
+                } else {
+                    cosine_of_leaves((x - through) / (1.0 - through))
+                }
+            }
             Self::Rayleigh => {
                 let even = 4.0 * x - 2.0;
                 let root = libm::cbrt(even + (even * even + 1.0).sqrt());
@@ -75,6 +93,46 @@ impl Phase {
             pdf: self.value(cos),
         }
     }
+}
+
+/// Where plates in all directions alike send light, by the cosine of the angle of scattering: what their lit faces reflect, as
+/// a Lambertian sphere does, and what passes them, which is the same mirrored.
+fn lobes_of_leaves(cos: f32) -> [f32; 2] {
+    let cos = cos.clamp(-1.0, 1.0);
+    let angle = libm::acosf(cos);
+    let sin = (1.0 - cos * cos).max(0.0).sqrt();
+    let factor = 2.0 / (3.0 * PI * PI);
+    [angle, angle - PI].map(|angle| factor * (sin - angle * cos))
+}
+
+/// The cosine of the angle b of scattering below which a fraction of what lit faces reflect goes: the inverse of
+/// (4b + 2b cos 2b − 3 sin 2b) / 6π.
+fn cosine_of_leaves(fraction: f64) -> f64 {
+    let target = 6.0 * std::f64::consts::PI * fraction.clamp(0.0, 1.0);
+    let (mut low, mut high) = (0.0, std::f64::consts::PI);
+    let mut angle = 0.5 * high;
+    // Newton's steps where they stay between the bounds, else halves.
+    for _ in 0..60 {
+        let (sin, cos) = libm::sincos(2.0 * angle);
+        let off = 4.0 * angle + 2.0 * angle * cos - 3.0 * sin - target;
+        if off < 0.0 {
+            low = angle;
+        } else {
+            high = angle;
+        }
+        let slope = 4.0 - 4.0 * cos - 4.0 * angle * sin;
+        let next = angle - off / slope;
+        let next = if next > low && next < high {
+            next
+        } else {
+            0.5 * (low + high)
+        };
+        if (next - angle).abs() < 1e-9 {
+            break;
+        }
+        angle = next;
+    }
+    libm::cos(angle)
 }
 
 #[cfg(test)]
@@ -103,6 +161,44 @@ mod tests {
         }
         let [all, mean] = moments(Phase::Rayleigh);
         assert!((all - 1.0).abs() < 1e-6 && mean.abs() < 1e-6);
+        // A Lambertian sphere has the mean cosine −4/9.
+        for through in [0.0, 0.3, 1.0] {
+            let [all, mean] = moments(Phase::Leaves { through });
+            let expected = (2.0 * f64::from(through) - 1.0) * 4.0 / 9.0;
+            assert!((all - 1.0).abs() < 1e-5, "{through}: {all}");
+            assert!((mean - expected).abs() < 1e-5, "{through}: {mean}");
+        }
+    }
+
+    #[test]
+    fn angles_of_leaves_are_drawn_as_often_as_they_should_be() {
+        let (way, bins, count) = (Vec3::Z, 16_usize, 40_000_u32);
+        for through in [0.0, 0.4, 1.0] {
+            let phase = Phase::Leaves { through };
+            let mut found = vec![0.0; bins];
+            for i in 0..count {
+                let u = Vec2::new((f64::from(i) + 0.5) as f32 / count as f32, 0.3);
+                let cos = f64::from(phase.sample(way, u).direction.dot(way));
+                let bin = (0.5 * (cos + 1.0) * bins as f64) as usize;
+                found[bin.min(bins - 1)] += 1.0 / f64::from(count);
+            }
+            for (bin, found) in found.into_iter().enumerate() {
+                let steps = 1000;
+                let cosines = (0..steps).map(|i| {
+                    let place =
+                        (bin as f64 + (f64::from(i) + 0.5) / f64::from(steps)) / bins as f64;
+                    2.0 * place - 1.0
+                });
+                let mean = cosines
+                    .map(|cos| f64::from(phase.value(cos as f32)))
+                    .sum::<f64>();
+                let expected = mean / f64::from(steps) * 4.0 * std::f64::consts::PI / bins as f64;
+                assert!(
+                    (found - expected).abs() < 2e-4,
+                    "{through} {bin}: {found} {expected}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -8,7 +8,7 @@ use crate::geometry::Geometry;
 use crate::geometry::frame::Frame;
 use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
-use crate::medium::Phase;
+use crate::medium::Coefficients;
 use crate::spectrum::Lanes;
 
 /// What scatters a path.
@@ -30,7 +30,7 @@ pub enum Scatterer<'a, const N: usize, S = Geometry> {
         /// Direction of the ray.
         way: Vec3,
         /// Where light goes that is scattered.
-        phase: Phase,
+        medium: Coefficients<N>,
     },
 }
 
@@ -58,13 +58,7 @@ impl<const N: usize, S: Surroundings> Scatterer<'_, N, S> {
                     pdf,
                 }
             }
-            Self::Medium { way, phase, .. } => {
-                let value = phase.value(way.dot(wi_world));
-                Scattered {
-                    f: Lanes::splat(value),
-                    pdf: value,
-                }
-            }
+            Self::Medium { way, medium, .. } => medium.turned_by(way.dot(wi_world)),
         }
     }
 
@@ -84,11 +78,11 @@ impl<const N: usize, S: Surroundings> Scatterer<'_, N, S> {
                     },
                 })
             }
-            Self::Medium { way, phase, .. } => {
-                let scattering = phase.sample(*way, u);
+            Self::Medium { way, medium, .. } => {
+                let (scattering, weight) = medium.turn(*way, u);
                 Some(Drawn {
                     wi_world: scattering.direction,
-                    weight: Lanes::ONE,
+                    weight,
                     pdf: scattering.pdf,
                 })
             }
