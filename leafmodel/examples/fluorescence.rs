@@ -17,7 +17,7 @@ use leafmodel::optics::{Contents, Pigments};
 
 const CHLOROPHYLL: [f64; 5] = [5.0, 10.0, 20.0, 40.0, 60.0];
 const EXCITATIONS_NM: [f64; 3] = [440.0, 550.0, 630.0];
-/// The maxima, and the shoulder of which a mean is taken.
+/// Both maxima, nm, and the wavelengths between them whose mean is the shoulder.
 const RATIOS_NM: [f64; 8] = [690.0, 735.0, 700.0, 702.0, 704.0, 706.0, 708.0, 710.0];
 const COLOURS: [&str; 5] = ["#c8c400", "#8fb80e", "#4f9a22", "#1f7434", "#0b4a2f"];
 

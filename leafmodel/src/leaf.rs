@@ -23,7 +23,6 @@ mod lamina;
 mod memory;
 pub mod outline_plan;
 mod painting;
-mod pictures;
 mod plan;
 mod settling;
 mod stages;

@@ -194,16 +194,16 @@ def dataset(rows: list[Row], about: Mapping[str, object]) -> xr.Dataset:
                 at = tuple(coordinates[axis].index(places[axis]) for axis in axes)
                 number = row[column]
                 values[at] = np.nan if number is None else float(str(number))
-            told = {"units": "1" if column == "draws" else str(figures[0][1]["unit"])}
+            attributes = {"units": "1" if column == "draws" else str(figures[0][1]["unit"])}
             if column == "value":
-                told["ancillary_variables"] = " ".join(f"{name}_{one}" for one in columns)
+                attributes["ancillary_variables"] = " ".join(f"{name}_{one}" for one in columns)
             found[name if column == "value" else f"{name}_{column}"] = xr.Variable(
-                axes, values, told
+                axes, values, attributes
             )
     result = xr.Dataset(found, attrs=dict(about))
     for axis, known in coordinates.items():
-        told = {"units": units[axis]} if units.get(axis) else {}
-        result.coords[axis] = xr.Variable(axis, known, told)
+        attributes = {"units": units[axis]} if units.get(axis) else {}
+        result.coords[axis] = xr.Variable(axis, known, attributes)
     middles = {row["band"]: row["wavelength_nm"] for row in rows if row["band"] is not None}
     if "band" in coordinates:
         middle = [float(str(middles[band])) for band in coordinates["band"]]

@@ -57,8 +57,8 @@ def written(name: str, options: list[str], folder: Path) -> Path:
         "--out",
         str(out),
     ]
-    told = subprocess.run(words, check=True, capture_output=True, text=True)
-    assert f"{out.stat().st_size} bytes" in told.stderr
+    printed = subprocess.run(words, check=True, capture_output=True, text=True)
+    assert f"{out.stat().st_size} bytes" in printed.stderr
     return out
 
 
@@ -149,7 +149,7 @@ def test_an_exported_mitsuba_scene_opens_with_the_package_alone(tmp_path: Path) 
     subprocess.run([str(program()), "export", "mitsuba", str(scene), "--out", str(out)], check=True)
     code = f"import lamina.mitsuba; print(len(lamina.mitsuba.load({str(out)!r}).shapes()))"
     # In a process of its own, where no variant is set yet.
-    told = subprocess.run(
+    printed = subprocess.run(
         [sys.executable, "-c", code],
         cwd=tmp_path,
         check=True,
@@ -157,4 +157,4 @@ def test_an_exported_mitsuba_scene_opens_with_the_package_alone(tmp_path: Path) 
         text=True,
         env={**os.environ, "PYTHONPATH": str(ROOT / "reference")},
     )
-    assert int(told.stdout.split()[-1]) >= 2
+    assert int(printed.stdout.split()[-1]) >= 2

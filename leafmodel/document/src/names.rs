@@ -76,7 +76,7 @@ impl Kind for NameIn {
     }
 }
 
-/// As [`NameIn`], or a word that stands for all of them: `None`.
+/// As [`NameIn`], or a word for all blocks, which is read as `None`.
 #[derive(Clone, Copy, Debug)]
 pub struct NameOrAll(pub NameIn, pub &'static str);
 

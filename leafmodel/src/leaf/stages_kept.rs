@@ -21,9 +21,6 @@ use crate::blade::mesh::{BladeMesh, Displacement};
 use crate::blade::stalk::StalkMesh;
 use crate::blade::surface::SurfacePlan;
 use crate::blade::tissue::Tissue;
-use crate::document::write::to_toml;
-use crate::document::written::Extent;
-use crate::document::{Declared, Keys};
 use crate::grow_options::{GrowOptions, Kept};
 use crate::optics::{Constituent, Contents};
 
@@ -138,13 +135,10 @@ pub fn keep_shared_veins(blades: &[LeafPlan], kept: &dyn Kept) {
 }
 
 impl LeafPlan {
-    /// All that the plan says, each number with all its digits, and all values of its pictures.
+    /// Every value of the plan with all its digits, those that it has read from files too: a file that changes keeps
+    /// its name.
     fn key(&self) -> String {
-        let mut own = self.clone();
-        let said = to_toml(&Keys::write(Extent::All, |keys| own.declare(keys)).into_table());
-        let pictures = self.pictures();
-        let pictures = pictures.iter().map(|value| format!("{value:?} "));
-        said + &pictures.collect::<String>()
+        format!("{self:?}")
     }
 
     /// What decides its veins.

@@ -26,7 +26,7 @@ pub use leafmodel::document::names::Named;
 use crate::light::Light as BuiltLight;
 use crate::scene::model::Wanted;
 
-pub use self::camera::{Camera, Places};
+pub use self::camera::{Camera, FocusError, Places};
 pub use self::film::Film;
 pub use self::grown::{Leaf, Solid};
 pub use self::instrument::{

@@ -224,7 +224,7 @@ impl Kept for PlantCache {
             Ok(value) => Some(value),
             Err(RefusedEntry::Missing) => None,
             Err(refused) => {
-                let note = format!("{}: {refused}; the leaf was grown anew", path.display());
+                let note = format!("{}: {refused}; the leaf was grown again", path.display());
                 lock(&self.notes).push(note);
                 None
             }

@@ -105,3 +105,37 @@ fn of_plant(preset: &str, leaf: &str) -> String {
         plant_blocks(preset, leaf)
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use leafmodel::plant::presets;
+    use leafmodel::species::PRESETS;
+
+    use super::*;
+    use crate::scene::load::parse;
+
+    fn check(name: &str, text: Option<String>) {
+        let text = text.unwrap_or_else(|| panic!("{name} is a preset"));
+        let loaded = parse(&text, "portrait.toml", Path::new("."), &[]);
+        let loaded = loaded.unwrap_or_else(|errors| panic!("{name}: {errors}"));
+        assert!(loaded.warnings.is_empty(), "{name}: {:?}", loaded.warnings);
+    }
+
+    #[test]
+    fn every_preset_makes_a_good_scene() {
+        let plants = presets::PRESETS.iter();
+        let plants = plants.filter(|plant| plant.leaf.is_some());
+        let names = PRESETS.iter().map(|preset| preset.name);
+        for name in names.chain(plants.map(|plant| plant.name)) {
+            check(name, portrait(name, Stage::Studio));
+            check(name, alone(name));
+        }
+        for stage in Stage::value_variants() {
+            check("poplar", portrait("poplar", *stage));
+        }
+        assert_eq!(portrait("no-such-leaf", Stage::Studio), None);
+        assert_eq!(alone("no-such-leaf"), None);
+    }
+}

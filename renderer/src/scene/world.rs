@@ -319,8 +319,7 @@ fn view_of(
         objects,
     };
     let aspect = f64::from(scene.film.width) / f64::from(scene.film.height);
-    let view = scene.camera.view_on(&places, aspect);
-    view.map_err(WorldError::Focus)
+    Ok(scene.camera.view_on(&places, aspect)?)
 }
 
 /// Meshes, and the surface that each brings along.

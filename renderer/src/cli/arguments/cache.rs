@@ -12,7 +12,7 @@ pub struct CacheArguments {
     /// Keep grown leaves in this folder, without a limit, instead of in the user's cache folder (see `lamina cache`)
     #[arg(long, value_name = "DIR", conflicts_with = "no_cache")]
     pub cache: Option<PathBuf>,
-    /// Grow every leaf anew, and keep none
+    /// Grow every leaf, and keep none
     #[arg(long)]
     pub no_cache: bool,
 }

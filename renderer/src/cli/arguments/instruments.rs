@@ -21,6 +21,8 @@ const MOST_RAYS: u64 = 1 << 36;
 
 /// `lamina instruments`: figures of a scene's instruments with their standard errors.
 #[derive(Args, Clone, Debug, PartialEq)]
+// Portraits of presets have no instruments.
+#[command(mut_arg("scene", |scene| scene.value_name("SCENE.toml").help("The scene file")))]
 pub struct InstrumentsArguments {
     /// Scene and overrides.
     #[command(flatten)]

@@ -1,13 +1,17 @@
 //! The camera of a scene: `[camera.perspective]` and `[camera.orthographic]`.
 
-use glam::{DMat3, DVec3};
+mod framing;
+
+use glam::DVec3;
 use leafmodel::document::declared::{Declared, Defaults};
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::names::{NameIn, NameOrAll};
 use leafmodel::document::value_kind::{Degrees, Kind, Number, Vector};
+use thiserror::Error;
 
+use self::framing::{Frame, Framed};
 use crate::camera::thin_lens::{ANGLES_DEG, Field, Focus, Iris, Lens, LensError, Opening};
 use crate::camera::view::{Near, Projection, View};
 use crate::geometry::instance::COORDINATES_M;
@@ -24,15 +28,6 @@ pub struct Camera {
     sharp: Option<Sharp>,
     /// What fills the picture.
     frame: Option<Frame>,
-}
-
-/// What fills the picture: the camera stays in its direction and goes as near as that allows.
-#[derive(Clone, Copy, Debug)]
-struct Frame {
-    /// Index into [`super::Description::objects`]; everything if it is `None`.
-    object: Option<usize>,
-    /// Fraction of the picture's width and height that is left free at each edge.
-    margin: f64,
 }
 
 /// Where things of a scene are.
@@ -78,99 +73,53 @@ impl Camera {
     ///
     /// # Errors
     ///
-    /// [`LensError`] if the lens cannot be focused on what should be sharp.
-    pub fn view_on(&self, places: &impl Places, aspect: f64) -> Result<View, LensError> {
-        let points = self.frame.map(|frame| places.around(frame.object));
-        let points = points.unwrap_or_default();
+    /// [`FocusError`] if the lens cannot be focused on what should be sharp.
+    pub fn view_on(&self, places: &impl Places, aspect: f64) -> Result<View, FocusError> {
         let mut view = self.view.clone();
+        let framed = self.frame.and_then(|frame| {
+            let points = places.around(frame.object);
+            Framed::of(points, &view, aspect, frame.margin)
+        });
         let Some(lens) = &self.lens else {
-            if let Some((frame, box_)) = self.frame.zip(Extent::of(&points, &view)) {
-                box_.fill_by_parallel_rays(&mut view, aspect, frame.margin);
+            if let Some(framed) = framed {
+                framed.fill_by_parallel_rays(&mut view);
             }
             return Ok(view);
         };
-        let focus = |view: &View, middle: Option<f64>| match self.sharp {
+        let focus = |view: &View, middle: f64| match self.sharp {
             Some(Sharp::Plane(focus)) => focus,
             Some(Sharp::Point(point)) => Focus::Point(view.in_picture(point)),
             Some(Sharp::Object(object)) => Focus::Point(view.in_picture(places.middle(object))),
-            None => Focus::Distance(middle.unwrap_or((view.look_at - view.position).length())),
+            None => Focus::Distance(middle),
         };
-        let extent = self.frame.zip(Extent::of(&points, &view));
-        let Some((frame, extent)) = extent else {
-            view.projection = Projection::Perspective(lens.focused(focus(&view, None))?);
-            return Ok(view);
+        let focused = if let Some(framed) = framed {
+            let at_first = match self.sharp {
+                Some(Sharp::Plane(focus)) => focus,
+                Some(Sharp::Point(_) | Sharp::Object(_)) | None => Focus::Infinity,
+            };
+            framed.fill_by_lens(&mut view, lens, at_first, focus)
+        } else {
+            let thin = lens.focused(focus(&view, (view.look_at - view.position).length()));
+            thin.map(|thin| view.projection = Projection::Perspective(thin))
         };
-        // With a focal length the angle depends on the focus, and that on where the camera stands.
-        let mut thin = lens.focused(Focus::Infinity)?;
-        for _ in 0..FRAMINGS {
-            let middle = extent.fill(&mut view, thin.vertical_fov, aspect, frame.margin, &points);
-            thin = lens.focused(focus(&view, Some(middle)))?;
-        }
-        view.projection = Projection::Perspective(thin);
+        focused.map_err(|error| FocusError {
+            key: match self.sharp {
+                Some(Sharp::Plane(_)) | None => "frame",
+                Some(Sharp::Point(_)) => "focus_point_m",
+                Some(Sharp::Object(_)) => "focus_object",
+            },
+            error,
+        })?;
         Ok(view)
     }
 }
 
-/// Rounds in which framing and focus settle; each brings some two digits.
-const FRAMINGS: u32 = 12;
-
-/// How far points go along the axes of a view, from the scene's origin.
-#[derive(Clone, Copy, Debug)]
-struct Extent {
-    axes: DMat3,
-    least: DVec3,
-    most: DVec3,
-}
-
-impl Extent {
-    fn of(points: &[DVec3], view: &View) -> Option<Self> {
-        let axes = view.axes();
-        let along = |p: &DVec3| axes.transpose() * *p;
-        let least = points.iter().map(along).reduce(DVec3::min)?;
-        let most = points.iter().map(along).reduce(DVec3::max)?;
-        Some(Self { axes, least, most })
-    }
-
-    /// Lets the picture of parallel rays show all of it.
-    fn fill_by_parallel_rays(&self, view: &mut View, aspect: f64, margin: f64) {
-        let size = (self.most - self.least) / (1.0 - 2.0 * margin);
-        let middle = 0.5 * (self.least + self.most);
-        // Rays start before all of it.
-        let before = self.most.z - self.least.z + size.x.max(size.y);
-        let position = DVec3::new(middle.x, middle.y, self.least.z - before);
-        view.position = self.axes * position;
-        view.look_at = self.axes * middle;
-        view.projection = Projection::Orthographic {
-            height: size.y.max(size.x / aspect),
-        };
-    }
-
-    /// Moves a camera to the nearest place from which all points are in the picture, in its middle, and returns the
-    /// distance of the middle of them along its axis.
-    ///
-    /// A point (x, y, z) is in the picture of a camera at (a, b, c) if |x − a| ≤ t (z − c) and |y − b| ≤ s (z − c): the
-    /// greatest x − t z and −x − t z over all points decide a and the greatest c, and so do those of y.
-    fn fill(&self, view: &mut View, fov: f64, aspect: f64, margin: f64, points: &[DVec3]) -> f64 {
-        let half = libm::tan(0.5 * fov) * (1.0 - 2.0 * margin);
-        let slopes = [half * aspect, half];
-        let mut greatest = [[f64::NEG_INFINITY; 2]; 2];
-        for point in points {
-            let p = self.axes.transpose() * *point;
-            for (axis, at) in [p.x, p.y].into_iter().enumerate() {
-                let [right, left] = &mut greatest[axis];
-                *right = right.max(at - slopes[axis] * p.z);
-                *left = left.max(-at - slopes[axis] * p.z);
-            }
-        }
-        let place = [0, 1].map(|axis| 0.5 * (greatest[axis][0] - greatest[axis][1]));
-        let depth =
-            [0, 1].map(|axis| -0.5 * (greatest[axis][0] + greatest[axis][1]) / slopes[axis]);
-        let depth = depth[0].min(depth[1]);
-        let middle = 0.5 * (self.least.z + self.most.z) - depth;
-        view.position = self.axes * DVec3::new(place[0], place[1], depth);
-        view.look_at = view.position + self.axes.z_axis * middle;
-        middle
-    }
+/// Why a camera cannot be focused where it stands once things have grown.
+#[derive(Debug, Error)]
+#[error("camera.perspective.{key}: {error}")]
+pub struct FocusError {
+    key: &'static str,
+    error: LensError,
 }
 
 /// Limits of the size on the sensor over the size in the scene.
@@ -212,7 +161,7 @@ struct Orthographic {
     /// Height of what the picture shows, m.
     #[key(with = Self::declare_height, default = 1.0)]
     height: f64,
-    frame: Framed,
+    frame: WrittenFrame,
     /// Fraction of the picture's width and height that `frame` leaves free at each edge.
     #[key("frame_margin", 0.0..=0.45, default = 0.05)]
     frame_margin: f64,
@@ -245,7 +194,7 @@ struct Perspective {
     #[key(with = Self::declare_sharp)]
     sharp: Option<Sharp>,
     #[key(with = Self::declare_frame)]
-    frame: Framed,
+    frame: WrittenFrame,
     /// Fraction of the picture's width and height that `frame` leaves free at each edge.
     #[key("frame_margin", 0.0..=0.45, default = 0.05)]
     frame_margin: f64,
@@ -408,10 +357,10 @@ impl Perspective {
         }
         let focus = match self.sharp {
             Some(Sharp::Plane(focus)) => focus,
-            Some(Sharp::Point(point)) => Focus::Point(view.in_picture(point)),
-            // They are somewhere only once they have grown.
+            // They are somewhere, and so is the camera, only once things have grown.
             Some(Sharp::Object(_)) => Focus::Infinity,
-            None if self.frame.is_some() => Focus::Infinity,
+            Some(Sharp::Point(_)) | None if self.frame.is_some() => Focus::Infinity,
+            Some(Sharp::Point(point)) => Focus::Point(view.in_picture(point)),
             None => Focus::Distance((view.look_at - view.position).length()),
         };
         match lens.focused(focus) {
@@ -432,7 +381,7 @@ impl Perspective {
 }
 
 /// The object that fills the picture, or everything.
-type Framed = Option<Option<usize>>;
+type WrittenFrame = Option<Option<usize>>;
 
 /// What fills the picture.
 const FRAMED: NameOrAll = NameOrAll(
@@ -445,7 +394,7 @@ const FRAMED: NameOrAll = NameOrAll(
 const ABOUT_FRAME: &str = "What fills the picture: the camera looks in the direction from `position_m` to `look_at_m`, and stands as near \
     as all of that object, or of everything, allows. It is in focus if nothing else is said.";
 
-fn frame_of(object: Framed, margin: f64) -> Option<Frame> {
+fn frame_of(object: WrittenFrame, margin: f64) -> Option<Frame> {
     object.map(|object| Frame { object, margin })
 }
 

@@ -66,7 +66,7 @@ fn a_leaf_whose_stages_are_kept_is_the_one_that_would_be_grown() {
 }
 
 #[test]
-fn another_day_paints_anew_and_grows_nothing() {
+fn another_day_changes_the_contents_and_grows_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     let cache = open(folder.path());
     let plan = &plans()[1];
@@ -90,6 +90,28 @@ fn another_day_paints_anew_and_grows_nothing() {
     assert_eq!(files(folder.path(), "veins").len(), 1);
     assert_eq!(files(folder.path(), "form").len(), 2);
     assert_eq!(files(folder.path(), "contents").len(), 2);
+}
+
+#[test]
+fn a_file_that_changed_is_not_taken_for_what_it_was() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cache = open(&folder.path().join("cache"));
+    let text = "format = 1\n[leaves.a]\nlength_mm = 60\nmap_size = 24\noutline.svg.path = \"a.svg\"\nvenation.arcuate = {}\n\
+        contents = { structure = 1.5, chlorophyll_ug_per_cm2 = 40, carotenoids_ug_per_cm2 = 9, water_cm = 0.01, \
+        dry_matter_g_per_cm2 = 0.005 }\n";
+    let outlines = [60, 45].map(|width| {
+        let path = format!("M30 100 C25 90 28 50 30 0 C{width} 50 55 80 30 100 Z");
+        let drawing =
+            format!("<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"{path}\"/></svg>");
+        std::fs::write(folder.path().join("a.svg"), drawing).expect("it can be written");
+        let leaves = parse_leaves(text, "a.toml", folder.path(), &[]);
+        let leaves = leaves.unwrap_or_else(|errors| panic!("{errors}"));
+        let plan = &leaves[0].value.plan;
+        let alone = grown(plan, None);
+        assert_eq!(grown(plan, Some(&cache)), alone);
+        alone
+    });
+    assert_ne!(outlines[0], outlines[1]);
 }
 
 #[test]

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::camera::thin_lens::LensError;
 use crate::film::MOST_RADIANCE;
 use crate::geometry::scatter::{ScatterError, VolumeError};
 use crate::geometry::{GeometryError, ImportError, MeshError};
 use crate::scene::assets::AssetError;
+use crate::scene::description::FocusError;
 use crate::scene::description::light::LightError;
 use crate::scene::plants::{PlantError, SolidError};
 
@@ -89,9 +89,9 @@ pub enum WorldError {
         /// Its radiance there, or that of white paper in its light.
         radiance: f32,
     },
-    /// The camera cannot be focused on its object.
-    #[error("camera.perspective.focus_object: {0}")]
-    Focus(LensError),
+    /// The camera cannot be focused.
+    #[error(transparent)]
+    Focus(#[from] FocusError),
     /// The geometry as a whole cannot be built.
     #[error(transparent)]
     Geometry(#[from] GeometryError),

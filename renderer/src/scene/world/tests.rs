@@ -283,10 +283,10 @@ fn a_camera_focuses_on_the_middle_of_an_object_in_all_its_places() {
 
 #[test]
 fn a_camera_stands_as_near_as_what_fills_its_picture_allows() {
-    let ball = |camera: &str, size: [u32; 2]| {
+    let ball_of = |radius: f64, camera: &str, size: [u32; 2]| {
         let text = format!(
             "format = 1\n[film.rgb]\nsize = {size:?}\nspp = 1\n{camera}\nposition_m = [3, -4, 12]\nlook_at_m = [0, 0, 0]\n\
-             [materials.grey.diffuse]\nreflectance = 0.5\n[meshes.ball.sphere]\nradius_m = 0.1\nsegments = 512\n\
+             [materials.grey.diffuse]\nreflectance = 0.5\n[meshes.ball.sphere]\nradius_m = {radius}\nsegments = 512\n\
              [objects.ball]\nmesh = \"ball\"\nmaterial = \"grey\"\nposition_m = [5, 6, 7]\n\
              [objects.far]\nmesh = \"ball\"\nmaterial = \"grey\"\nposition_m = [-50, 6, 7]\n\
              [lights.sky.constant]\nradiance_w_m2_sr_nm = 1\n"
@@ -294,9 +294,8 @@ fn a_camera_stands_as_near_as_what_fills_its_picture_allows() {
         let loaded = parse(&text, "scene.toml", Path::new("."), &[]);
         let loaded = loaded.unwrap_or_else(|errors| panic!("{errors}"));
         World::build(&loaded.description)
-            .expect("a good scene")
-            .view
     };
+    let ball = |camera: &str, size| ball_of(0.1, camera, size).expect("a good scene").view;
     let middle = DVec3::new(5.0, 6.0, 7.0);
     let direction = DVec3::new(-3.0, 4.0, -12.0) / 13.0;
     // A cone about the ball touches it at r / sin of half its angle.
@@ -321,15 +320,48 @@ fn a_camera_stands_as_near_as_what_fills_its_picture_allows() {
             "{lens:?}"
         );
     }
-    // With a focal length the angle depends on the distance.
-    let camera = "[camera.perspective]\nfocal_length_mm = 100\nframe = \"ball\"\nframe_margin = 0";
-    let view = ball(camera, [40, 40]);
-    let distance = (view.position - middle).length();
-    let film = 1.0 / (1.0 / 0.1 - 1.0 / distance);
-    let half = libm::atan(0.012 / film);
+    // With a focal length the angle depends on the distance, also nearer than the lens would be sharp at first: half a
+    // sensor's height is more than the small ball's radius.
+    for (radius, focal_length) in [(0.1, 0.1), (0.001, 0.085), (0.0001, 0.2)] {
+        let camera = format!(
+            "[camera.perspective]\nfocal_length_mm = {}\nframe = \"ball\"\nframe_margin = 0",
+            1000.0 * focal_length
+        );
+        let view = ball_of(radius, &camera, [40, 40])
+            .expect("a good scene")
+            .view;
+        let distance = (view.position - middle).length();
+        let film = 1.0 / (1.0 / focal_length - 1.0 / distance);
+        let half = libm::atan(0.012 / film);
+        assert!(
+            (distance - radius / libm::sin(half)).abs() < 1e-4 * distance,
+            "{distance}"
+        );
+    }
+    // A point may be sharp that lies behind where the file lets the camera stand.
+    let sharp = |at: &str, field: &str| {
+        let camera = format!("[camera.perspective]\n{field}\nframe = \"ball\"\n{at}");
+        ball_of(0.1, &camera, [40, 40]).map(|world| world.view)
+    };
+    let behind = middle - direction * 30.0;
+    let at = format!("focus_point_m = {:?}", behind.to_array());
+    let error = sharp(&at, "vertical_fov_deg = 40").expect_err("it stands before that");
     assert!(
-        (distance - 0.1 / libm::sin(half)).abs() < 1e-4 * distance,
-        "{distance}"
+        error
+            .to_string()
+            .starts_with("camera.perspective.focus_point_m: "),
+        "{error}"
+    );
+    let view = sharp(&at, "focal_length_mm = 100").expect("it stands behind that");
+    let Projection::Perspective(lens) = &view.projection else {
+        panic!("a lens was asked for");
+    };
+    let focus = (view.position - behind).length();
+    assert!((lens.focus_distance - focus).abs() < 1e-6, "{lens:?}");
+    let half = libm::asin(0.1 / (view.position - middle).length());
+    assert!(
+        (libm::tan(half) / 0.9 - libm::tan(0.5 * lens.vertical_fov)).abs() < 1e-6,
+        "{lens:?}"
     );
     // Parallel rays show the ball itself, and everything from ball to ball.
     for (frame, size, height) in [("ball", [40, 40], 0.2), ("everything", [40, 40], 44.2)] {
