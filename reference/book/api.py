@@ -10,7 +10,8 @@ import griffe
 
 REFERENCE = Path(__file__).resolve().parents[1]
 PAGE = REFERENCE.parent / "docs" / "src" / "guide" / "python-api.md"
-HEAD = """# The Python package, name by name
+HEAD = """<!-- kind: reference -->
+# The Python package, name by name
 
 For whoever has read [From Python](python.md) and looks a name up: every name that the package
 promises to keep, with its arguments. `reference/run api` writes this page from the docstrings.

@@ -91,7 +91,7 @@ fn a_pixel_of_colour_takes_at_most_192_bytes() {
     assert!(colour.bytes_per_pixel() as f64 + of_its_block <= 192.0);
 }
 
-const GUIDE: &str = include_str!("../../../fixtures/guide.md");
+const OUTPUT: &str = include_str!("../../../fixtures/output.md");
 const PATHS: &str = include_str!("../../../fixtures/paths.md");
 
 /// The channels of a layer as written in the book.
@@ -169,7 +169,7 @@ fn minus(exponent: i32) -> String {
 fn the_book_lists_every_layer() {
     for (page, head, rows) in [
         (
-            GUIDE,
+            OUTPUT,
             "| layer | what it is |\n| --- | --- |\n",
             rows_of_layers(),
         ),
