@@ -24,6 +24,7 @@ MODULES: dict[str, list[str]] = {
     "lamina.noise": ["relative_error", "summary"],
     "lamina.denoise": [],
     "lamina.print": [],
+    "lamina.usd": [],
     "lamina.mitsuba": [],
     "lamina.mitsuba.variant": ["choose"],
     "lamina.mitsuba.plugins": ["register"],

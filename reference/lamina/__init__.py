@@ -26,6 +26,7 @@ from lamina.program import Folders, LaminaError, Value, program, run, version
 from lamina.rendered import read, render
 from lamina.spectra import optics
 from lamina.sweeping import sweep
+from lamina.usd import to_usd
 
 __all__ = [
     "Folders",
@@ -47,5 +48,6 @@ __all__ = [
     "sweep",
     "to_envi",
     "to_netcdf",
+    "to_usd",
     "version",
 ]

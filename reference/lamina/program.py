@@ -107,7 +107,11 @@ class Started:
     """The end of the pipe that keeps it running."""
 
     def result(self) -> str:
-        """What it printed, once it has ended. Raises LaminaError if it failed.
+        """What it printed, as `finished` has it."""
+        return self.finished()[0]
+
+    def finished(self) -> tuple[str, str]:
+        """What it printed, and its notes, once it has ended. Raises LaminaError if it failed.
 
         Whatever interrupts the waiting ends the program, which saves its work before it leaves.
         """
@@ -119,7 +123,7 @@ class Started:
         if self.process.returncode != 0:
             text = told.strip() or (out or "").strip()
             raise LaminaError(text, self.process.returncode)
-        return out
+        return out, told
 
 
 HELD: set[int] = set()

@@ -29,6 +29,7 @@ CALLS: dict[str, Callable[[Path], Any]] = {
     "report": lambda folder: report.report(["a.exr", "b.exr"], folder / "r.html"),
     "netcdf": lambda folder: lamina.to_netcdf("figures.json", folder / "f.nc"),
     "mitsuba": lambda _: variant.choose(),
+    "usd": lambda folder: lamina.to_usd("birch", folder / "leaf.usda"),
 }
 COMMANDS: dict[str, Callable[[list[str]], int]] = {"denoise": denoise.main, "print": print.main}
 
