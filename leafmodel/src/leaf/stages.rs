@@ -4,9 +4,11 @@ use glam::DVec2;
 
 use super::error::LeafError;
 use super::lamina::Lamina;
+use super::outline_plan::Contour;
 use super::plan::LeafPlan;
 use super::venation_plan::Growing;
 use crate::development::{DevelopedLeaf, MainVeinStyle};
+use crate::shape::growth_form::GrowthForm;
 use crate::shape::outline::Outline;
 use crate::transport::{Ladder, TransportLeaf};
 use crate::venation::network::VenationNetwork;
@@ -65,10 +67,18 @@ impl LeafPlan {
             Growing::Auxin(plan) => {
                 let stages = VeinGrowth::new(outline, plan, self.seed).stages(steps);
                 let stages = stages.map_err(not_grown)?.into_iter();
-                let stage = |stage: Stage| LeafStage {
-                    outline: stage.outline,
-                    network: stage.network,
-                    sources: stage.sources,
+                let stage = |stage: Stage| {
+                    let stage = LeafStage {
+                        outline: stage.outline,
+                        network: stage.network,
+                        sources: stage.sources,
+                    };
+                    match (&self.outline.contour, &plan.growth) {
+                        (Contour::GrowthAlgorithm(form), Growth::Isogonic { .. }) => {
+                            allometric(form, stage, outline.length())
+                        }
+                        _ => stage,
+                    }
                 };
                 stages.map(stage).collect()
             }
@@ -176,6 +186,28 @@ impl LeafPlan {
     }
 }
 
+/// A stage in the form that the leaf had when it was so long, instead of that of the full-grown leaf
+/// reduced.
+///
+/// It stays as it is where the map of the tissue is not one-to-one: on palmate leaves, and where
+/// rows of cells pass over one another.
+fn allometric(form: &GrowthForm, stage: LeafStage, final_length: f64) -> LeafStage {
+    let (base, length) = (stage.outline.base(), stage.outline.length());
+    let Some(course) = form.course(length / final_length).ok().flatten() else {
+        return stage;
+    };
+    let earlier = |p: DVec2| base + course.earlier((p - base) / length) * length;
+    let points = stage.outline.points().iter().map(|&p| earlier(p)).collect();
+    match Outline::new(points, base, stage.outline.apex()) {
+        Ok(outline) => LeafStage {
+            outline,
+            network: stage.network.moved(earlier),
+            sources: stage.sources.into_iter().map(earlier).collect(),
+        },
+        Err(_) => stage,
+    }
+}
+
 /// A part that the lamina of this plan has.
 fn part<T>(part: Option<&T>) -> Result<&T, LeafError> {
     part.ok_or(LeafError::NoStages("the lamina is that of another plan"))
@@ -238,7 +270,6 @@ impl TransportLeaf {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::leaf::outline_plan::Contour;
     use crate::leaf::venation_plan::VenationPlan;
     use crate::shape::teeth::ToothWave;
     use crate::species;
@@ -256,6 +287,33 @@ mod tests {
         let steps: Vec<u32> = (0..=5).map(|i| last * i / 5).collect();
         let stages = plan.stages(&lamina, &steps).expect("it has stages");
         (lamina, stages)
+    }
+
+    #[test]
+    fn a_leaf_of_the_growth_algorithm_follows_its_allometric_course() {
+        for (name, rate_ratio) in [("young-3a", 1.07), ("young-3d", 1.71)] {
+            let (lamina, stages) = seedling_to_leaf(&preset(name));
+            let mut widths = Vec::new();
+            for stage in &stages {
+                let (low, high) = stage.outline.bounds();
+                let width_over_length = (high.x - low.x) / stage.outline.length();
+                // Eqs. 1 and 2 in closed form, for the row that grows fastest.
+                let enlargement = 1000.0 * stage.outline.length() / lamina.outline.length();
+                let steps = libm::log(enlargement) / libm::log(1.1);
+                let half_width = libm::pow(1.0 + 0.1 / rate_ratio, steps) / enlargement;
+                assert!((width_over_length / (2.0 * half_width) - 1.0).abs() < 1e-9);
+                let nodes = stage.network.nodes().iter();
+                let inside = nodes.filter(|node| stage.outline.covers(node.position));
+                assert_eq!(inside.count(), stage.network.nodes().len());
+                widths.push(width_over_length);
+            }
+            assert!(
+                widths.windows(2).all(|pair| pair[1] < pair[0] - 1e-3),
+                "{widths:?}"
+            );
+            let grown = stages.last().expect("stages");
+            assert!((grown.outline.area() / lamina.outline.area() - 1.0).abs() < 1e-9);
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@ mod image;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use glam::DVec3;
@@ -88,6 +89,16 @@ pub enum Steered {
         /// Factor for white, 0 to 1000.
         high: f64,
     },
+    /// Factor on the probability that a child of the first type is of the second: `low` at value 0,
+    /// `high` at value 1. The first type has the rest.
+    Switching {
+        /// The parent's type and the child's, which differ.
+        pair: [u16; 2],
+        /// Factor for black, 0 to 1000.
+        low: f64,
+        /// Factor for white, 0 to 1000.
+        high: f64,
+    },
     /// Where the value is ½ or more, no cell is created and none enters.
     Blocked,
 }
@@ -98,6 +109,7 @@ enum What {
     InitialType,
     DivisionRate,
     Adhesion,
+    Switching,
     Blocked,
 }
 
@@ -108,6 +120,7 @@ fn steered(steers: &mut Steered, keys: &mut Keys<'_>, types: &[String]) {
             (What::DivisionRate, [kind, None], [low, high])
         }
         Steered::Adhesion { pair, low, high } => (What::Adhesion, pair.map(Some), [low, high]),
+        Steered::Switching { pair, low, high } => (What::Switching, pair.map(Some), [low, high]),
         Steered::Blocked => (What::Blocked, [None; 2], [0.0, 1.0]),
     };
     let errors = keys.reader().map(|block| block.cx.error_count());
@@ -121,28 +134,35 @@ fn steered(steers: &mut Steered, keys: &mut Keys<'_>, types: &[String]) {
         return;
     }
     let all = keys.is_description();
-    let named = matches!(what, What::InitialType | What::Adhesion);
+    let is_pair = matches!(what, What::Adhesion | What::Switching);
+    let named = is_pair || what == What::InitialType;
     if all || what != What::Blocked {
         let about = "The type of cell; for `division_rate` left out, all.";
         type_of(&mut kind, keys, "type", types, named, about);
     }
-    if all || what == What::Adhesion {
-        let about = "The other type of cell, for `adhesion`.";
+    if all || is_pair {
+        let about = "The other type of cell for `adhesion`, that of the children for `switching`.";
         type_of(&mut other, keys, "other_type", types, true, about);
     }
-    if all || matches!(what, What::DivisionRate | What::Adhesion) {
+    if all || is_pair || what == What::DivisionRate {
         keys.key("low", &mut low, FACTOR, "Factor where the image is black.");
         keys.key("high", &mut high, FACTOR, "Factor where it is white.");
     }
     let kind_or_first = kind.unwrap_or_default();
+    let pair = [kind_or_first, other.unwrap_or_default()];
+    if what == What::Switching && keys.is_sound() && pair[0] == pair[1] && !all {
+        let problem = "cells do not switch to their own type, which has the rest".to_owned();
+        keys.refuse(
+            &["other_type"],
+            problem,
+            "name the type that children become",
+        );
+    }
     *steers = match what {
         What::InitialType => Steered::InitialType(kind_or_first),
         What::DivisionRate => Steered::DivisionRate { kind, low, high },
-        What::Adhesion => Steered::Adhesion {
-            pair: [kind_or_first, other.unwrap_or_default()],
-            low,
-            high,
-        },
+        What::Adhesion => Steered::Adhesion { pair, low, high },
+        What::Switching => Steered::Switching { pair, low, high },
         What::Blocked => Steered::Blocked,
     };
 }
@@ -198,7 +218,9 @@ impl CylinderControl {
         let (kinds, factors) = match self.steers {
             Steered::InitialType(kind) => ([Some(kind), None], [0.0; 2]),
             Steered::DivisionRate { kind, low, high } => ([kind, None], [low, high]),
-            Steered::Adhesion { pair, low, high } => (pair.map(Some), [low, high]),
+            Steered::Adhesion { pair, low, high } | Steered::Switching { pair, low, high } => {
+                (pair.map(Some), [low, high])
+            }
             Steered::Blocked => ([None; 2], [0.0; 2]),
         };
         if let Some(kind) = kinds
@@ -306,6 +328,29 @@ impl Controls<'_> {
             }
         }
         factor
+    }
+
+    /// The probabilities of the types of a child whose parent, of type `kind`, is at a point.
+    pub(super) fn switching<'a>(&self, at: DVec3, kind: u16, row: &'a [f64]) -> Cow<'a, [f64]> {
+        let mut row = Cow::Borrowed(row);
+        for control in self.0 {
+            let Steered::Switching {
+                pair: [parent, child],
+                low,
+                high,
+            } = control.steers
+            else {
+                continue;
+            };
+            if let Some(value) = control.value(at).filter(|_| parent == kind) {
+                let [own, other] = [parent, child].map(usize::from);
+                let sum = row[own] + row[other];
+                let row = row.to_mut();
+                row[other] = (row[other] * (low + value * (high - low))).min(sum);
+                row[own] = sum - row[other];
+            }
+        }
+        row
     }
 
     /// Applies the controls to a row of the adhesion matrix: that of type `kind` at a point.

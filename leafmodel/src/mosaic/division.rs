@@ -2,7 +2,6 @@
 
 use glam::DVec2;
 
-use super::plan::CellType;
 use crate::random::{Use, bits, uniform};
 
 /// Diameter of the disc in which a child lies, over the repulsion radius.
@@ -71,10 +70,11 @@ pub(super) fn chosen(probabilities: impl IntoIterator<Item = f64>, u: f64) -> u1
     last
 }
 
-/// The type of the child that a cell of a type has at its division number `counter`.
-pub(super) fn kind_of_child(parent: &CellType, id: u64, counter: u64) -> u16 {
+/// The type of the child that a cell has at its division number `counter`, from the probabilities
+/// of all types.
+pub(super) fn kind_of_child(switching: &[f64], id: u64, counter: u64) -> u16 {
     let u = uniform(id, Use::MosaicKind, counter);
-    chosen(parent.switching.iter().copied(), u)
+    chosen(switching.iter().copied(), u)
 }
 
 /// The child's identifier, from which all its random numbers derive.

@@ -15,6 +15,10 @@ pub struct SurfaceGrowth {
     /// Size at the start over the final size, along x, y and z.
     #[key("start", required, 0.01..=10.0)]
     pub start: DVec3,
+    /// Days in which it reaches its final size; left out, those of the mosaic. Of a mosaic of fewer days the young surface is
+    /// shown, enlarged to that size.
+    #[key("days", above(0.0, 100_000.0))]
+    pub days: Option<f64>,
     /// When growth is fastest, as a share of the days; 0.5 beside a steepness.
     #[key("middle", 0.0..=1.0)]
     pub middle: Option<f64>,
@@ -29,6 +33,7 @@ impl Default for SurfaceGrowth {
     fn default() -> Self {
         Self {
             start: DVec3::ONE,
+            days: None,
             middle: None,
             steepness: None,
         }
@@ -54,8 +59,10 @@ impl SurfaceGrowth {
         ((at(share) - at(0.0)) / (at(1.0) - at(0.0))).clamp(0.0, 1.0)
     }
 
-    /// Size over final size along each axis after a share of the days.
-    pub(super) fn size(&self, share: f64) -> DVec3 {
+    /// Size over final size along each axis on a day of a mosaic of so many days.
+    pub(super) fn size(&self, day: f64, days: f64) -> DVec3 {
+        let days = self.days.unwrap_or(days);
+        let share = if days > 0.0 { day / days } else { 1.0 };
         self.start.lerp(DVec3::ONE, self.done(share))
     }
 }

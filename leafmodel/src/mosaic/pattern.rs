@@ -158,7 +158,11 @@ impl MosaicPattern {
         let days = [self.plan.days];
         let faces = surface.faces().len();
         check_fineness(faces, self.plan.most_cells())?;
-        let mosaic = options.mosaics(surface, &self.plan, seed, &days)?.remove(0);
+        let mut mosaic = options.mosaics(surface, &self.plan, seed, &days)?.remove(0);
+        if self.plan.growth.is_some_and(|growth| growth.days.is_some()) {
+            // What is painted has its final size.
+            mosaic.surface = Arc::new(surface.clone());
+        }
         check_fineness(faces, mosaic.cells.len())?;
         let field = self.field(&mosaic, self.blend_mm)?;
         Ok((mosaic, field))

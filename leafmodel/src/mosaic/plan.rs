@@ -210,7 +210,9 @@ impl MosaicPlan {
     /// Whether the number of cells depends on controls or on the growth of the surface.
     fn is_steered(&self) -> bool {
         let steered = self.controls.iter().any(|control| match control.steers {
-            Steered::DivisionRate { .. } | Steered::InitialType(_) => true,
+            Steered::DivisionRate { .. } | Steered::InitialType(_) | Steered::Switching { .. } => {
+                true
+            }
             Steered::Adhesion { .. } | Steered::Blocked => false,
         });
         steered || self.growth.is_some()
@@ -234,7 +236,10 @@ impl MosaicPlan {
         }
         let factors = self.controls.iter().map(|control| match control.steers {
             Steered::DivisionRate { low, high, .. } => low.max(high).max(1.0),
-            Steered::InitialType(_) | Steered::Adhesion { .. } | Steered::Blocked => 1.0,
+            Steered::InitialType(_)
+            | Steered::Adhesion { .. }
+            | Steered::Switching { .. }
+            | Steered::Blocked => 1.0,
         });
         let fastest = self.types.iter().map(|kind| kind.division_days);
         let days = fastest.fold(f64::INFINITY, f64::min) / factors.product::<f64>();

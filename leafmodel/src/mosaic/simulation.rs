@@ -148,7 +148,7 @@ impl<'a> Run<'a> {
         seed: u64,
         is_stopped: &dyn Fn() -> bool,
     ) -> Result<Self, NotGrown> {
-        let size = plan.growth.map(|growth| growth.size(0.0));
+        let size = plan.growth.map(|growth| growth.start);
         let at_start = size.map(|size| scaled(given, size)).transpose()?;
         let area = at_start.as_ref().unwrap_or(given).total_area();
         let cell_area = area / plan.initial_cells as f64;
@@ -321,12 +321,11 @@ impl<'a> Run<'a> {
     fn divide(&mut self, number: u32) {
         let parent = self.cells[number as usize];
         let id = child_id(parent.id, parent.divisions);
+        let switching = &self.plan.types[usize::from(parent.kind)].switching;
+        let place = self.mature_place(&parent);
+        let switching = self.controls.switching(place, parent.kind, switching);
         let mut child = Live {
-            kind: kind_of_child(
-                &self.plan.types[usize::from(parent.kind)],
-                parent.id,
-                parent.divisions,
-            ),
+            kind: kind_of_child(&switching, parent.id, parent.divisions),
             parent: number,
             id,
             divisions: 0,
@@ -349,19 +348,17 @@ impl<'a> Run<'a> {
         self.cells[number as usize] = parent;
     }
 
+    /// Size of the surface over its final size on a day.
+    fn size(&self, day: f64) -> Option<DVec3> {
+        let growth = self.plan.growth?;
+        Some(growth.size(day, self.plan.days))
+    }
+
     /// Grows the surface by one day; cells keep their places in the tissue.
     fn grow_surface(&mut self) -> Result<(), NotGrown> {
         let per_day = f64::from(self.plan.relaxations_per_day);
         let day = (self.event - 1) as f64 / per_day + 1.0;
-        let share = if self.plan.days > 0.0 {
-            day / self.plan.days
-        } else {
-            1.0
-        };
-        let (Some(size), Some(old)) = (
-            self.plan.growth.map(|growth| growth.size(share)),
-            &self.grown,
-        ) else {
+        let (Some(size), Some(old)) = (self.size(day), &self.grown) else {
             return Ok(());
         };
         let new = scaled(&self.mature, size)?;
@@ -378,12 +375,7 @@ impl<'a> Run<'a> {
 
     /// The present state as a mosaic.
     fn mosaic(&self, day: f64) -> Result<Mosaic, NotGrown> {
-        let share = if self.plan.days > 0.0 {
-            day / self.plan.days
-        } else {
-            1.0
-        };
-        let size = self.plan.growth.map(|growth| growth.size(share));
+        let size = self.size(day);
         let surface =
             size.map_or_else(|| Ok(self.given.clone()), |size| scaled(self.given, size))?;
         let cell = |cell: &Live| Cell {

@@ -18,6 +18,7 @@
 
 mod axes;
 mod check;
+mod course;
 mod error;
 mod form;
 mod keys;
@@ -39,13 +40,13 @@ use self::rows::Rows;
 use super::outline::Outline;
 
 impl GrowthForm {
-    /// Grows the primordium until the midrib is 1000 times as long, then scales the outline so that
-    /// the midrib measures `length_mm`, 0.001 to 100 000.
+    /// Grows the primordium until the midrib is `maturity` times as long, then scales the outline so
+    /// that the midrib measures `length_mm`, 0.001 to 100 000.
     ///
     /// The outline of a leaf without axes starts at the base (0, 0), goes up the right margin to
     /// the apex (0, `length_mm`) and down the left margin; that of a leaf with axes starts at its
-    /// lowest point. The last step is cut short, so that the enlargement is exactly 1000 (the
-    /// paper: "about 1000").
+    /// lowest point. The last step is cut short, so that the enlargement is exactly the
+    /// maturity (the paper: "about 1000").
     ///
     /// # Errors
     ///

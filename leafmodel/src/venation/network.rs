@@ -219,9 +219,14 @@ impl VenationNetwork {
     }
 
     /// The same veins farther apart by `factor`, about `centre`; their widths stay.
-    pub(crate) fn enlarged(mut self, centre: DVec2, factor: f64) -> Self {
+    pub(crate) fn enlarged(self, centre: DVec2, factor: f64) -> Self {
+        self.moved(|p| centre + (p - centre) * factor)
+    }
+
+    /// The same network with every node elsewhere.
+    pub(crate) fn moved(mut self, place: impl Fn(DVec2) -> DVec2) -> Self {
         for node in &mut self.nodes {
-            node.position = centre + (node.position - centre) * factor;
+            node.position = place(node.position);
         }
         self
     }

@@ -273,6 +273,7 @@ fn on_a_growing_surface_cells_keep_their_spacing() {
             start: DVec3::new(0.5, 0.25, 1.0),
             middle: Some(0.5),
             steepness: Some(6.0),
+            days: None,
         }),
         // Enough events for the young to move apart before the next are born.
         relaxations_per_day: 20,
@@ -392,4 +393,23 @@ fn what_a_plan_has_wrong_is_named() {
     let error = options.mosaics(&surface, &explosive, 1, &[1000.0]);
     let error = error.expect_err("too many").to_string();
     assert!(error.contains("more than 5000 cells"), "{error}");
+}
+
+#[test]
+fn the_first_days_of_a_growing_surface_are_those_of_the_whole_course() {
+    let surface = square(20.0, 2.0);
+    let plan = |days: f64| MosaicPlan {
+        growth: Some(SurfaceGrowth {
+            start: DVec3::new(0.5, 0.5, 1.0),
+            days: Some(20.0),
+            ..SurfaceGrowth::default()
+        }),
+        ..small(200, days)
+    };
+    let course = GrowOptions::default().mosaics(&surface, &plan(20.0), 6, &[8.0]);
+    let day_8 = &course.expect("good")[0];
+    let young = Mosaic::grow(&surface, &plan(8.0), 6).expect("good");
+    assert_eq!(young.cells, day_8.cells);
+    let fraction = young.surface.total_area() / surface.total_area();
+    assert!((fraction / (0.7 * 0.7) - 1.0).abs() < 1e-12, "{fraction}");
 }

@@ -136,7 +136,10 @@ pub(super) fn growth_form() -> impl Strategy<Value = GrowthForm> {
         (place, bare_axis(), 0_usize..4).prop_map(|(place, axis, alike)| (place, axis, alike));
     let axes = prop::collection::vec(secondary, 0..3);
     (rate, bare_axis(), axes, any::<bool>()).prop_map(|(axial_rate, midrib, axes, nested)| {
-        let mut form = GrowthForm { axial_rate, midrib };
+        let mut form = GrowthForm {
+            axial_rate,
+            ..midrib.into()
+        };
         for ((position, angle_deg, paired, length), mut axis, alike) in axes {
             // Some have much of their parent's.
             if alike > 0 {

@@ -61,9 +61,9 @@ impl Place {
     }
 
     /// Where an axis on this one lies.
-    fn of_secondary(&self, axis: &SecondaryAxis, number: usize, twin: bool) -> Self {
+    fn of_secondary(&self, axis: &SecondaryAxis, length: f64, number: usize, twin: bool) -> Self {
         // Lengths are in midribs, not in lengths of the parent.
-        let own_length = axis.length / self.axis.length();
+        let own_length = length / self.axis.length();
         let side = if twin { -1.0 } else { 1.0 };
         let direction = DVec2::new(side * libm::sin(axis.angle), libm::cos(axis.angle));
         let tip = DVec2::new(0.0, axis.position) + direction * own_length;
@@ -122,11 +122,12 @@ fn add_lobes(
         } else {
             &[false]
         };
+        let length = growth.length_of(secondary);
         let on_each = |place: &Place| {
             let place = place.clone();
             twins
                 .iter()
-                .map(move |&twin| place.of_secondary(secondary, number, twin))
+                .map(move |&twin| place.of_secondary(secondary, length, number, twin))
         };
         let places: Vec<Place> = places.iter().flat_map(on_each).collect();
         let growth = growth.of_secondary(secondary);

@@ -28,7 +28,7 @@ impl GrowthForm {
     /// Checks every parameter and returns the growth of the midrib.
     pub(super) fn checked(&self) -> Result<AxisGrowth, GrowthFormError> {
         self.in_range().map_err(GrowthFormProblem::Range)?;
-        let growth = AxisGrowth::of_midrib(self.axial_rate);
+        let growth = AxisGrowth::of_midrib(self);
         check_axis(&self.midrib, growth, &mut Vec::new())?;
         Ok(growth)
     }

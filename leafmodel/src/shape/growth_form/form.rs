@@ -4,7 +4,7 @@ use super::row_curve::RowCurve;
 use crate::shape::growth::RateCurve;
 
 /// Growth in length from primordium to maturity: 0.1 mm to 100 mm in the paper (section III).
-pub(crate) const ENLARGEMENT: f64 = 1000.0;
+pub(super) const MATURITY: f64 = 1000.0;
 
 /// Lateral growth rate of rows of cells, by where they start along their axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,8 +77,8 @@ pub struct SecondaryAxis {
     /// Whether the axis has a twin: its mirror image about the parent, with the mirror images of
     /// all axes on it.
     pub paired: bool,
-    /// Length at maturity, in lengths of the midrib, 0.01 to 100; [`SecondaryAxis::axial_rate`] is
-    /// the rate of growth that leads to it.
+    /// Length when the midrib is 1000 times as long as its primordium, in lengths of the midrib,
+    /// 0.01 to 100; [`SecondaryAxis::axial_rate`] is the rate of growth that leads to it.
     pub length: f64,
     /// Its rows, and the axes on it.
     pub axis: Axis,
@@ -96,6 +96,10 @@ pub struct SecondaryAxis {
 pub struct GrowthForm {
     /// `gy`, growth of the midrib per step, 0.001 to 1. The paper's value is 0.1.
     pub axial_rate: f64,
+    /// Length of the midrib at which growth ends, in lengths of the primordium, 1 to 1e6. The
+    /// paper's value is about 1000; its section V: "changing the point of leaf maturation would
+    /// produce allometric shape variation".
+    pub maturity: f64,
     /// The midrib and all that grows on it.
     pub midrib: Axis,
 }
@@ -162,6 +166,7 @@ impl From<Axis> for GrowthForm {
     fn from(midrib: Axis) -> Self {
         Self {
             axial_rate: 0.1,
+            maturity: MATURITY,
             midrib,
         }
     }
@@ -179,7 +184,7 @@ impl SecondaryAxis {
     /// `(1 + gy) length^(1/T) − 1`, as both grow for the same `T` steps from primordia of equal
     /// size.
     pub fn axial_rate(&self, main_rate: f64) -> f64 {
-        let per_step = libm::log1p(main_rate) / libm::log(ENLARGEMENT);
+        let per_step = libm::log1p(main_rate) / libm::log(MATURITY);
         (1.0 + main_rate) * libm::pow(self.length, per_step) - 1.0
     }
 }

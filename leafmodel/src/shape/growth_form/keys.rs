@@ -27,6 +27,10 @@ impl Declared for GrowthForm {
         let limits = Number(Limits::closed(0.001, 1.0));
         let about = "g_y: growth of the midrib per step.";
         keys.key("axial_rate", &mut self.axial_rate, limits, about);
+        let limits = Number(Limits::closed(1.0, 1e6));
+        let about = "Length of the midrib at which growth ends, in lengths of the primordium: the \
+            less, the younger the form.";
+        keys.key("maturity", &mut self.maturity, limits, about);
         axis(&mut self.midrib, keys, false);
     }
 }

@@ -4,7 +4,9 @@
 use glam::DVec2;
 
 use super::error::{FormPart, GrowthFormError, GrowthFormProblem, Side};
-use super::form::{Axis, ENLARGEMENT, HalfForm, LateralGrowth, RowGrowth, SecondaryAxis, VeinRow};
+use super::form::{
+    Axis, GrowthForm, HalfForm, LateralGrowth, MATURITY, RowGrowth, SecondaryAxis, VeinRow,
+};
 use super::row_curve::RowCurve;
 use crate::shape::outer_boundary::outer_boundary;
 
@@ -26,23 +28,33 @@ pub(super) struct AxisGrowth {
     steps: f64,
     /// Length at maturity over that of the primordium.
     enlargement: f64,
+    /// The same of the midrib.
+    maturity: f64,
 }
 
 impl AxisGrowth {
-    pub(super) fn of_midrib(axial_rate: f64) -> Self {
+    pub(super) fn of_midrib(form: &GrowthForm) -> Self {
+        let axial_rate = form.axial_rate;
         Self {
             main_rate: axial_rate,
             axial_rate,
-            steps: libm::log(ENLARGEMENT) / libm::log(1.0 + axial_rate),
-            enlargement: ENLARGEMENT,
+            steps: libm::log(form.maturity) / libm::log(1.0 + axial_rate),
+            enlargement: form.maturity,
+            maturity: form.maturity,
         }
+    }
+
+    /// How long an axis of the leaf is at maturity, in lengths of the midrib.
+    pub(super) fn length_of(self, axis: &SecondaryAxis) -> f64 {
+        // Its length over that of the midrib rises exponentially, from 1 in the primordium.
+        libm::pow(axis.length, libm::log(self.maturity) / libm::log(MATURITY))
     }
 
     /// An axis on the same leaf.
     pub(super) fn of_secondary(self, axis: &SecondaryAxis) -> Self {
         Self {
             axial_rate: axis.axial_rate(self.main_rate),
-            enlargement: axis.length * ENLARGEMENT,
+            enlargement: self.length_of(axis) * self.maturity,
             ..self
         }
     }
@@ -148,9 +160,21 @@ impl<'a> Rows<'a> {
         libm::exp(self.growth.steps * libm::log1p(self.rate(j))) / self.growth.enlargement
     }
 
+    /// The same when the axis had a fraction of its length.
+    pub(super) fn earlier_allometry(&self, j: usize, fraction: f64) -> f64 {
+        let enlargement = self.growth.enlargement * fraction;
+        let steps = libm::log(enlargement) / libm::log1p(self.growth.axial_rate);
+        libm::exp(steps * libm::log1p(self.rate(j))) / enlargement
+    }
+
+    /// The curve of row `j`.
+    pub(super) fn curve(&self, j: usize) -> RowCurve {
+        curve(&self.veins, j)
+    }
+
     /// The curve of row `j` and how far from the axis it ends.
     fn row(&self, j: usize) -> Result<(RowCurve, f64), GrowthFormError> {
-        let curve = curve(&self.veins, j);
+        let curve = self.curve(j);
         // In the primordium every row ends at a distance of one axis' length from the axis (Eq. 2,
         // in closed form).
         let length = curve.length(1.0) * self.allometry(j);
@@ -230,7 +254,8 @@ mod tests {
             ..HalfForm::entire(1.2, 0.3, 3.0)
         };
         let axis = Axis::from(half);
-        let rows = Rows::new(&axis, AxisGrowth::of_midrib(0.1), FormPart::default());
+        let growth = AxisGrowth::of_midrib(&axis.clone().into());
+        let rows = Rows::new(&axis, growth, FormPart::default());
         assert!((rows.growth.steps - 72.48).abs() < 0.01);
         let mut midrib: Vec<f64> = (0..150).map(|j| rows.start(j)).collect();
         let mut half_widths = vec![1.0; 150];

@@ -81,6 +81,45 @@ fn an_image_decides_initial_types_and_rates() {
 }
 
 #[test]
+fn an_image_decides_where_children_are_of_another_type() {
+    let surface = square(20.0, 1.5);
+    let half = |value: f64, low: f64, high: f64| CylinderControl {
+        from: DVec3::X * -1.0,
+        to: DVec3::X * 10.0,
+        radius_mm: None,
+        image: ControlImage::Constant(value),
+        steers: Steered::Switching {
+            pair: [1, 0],
+            low,
+            high,
+        },
+    };
+    // A quarter of the children of type 1 are of type 0, to the left none or all.
+    for (control, expected) in [(half(0.0, 0.0, 2.0), 0.0), (half(1.0, 0.0, 1000.0), 1.0)] {
+        let mut plan = MosaicPlan {
+            controls: vec![control],
+            types: MosaicPlan::two_types([1e6, 10.0], [0.5, 0.5], 0.0, 0.25),
+            ..small(600, 15.0)
+        };
+        // Where all children are of type 0 none is of type 1, so that parents do not move far.
+        plan.radius_weight = 0.5;
+        let mosaic = Mosaic::grow(&surface, &plan, 3).expect("good");
+        let places = mosaic.positions();
+        let children = mosaic.cells.iter().zip(&places);
+        let children: Vec<_> = children.filter(|(cell, _)| cell.parent.is_some()).collect();
+        let share = |left: bool| {
+            let there = children
+                .iter()
+                .filter(|(_, at)| (at.x < 9.5) == left && (at.x - 10.0).abs() > 0.5);
+            let kinds: Vec<bool> = there.map(|(cell, _)| cell.kind == 0).collect();
+            kinds.iter().filter(|&&other| other).count() as f64 / kinds.len() as f64
+        };
+        assert!((share(true) - expected).abs() < 0.02, "{}", share(true));
+        assert!((0.15..0.4).contains(&share(false)), "{}", share(false));
+    }
+}
+
+#[test]
 fn an_image_decides_how_far_cells_adhere() {
     let surface = square(20.0, 1.5);
     let plan = MosaicPlan {

@@ -26,7 +26,7 @@ const AGEING: Row = Row {
     adhesion: [0.5, 0.8],
     division: [5.0, 10.0],
     foreground: 0.1,
-    switching: 0.12,
+    switching: 0.0,
 };
 
 /// Fig. 9.
@@ -69,6 +69,8 @@ fn nearness_of_the_turned(places: &[DVec3], first: &[u32], later: &[u32]) -> f64
 /// Distance of what turns yellow from what was yellow, over that of any place: noise has at least
 /// this.
 const NOISE_BELOW: f64 = 0.93;
+/// What a mosaic has at most.
+const MOSAIC_ABOVE: f64 = 0.8;
 
 #[test]
 #[ignore = "deep: 10 s"]
@@ -78,7 +80,7 @@ fn a_croton_yellows_by_the_borders_of_its_blotches_and_noise_does_not() {
     let stages = GrowOptions::default().mosaics(&leaf, &AGEING.plan(), 1, &days);
     let stages: Vec<Seen> = stages.expect("a good plan").iter().map(Seen::of).collect();
     let shares: Vec<f64> = stages.iter().map(Seen::share).collect();
-    assert!(shares[0] < 0.15 && shares[3] > 0.6, "{shares:?}");
+    assert!(shares[0] < 0.15 && shares[3] > 0.5, "{shares:?}");
     // Four probes to a square millimetre would be finer than blotches; 8000 on 4900 mm² lie some
     // 0.8 mm apart.
     let points = leaf.probes(8000, 1);
@@ -88,8 +90,8 @@ fn a_croton_yellows_by_the_borders_of_its_blotches_and_noise_does_not() {
         let kept = contained(&two[0], &two[1], FOREGROUND);
         assert!(kept > 0.95, "{kept} of the old blotches");
         let near = nearness_of_the_turned(&places, &two[0], &two[1]);
-        // Nearer than noise ever is, below.
-        assert!(near < NOISE_BELOW, "what turns yellow is as far as {near}");
+        // Far nearer than noise ever is, below.
+        assert!(near < MOSAIC_ABOVE, "what turns yellow is as far as {near}");
     }
     // Noise with the same shares, at rising scale, as in Fig. 6.
     for seed in 1..4 {
