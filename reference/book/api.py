@@ -25,6 +25,7 @@ MODULES: dict[str, list[str]] = {
     "lamina.denoise": [],
     "lamina.print": [],
     "lamina.usd": [],
+    "lamina.eradiate": [],
     "lamina.mitsuba": [],
     "lamina.mitsuba.variant": ["choose"],
     "lamina.mitsuba.plugins": ["register"],

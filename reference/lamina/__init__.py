@@ -19,6 +19,7 @@ this package.
 
 from lamina.checking import Problem, check
 from lamina.envi import to_envi
+from lamina.eradiate import to_eradiate
 from lamina.grown import Grown, frames, grow
 from lamina.measured import instruments, read_figures, to_netcdf
 from lamina.parts import render_in_parts
@@ -47,6 +48,7 @@ __all__ = [
     "run",
     "sweep",
     "to_envi",
+    "to_eradiate",
     "to_netcdf",
     "to_usd",
     "version",

@@ -168,6 +168,18 @@ def overrides(flag: str, values: Mapping[str, Value] | None) -> list[str]:
     return arguments
 
 
+def options_of(options: Mapping[str, Value]) -> list[str]:
+    """Options by their names, with `_` for `-`: those that are True alone, others with a value."""
+    words: list[str] = []
+    for key, value in options.items():
+        flag = f"--{key.replace('_', '-')}"
+        if value is True:
+            words.append(flag)
+        elif value is not False and value is not None:
+            words += [flag, str(value)]
+    return words
+
+
 def allowing(folders: Folders) -> list[str]:
     """Arguments that let documents name files in folders, whichever folder a worker is in."""
     several = [folders] if isinstance(folders, str | os.PathLike) else folders

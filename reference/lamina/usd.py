@@ -21,7 +21,7 @@ from tempfile import TemporaryDirectory
 
 from lamina.extras import require
 from lamina.gltf import Gltf
-from lamina.program import Folders, LaminaError, Value, allowing, overrides, start
+from lamina.program import Folders, LaminaError, Value, allowing, options_of, overrides, start
 
 ENDINGS = (".usda", ".usdc", ".usdz")
 # When all files in a package were made, by the local clock that it records.
@@ -43,14 +43,8 @@ def to_usd(
     `texture=512`. With `one_face` the variant set `faces` shows one surface, seen from both sides,
     in the adaxial face's colours; without, a surface for each face.
     """
-    words = [*overrides("-D", values), *allowing(allow)]
     one_face = bool(options.pop("one_face", False))
-    for key, value in options.items():
-        flag = f"--{key.replace('_', '-')}"
-        if value is True:
-            words.append(flag)
-        elif value is not False and value is not None:
-            words += [flag, str(value)]
+    words = [*overrides("-D", values), *allowing(allow), *options_of(options)]
     return write(scene, Path(out), words, one_face)[0]
 
 

@@ -357,6 +357,7 @@ pub enum ExportCommand {
 
 /// `lamina export gltf`.
 #[derive(Args, Clone, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub struct GltfArguments {
     /// The scene file, or a preset of a leaf, which becomes an object of its name
     #[arg(value_name = "SCENE.toml|PRESET")]
@@ -386,6 +387,9 @@ pub struct GltfArguments {
     /// instead of two surfaces back to back
     #[arg(long)]
     pub one_face: bool,
+    /// Add the mean reflectance and transmittance of each material, 400 to 2500 nm, as its `extras`
+    #[arg(long, conflicts_with = "cards")]
+    pub spectra: bool,
     /// Memory that building the scene may take; the default is what the machine has free
     #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,

@@ -40,6 +40,7 @@ pub(super) fn gltf(arguments: &GltfArguments) -> Result<(), Failure> {
         cards: arguments.cards,
         plain_nodes: arguments.plain_nodes,
         one_face: arguments.one_face,
+        spectra: arguments.spectra,
     };
     let (bytes, extent) = gltf::glb(&scene, &world, options).map_err(|error| match error {
         GltfError::TooLarge(_) => Failure::bad(error),

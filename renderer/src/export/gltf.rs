@@ -13,6 +13,7 @@ mod document;
 mod error;
 mod mesh;
 mod places;
+mod spectra;
 mod surface;
 
 use std::borrow::Cow;
@@ -40,6 +41,10 @@ use crate::scene::world::{MaterialOwner, World};
 
 /// What the file should be like.
 #[derive(Clone, Copy, Debug)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is an option of its own"
+)]
 pub struct GltfOptions {
     /// The light under which colours are seen.
     pub illuminant: Illuminant,
@@ -53,6 +58,8 @@ pub struct GltfOptions {
     pub plain_nodes: bool,
     /// Whether a leaf is one surface, seen from both sides, with the adaxial face's colours.
     pub one_face: bool,
+    /// Whether materials have their reflectance and transmittance beside their colours; not with cards.
+    pub spectra: bool,
 }
 
 impl Default for GltfOptions {
@@ -64,6 +71,7 @@ impl Default for GltfOptions {
             cards: false,
             plain_nodes: false,
             one_face: false,
+            spectra: false,
         }
     }
 }
@@ -131,7 +139,13 @@ pub fn glb(
         let surface = &dresses.surfaces[number];
         let numbers = materials.entry(number);
         let is_seen_from_behind = options.one_face || !is_sheet;
-        let numbers = numbers.or_insert_with(|| surface.written(&mut file, is_seen_from_behind));
+        let numbers = numbers.or_insert_with(|| {
+            let numbers = surface.written(&mut file, is_seen_from_behind);
+            if options.spectra && !options.cards {
+                coarse.add_spectra(&mut file, &numbers, mesh, material);
+            }
+            numbers
+        });
         let dressing = Dressing {
             surface,
             materials: numbers,
@@ -232,6 +246,23 @@ impl<'a> Coarse<'a> {
     /// The mesh that is traced.
     fn own(&self, mesh: usize) -> &'a TriangleMesh {
         self.world.geometry.mesh(mesh as u32)
+    }
+
+    /// Adds the spectra of a mesh's material to what the file says of it.
+    fn add_spectra(
+        &self,
+        file: &mut GltfDocument,
+        numbers: &[usize],
+        mesh: usize,
+        material: usize,
+    ) {
+        let sheet = self.sheet(mesh, material);
+        let faces = spectra::extras(&self.world.materials[material], sheet, self.own(mesh));
+        let only = sheet.and_then(LeafMaterial::half_face);
+        for (place, &number) in numbers.iter().enumerate() {
+            let face = only.unwrap_or(place.min(1));
+            file.describe("materials", number, faces[face].clone());
+        }
     }
 
     /// How many triangles a mesh may have.

@@ -37,6 +37,11 @@ impl GltfDocument {
         found.unwrap_or_else(|| self.add(list, entry))
     }
 
+    /// Says more of an entry, for programs that know what.
+    pub(super) fn describe(&mut self, list: &str, number: usize, extras: Value) {
+        self.parts[list][number]["extras"] = extras;
+    }
+
     /// How many entries a list has.
     pub(super) fn count(&self, list: &str) -> usize {
         let entries = self.parts.get(list).and_then(Value::as_array);

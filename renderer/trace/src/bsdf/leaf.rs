@@ -123,6 +123,14 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
         seen.shares
     }
 
+    /// Fractions of light along the normal of a face that the leaf, its coats included, sends back and lets
+    /// through.
+    pub fn along_normal(&self, face: usize) -> [Lanes<N>; 2] {
+        let coat = self.coats[face].albedo.normal();
+        let [back, through] = self.below_coat(face).map(|part| part * (1.0 - coat));
+        [back + Lanes::splat(coat), through]
+    }
+
     /// Samples a direction; lobes are chosen in proportion to the light that they scatter.
     pub fn sample(&self, wo: Vec3, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
         self.seen_from(wo)?.sample(lobe, u)
