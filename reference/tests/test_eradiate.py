@@ -136,37 +136,44 @@ experiment = CanopyExperiment(
     measures={
         "type": "distant",
         "direction": [0, 0, 1],
-        "srf": {"type": "delta", "wavelengths": [550.0]},
+        "srf": {"type": "delta", "wavelengths": [550.0, 2000.0]},
         "target": [0.01, 0.02, 0.01],
-        "spp": 10000,
+        "spp": 100000,
     },
 )
 brf = eradiate.run(experiment)["brf"]
-print("found:", json.dumps([float(brf.squeeze()), cloud.n_leaves()]))
+print("found:", json.dumps([brf.values.ravel().tolist(), cloud.n_leaves()]))
 """
 
 
-def test_eradiate_opens_the_canopy_and_sees_the_reflectance_of_its_leaves(
-    scene: Path, tmp_path: Path
+@pytest.mark.parametrize("soil", [0.0, 0.5])
+def test_eradiate_opens_the_canopy_and_sees_what_its_leaves_reflect_and_let_through(
+    soil: float, scene: Path, tmp_path: Path
 ) -> None:
     """Eradiate has a Mitsuba of its own, so that it lies in an environment of its own."""
     if (python := os.environ.get("ERADIATE_PYTHON")) is None:
         pytest.skip("needs ERADIATE_PYTHON, a Python with eradiate")
     alone = tmp_path / "scene.toml"
     alone.write_text(scene.read_text(encoding="utf-8"), encoding="utf-8")
-    head, first, _ = PLACES.split("\n", 2)
-    (tmp_path / "places.csv").write_text(f"{head}\n{first}\n", encoding="utf-8")
-    black = {"materials.soil.diffuse.reflectance": 0.0}
+    head, _, _ = PLACES.split("\n", 2)
+    # One leaf as a roof of 4 m by 8 m, 1 cm above the ground.
+    (tmp_path / "places.csv").write_text(f"{head}\n0,0,0.51,0,0,100,100,1\n", encoding="utf-8")
+    ground = {"materials.soil.diffuse.reflectance": soil}
     canopy, discs = tmp_path / "canopy", tmp_path / "discs"
-    lamina.to_eradiate(alone, canopy, black, ground="floor")
-    lamina.to_eradiate(alone, discs, black, ground="floor", discs=True)
+    lamina.to_eradiate(alone, canopy, ground, ground="floor")
+    lamina.to_eradiate(alone, discs, ground, ground="floor", discs=True)
     words = [python, "-c", ERADIATE, str(canopy), str(discs / "leaves-material-leaf-0.txt")]
     printed = subprocess.run(words, check=True, capture_output=True, text=True, timeout=600)
     text = next(line for line in printed.stdout.splitlines() if line.startswith("found:"))
-    brf, leaves = json.loads(text.removeprefix("found:"))
-    # The mean of what the two faces reflect, 0.08 and 0.2, sent back alike to all sides.
-    assert brf == pytest.approx(0.14, abs=1e-4)
+    brfs, leaves = json.loads(text.removeprefix("found:"))
     assert leaves == 1
+    for nm, brf in zip((550, 2000), brfs, strict=True):
+        r = (0.05 + 0.42 * (nm - 400) / 2100 + 0.2) / 2
+        t = 0.01 + 0.42 * (nm - 400) / 2100
+        # What passes the leaf, and after each meeting with the ground passes it again.
+        wanted = r + t**2 * soil / (1 - soil * r)
+        # Single precision without the ground; with it, the noise of 100,000 paths.
+        assert brf == pytest.approx(wanted, abs=2e-4 if soil > 0 else 1e-5)
 
 
 @pytest.mark.parametrize(
