@@ -138,7 +138,7 @@ pub static PRESETS: &[Preset] = &LISTED;
 /// Of all presets in this order. Whoever means to change a preset's numbers or adds one writes the hash that the failure of
 /// `no_preset_has_drifted` shows.
 #[cfg(test)]
-const HASH: &str = "c636636bcff44fda";
+const HASH: &str = "098acefb5458d2b4";
 
 files! { LISTED:
     "runions-9a" "runions-9b" "runions-9c" "runions-9d" "runions-9e" "runions-9f" "runions-9g"

