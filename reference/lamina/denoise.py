@@ -1,4 +1,4 @@
-"""Takes noise out of a picture: `lamina-denoise IN.exr --out OUT.exr`.
+"""Takes noise out of a picture: `lamina-denoise IN.exr --out OUT.exr`, or renders a scene before.
 
 Open Image Denoise guesses each pixel from its neighbours. What comes out is for the eye: it is
 biased, and of one picture nobody knows by how much. The file says so in `lamina:denoised`; its
@@ -8,7 +8,9 @@ With twins, renders of the same scene with other seeds, all are denoised and the
 `lamina.twins` estimates the bias, and what is left of the noise, which the layer `variance` has.
 
 - In: an EXR of Lamina, of a colour film or a spectral one; its layers `albedo` and `N` as guides.
-- Out: the same EXR with other radiance; if wanted, a picture to look at by `lamina tonemap`.
+  Or a scene file, which is rendered once all is checked that can be without rays.
+- Out: the same EXR with other radiance, and with alpha that has the same soft edges; if wanted, a
+  picture to look at by `lamina tonemap`.
 - Always true: no other layer and no attribute changes, but for variances and samples if there are
   twins; OUT is whole or not there.
 - Left out: pictures by other programs, parts of a render, tests of light.
@@ -22,7 +24,7 @@ import tomllib
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from tempfile import TemporaryFile
+from tempfile import TemporaryDirectory, TemporaryFile
 from time import perf_counter
 from typing import Any
 
@@ -33,17 +35,20 @@ from numpy.typing import NDArray
 from lamina.extras import require
 from lamina.film import Failed, Film, Pixels, Refused, read, write
 from lamina.program import LaminaError, program, run
+from lamina.scene_picture import check_size, rendered
 from lamina.twins import bias, left_noise
 
 NOTE = "lamina:denoised"
 NORMAL = ("N.X", "N.Y", "N.Z")
-SAMPLES = ("samples.Y",)
+SAMPLES, ALPHA = ("samples.Y",), ("A",)
 SEED, SCENE = "lamina:seed", "lamina:scene"
 # Linear Rec. 709 to linear Rec. 2020 (ITU-R BT.2087): many leaf greens have a negative blue in the
 # first, and the denoiser takes what is below 0 for 0.
 REC2020 = np.array([[0.6274, 0.3293, 0.0433], [0.0691, 0.9195, 0.0114], [0.0164, 0.0880, 0.8956]])
 # A grey of two pixels comes out a quarter too dark, one of 16 within 0.2 %.
 LEAST_SIZE = 16
+# Pixels across, around one that is near an edge.
+EDGE = 5
 
 
 def check(film: Film, file: Path, guides: bool) -> None:
@@ -165,6 +170,21 @@ class Denoiser:
         channels = [np.maximum(light[:, :, number], 0) for number in range(light.shape[2])]
         return np.stack(self.run("color", channels, guides), axis=2) + np.minimum(light, 0)
 
+    def alpha(self, film: Film, guides: dict[str, Pixels]) -> Pixels:
+        """Coverage by the filter of radiance, so that both have the same soft edges.
+
+        Colours are multiplied by alpha: a smooth edge over a rough alpha would get fringes.
+        Away from edges it stays as it was, exactly 0 or 1.
+        """
+        # Only here, so that the module can be read without the extra.
+        from scipy.ndimage import maximum_filter, minimum_filter
+
+        share = film.layer(ALPHA)[:, :, 0].copy()
+        is_soft = minimum_filter(share, EDGE) < maximum_filter(share, EDGE)
+        clean = self.run("color", [share], guides)[0]
+        made: Pixels = np.where(is_soft, np.clip(clean, 0, 1), share)
+        return made
+
 
 def cleaned(film: Film, denoiser: Denoiser, guides: dict[str, Pixels]) -> Pixels:
     """Radiance with less noise."""
@@ -203,6 +223,9 @@ def denoise(films: list[Film], denoiser: Denoiser, with_guides: bool) -> Mean:
     counts = [float(film.layer(SAMPLES).mean()) if film.has(SAMPLES) else 1.0 for film in films]
     shares = np.array(counts) / sum(counts)
     pixels[:, :, first.places(names)] = np.average(clean, axis=0, weights=shares)
+    if first.has(ALPHA):
+        alphas = [denoiser.alpha(film, guide) for film, guide in zip(films, guides, strict=True)]
+        pixels[:, :, first.places(ALPHA)[0]] = np.average(alphas, axis=0, weights=shares)
     layers = ["albedo", "N"][: len(guides[0])]
     how = f"guided by {' and '.join(layers)}"
     if not layers:
@@ -263,11 +286,16 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
     """What is to be done."""
     parser = argparse.ArgumentParser(
         prog="lamina-denoise",
-        description="Takes noise out of a picture by Open Image Denoise. What comes out is for the "
-        "eye, no measurement.",
+        description="Takes noise out of a picture, or of one that it renders, by Open Image "
+        "Denoise. What comes out is for the eye, no measurement.",
         allow_abbrev=False,
     )
-    parser.add_argument("picture", type=Path, metavar="IN.exr", help="a picture of Lamina's")
+    parser.add_argument(
+        "picture",
+        type=Path,
+        metavar="IN.exr|SCENE.toml",
+        help="a picture of Lamina's, or a scene file, which is rendered first",
+    )
     parser.add_argument("--out", type=Path, required=True, metavar="OUT.exr")
     parser.add_argument(
         "--png", type=Path, metavar="OUT.png", help="also one to look at, png or jpg"
@@ -284,7 +312,34 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--no-guides", action="store_true", help="leave the layers albedo and N aside"
     )
-    return parser.parse_args(words)
+    scene = parser.add_argument_group("of a scene, as `lamina render` takes them")
+    scene.add_argument("--spp", type=int, metavar="N", help="samples a pixel")
+    scene.add_argument(
+        "-D", dest="overrides", action="append", metavar="KEY=VALUE", help="override a value"
+    )
+    scene.add_argument(
+        "--allow",
+        action="append",
+        metavar="DIR",
+        help="a folder outside of the scene's own whose files it may name",
+    )
+    options = parser.parse_args(words)
+    is_scene = options.picture.suffix == ".toml"
+    if is_scene and options.twin:
+        parser.error("--twin: of a scene, lamina-print renders and denoises several")
+    if not is_scene and (options.spp or options.overrides or options.allow):
+        parser.error("--spp, -D and --allow are for a scene, and IN.exr is rendered already")
+    return options
+
+
+def denoise_scene(options: argparse.Namespace) -> None:
+    """Renders a scene and denoises the picture; whatever can be refused is refused before."""
+    require("denoise", "denoising")
+    check_places(options.picture, options.out, options.png)
+    check_size(options.picture, options.overrides or [], LEAST_SIZE)
+    with TemporaryDirectory(prefix=".lamina-", dir=options.out.resolve().parent) as folder:
+        options.picture = rendered(options, Path(folder))
+        denoise_files(options)
 
 
 def denoise_files(options: argparse.Namespace) -> Mean:
@@ -317,7 +372,11 @@ def denoise_files(options: argparse.Namespace) -> Mean:
 def main(words: list[str] | None = None) -> int:
     """Denoises a picture; 0 done, 1 the system failed, 2 bad input, 130 interrupted."""
     try:
-        denoise_files(arguments(words))
+        options = arguments(words)
+        if options.picture.suffix == ".toml":
+            denoise_scene(options)
+        else:
+            denoise_files(options)
     except LaminaError as error:
         print(f"lamina-denoise: {error}", file=sys.stderr)
         return error.code

@@ -191,6 +191,60 @@ def test_the_picture_to_look_at_is_shown_as_its_scene_says() -> None:
         assert np.abs(shown["G"] - rendered["G"]).mean() < 0.05
 
 
+def test_alpha_has_the_soft_edges_of_the_colours_that_are_multiplied_by_it() -> None:
+    # A white foreground before nothing: colour and alpha are the same, and so is their noise. The
+    # edge is 24 pixels wide, as out of focus, and 8 samples know it badly.
+    x = np.arange(WIDTH)
+    soft = np.broadcast_to(np.clip((x - 36) / 24, 0, 1), (HEIGHT, WIDTH))
+    share = np.random.default_rng(5).binomial(8, soft) / 8
+    layers = named(("R", "G", "B"), np.stack([0.5 * share] * 3, axis=2)) | {"A": share}
+    with scratch() as folder:
+        clean, _ = denoised(folder, layers, "--no-guides")
+    alpha = clean["A"]
+    edge = (soft > 0.2) & (soft < 0.8)
+    before, after = (np.abs(found - soft)[edge].mean() for found in (share, alpha))
+    assert before > 3 * after, (before, after)
+    fringes = {
+        name: np.abs(clean["G"][edge] / 0.5 - over[edge]).mean()
+        for name, over in (("kept", share), ("denoised", alpha))
+    }
+    assert fringes["denoised"] < 0.1 * fringes["kept"], fringes
+    for away, value in ((x < 30, 0), (x > 66, 1)):
+        assert (alpha[:, away] == value).all(), value
+
+
+def test_a_scene_is_rendered_and_denoised_in_one_command() -> None:
+    with scratch() as folder:
+        scene, out, png = folder / "scene.toml", folder / "out.exr", folder / "out.png"
+        scene.write_text(SCENE, encoding="utf-8")
+        words = ("--out", out, "--png", png, "--spp", 4, "-D", "film.rgb.seed=3")
+        status, said, warned = call(scene, *words)
+        assert status == 0 and said == f"{out}\n{png}\n", warned
+        stem = folder / "own"
+        line = [str(program()), "render", str(scene), "--out", str(stem), "--spp", "4"]
+        subprocess.run([*line, "--seed", "3"], check=True, capture_output=True)
+        assert call(f"{stem}.exr", "--out", folder / "own-clean.exr")[0] == 0
+        same = read_channels(out), read_channels(folder / "own-clean.exr")
+        assert all(np.array_equal(same[0][name], same[1][name]) for name in same[0])
+        assert not [file for file in folder.iterdir() if file.name.startswith(".")]
+
+
+def test_a_scene_that_cannot_be_denoised_is_refused_before_it_is_rendered() -> None:
+    with scratch() as folder, lamina("/bin/false"):
+        scene, out = folder / "scene.toml", folder / "out.exr"
+        scene.write_text(SCENE.replace("[48, 32]", "[48, 8]"), encoding="utf-8")
+        for words, message in (
+            ((), "film.size = [48, 8]: at least 16 pixels"),
+            (("-D", "film.rgb.size=[9, 64]"), "film.size = [9, 64]: at least 16 pixels"),
+            (("--twin", out), "lamina-print renders and denoises several"),
+        ):
+            status, said, warned = call(scene, "--out", out, *words)
+            assert (status, said) == (2, "") and message in warned, warned
+        # Only the program can say what else is wrong.
+        assert call(scene, "--out", out, "-D", "film.rgb.size=[48, 32]")[0] == 1
+        assert list(folder.iterdir()) == [scene]
+
+
 def test_a_denoised_picture_is_refused() -> None:
     with scratch() as folder:
         _, layers = spectral_film()
