@@ -24,6 +24,7 @@ MODULES: dict[str, list[str]] = {
     "lamina.noise": ["relative_error", "summary"],
     "lamina.denoise": [],
     "lamina.print": [],
+    "lamina.scans": [],
     "lamina.usd": [],
     "lamina.eradiate": [],
     "lamina.mitsuba": [],

@@ -25,6 +25,7 @@ from lamina.measured import instruments, read_figures, to_netcdf
 from lamina.parts import render_in_parts
 from lamina.program import Folders, LaminaError, Value, program, run, version
 from lamina.rendered import read, render
+from lamina.scans import from_scans
 from lamina.spectra import optics
 from lamina.sweeping import sweep
 from lamina.usd import to_usd
@@ -37,6 +38,7 @@ __all__ = [
     "Value",
     "check",
     "frames",
+    "from_scans",
     "grow",
     "instruments",
     "optics",

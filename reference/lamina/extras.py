@@ -19,6 +19,7 @@ MODULES = {
     "denoise": ("mitsuba_oidn", "scipy"),
     "print": ("mitsuba_oidn", "scipy"),
     "mitsuba": ("mitsuba", "scipy"),
+    "scans": ("scipy",),
     "usd": ("pxr",),
 }
 

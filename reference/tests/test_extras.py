@@ -29,6 +29,9 @@ CALLS: dict[str, Callable[[Path], Any]] = {
     "report": lambda folder: report.report(["a.exr", "b.exr"], folder / "r.html"),
     "netcdf": lambda folder: lamina.to_netcdf("figures.json", folder / "f.nc"),
     "mitsuba": lambda _: variant.choose(),
+    "scans": lambda folder: lamina.from_scans(
+        folder / "leaf", adaxial="a.png", transmitted="t.png", mm_per_pixel=0.1
+    ),
     "usd": lambda folder: lamina.to_usd("birch", folder / "leaf.usda"),
 }
 COMMANDS: dict[str, Callable[[list[str]], int]] = {"denoise": denoise.main, "print": print.main}
