@@ -30,7 +30,7 @@ use crate::scene::portrait::Stage;
 pub use cache::{CacheArguments, CacheCommandArguments};
 pub use compare_networks::{Alignment, CompareNetworksArguments, Group, Groups};
 pub use fit_veins::FitVeinsArguments;
-pub use grow::{CaptionedKinds, GrowArguments, VeinColour};
+pub use grow::{CaptionedKinds, FilmArguments, GrowArguments, VeinColour};
 pub use instruments::InstrumentsArguments;
 pub use measure::{MeasureArguments, MeasuringArguments, ReadingArguments};
 pub use measured::{CheckBsdfArguments, FitArguments};

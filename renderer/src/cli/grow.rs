@@ -5,12 +5,12 @@ mod ages;
 mod choice;
 mod drawings;
 mod fields;
-mod films;
+pub(super) mod films;
 mod frames;
 mod grown;
 mod individuals;
 mod maps;
-mod outputs;
+pub(super) mod outputs;
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -69,7 +69,7 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     if arguments.individuals.is_some() {
         individuals::check(&outputs)?;
     }
-    films::check(&outputs)?;
+    films::check(&outputs.staged)?;
     if arguments.frames.is_some() {
         frames::check(&chosen.plan)?;
         if arguments.sources {
@@ -220,7 +220,7 @@ fn carry_out(
         fields::write(path, plan, grown.lamina(), stop)?;
     }
     if let Some(count) = arguments.frames {
-        let films = Films::begun(arguments, outputs, count);
+        let films = Films::begun(&outputs.staged, arguments.film.timing(), count);
         frames::write(plan, grown.lamina(), outputs, &look, films, stop)?;
     }
     if let Some(count) = arguments.ages {
@@ -231,7 +231,7 @@ fn carry_out(
             contents: arguments.contents.as_deref(),
             name,
         };
-        let films = Films::begun(arguments, outputs, count);
+        let films = Films::begun(&outputs.staged, arguments.film.timing(), count);
         ages::write(plan, grown.lamina(), outputs, written, films, stop)?;
     }
     report_veins(arguments, chosen, &grown, stop)?;

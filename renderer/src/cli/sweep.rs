@@ -5,6 +5,7 @@
 //! records are named by what they are made from, so whatever else the sweep becomes, nothing is
 //! done twice.
 
+mod film;
 mod list;
 mod process;
 mod record;
@@ -50,6 +51,7 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         return Ok(());
     }
     eprintln!("{} of {count} tasks", range.len());
+    let films = film::planned(&sweep, arguments)?;
     let Some(folder) = &arguments.out else {
         return list::print(&sweep, arguments, range);
     };
@@ -88,7 +90,8 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     table::write(&table, &sweep, &rows)?;
     write_json(&folder.join("sweep.json"), &work.about())?;
     say(table.display());
-    result.report(&work)
+    result.report(&work)?;
+    film::write(&films, &work)
 }
 
 /// The sweep that the command line asks for.

@@ -93,6 +93,11 @@ impl FileKind {
 }
 
 impl Display {
+    /// Whether what a picture shows decides how light or dark it becomes.
+    pub(crate) fn is_metered(&self) -> bool {
+        self.auto_exposure || self.grey_object.is_some()
+    }
+
     fn declare_depth(&mut self, keys: &mut Keys<'_>) {
         let mut is_deep = self.depth == Depth::Sixteen;
         let about = "Whether the PNG has 16 bits a channel instead of 8; a JPEG has 8.";

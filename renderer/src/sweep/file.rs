@@ -243,7 +243,7 @@ fn grid_axis(cx: &Context, setting: &Setting<'_>) -> Option<Axis> {
         let at = setting.at.clone();
         let block = Block::new(cx, table, setting.path.clone(), at.clone());
         let (range, count) = range::read(&block, true)?;
-        range::cells(&as_written(table, range, count), count, &at)
+        range::cells(as_written(table, range, count).values(count), &at)
     } else {
         let cells = cells(cx, setting, "a list of values, or { from, to, count }")?;
         cells.into_iter().map(|cell| vec![cell]).collect()

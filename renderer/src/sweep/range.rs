@@ -110,9 +110,9 @@ pub(super) fn check(cx: &Context, key: &str, at: &Place, range: &Range) -> bool 
 }
 
 /// The cells of a range, all at one place.
-pub(super) fn cells(range: &Range, count: usize, at: &Place) -> Vec<Vec<Cell>> {
-    let values = range.values(count).into_iter();
+pub(super) fn cells(values: Vec<String>, at: &Place) -> Vec<Vec<Cell>> {
     values
+        .into_iter()
         .map(|text| {
             let at = at.clone();
             vec![Cell { text, at }]

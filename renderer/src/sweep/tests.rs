@@ -152,6 +152,27 @@ fn words_of_a_command_line_are_lists_and_ranges() {
     assert_eq!(all(&sweep)[13], "a=2 b=35 c=\"x,y\"");
 }
 
+#[test]
+fn times_of_one_day_are_evenly_spaced_and_others_are_refused() {
+    let day = |from: &str, to: &str| over(&[&format!("t=2026-06-21T{from}..2026-06-21T{to}/3")]);
+    let sweep = day("06:00:00+02:00", "07:00:01+02:00").expect("times of a day");
+    assert_eq!(
+        all(&sweep),
+        [
+            "t=\"2026-06-21T06:00:00+02:00\"",
+            "t=\"2026-06-21T06:30:01+02:00\"",
+            "t=\"2026-06-21T07:00:01+02:00\"",
+        ]
+    );
+    for (from, to, problem) in [
+        ("06:00:00Z", "07:00:00+02:00", "on one day, with one offset"),
+        ("06:00:00Z", "06:00:00Z", "begins and ends at one time"),
+    ] {
+        let report = day(from, to).expect_err("no range").to_string();
+        assert!(report.contains(problem), "{report}");
+    }
+}
+
 /// A sweep file behind its head, the table beside it, and pieces of the one report.
 const SLIPS: &[(&str, &str, [&str; 3])] = &[
     (

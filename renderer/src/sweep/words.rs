@@ -2,6 +2,7 @@
 
 use leafmodel::document::context::Context;
 use leafmodel::document::source::{Place, Sources};
+use toml::value::{Datetime, Time};
 
 use super::draft::Draft;
 use super::range::{self, Range};
@@ -78,8 +79,7 @@ fn axis(cx: &Context, word: &str) -> Option<Axis> {
     }
     let whole = place(start..word.len());
     let rows = if values.contains("..") && !values.contains(['"', '\'', '[', '{', ',']) {
-        let (range, count) = range_of(cx, &key.path, values, &whole)?;
-        range::cells(&range, count, &whole)
+        range_of(cx, &key.path, values, &whole)?
     } else {
         let cells = pieces(values).into_iter().map(|(offset, text)| {
             let from = start + offset;
@@ -94,8 +94,8 @@ fn axis(cx: &Context, word: &str) -> Option<Axis> {
     Some(Axis { keys, rows })
 }
 
-/// `lo..hi/n`: the range, and the number of its values.
-fn range_of(cx: &Context, key: &str, text: &str, at: &Place) -> Option<(Range, usize)> {
+/// `lo..hi/n`: the values, of numbers or times.
+fn range_of(cx: &Context, key: &str, text: &str, at: &Place) -> Option<Vec<Vec<Cell>>> {
     let refuse = |problem: String| {
         let help = "write lo..hi/n, as in 10..60/6 for 10, 20, 30, 40, 50 and 60";
         impossible(cx, at, key, problem, help);
@@ -105,6 +105,19 @@ fn range_of(cx: &Context, key: &str, text: &str, at: &Place) -> Option<(Range, u
         return refuse(format!("{text} lacks the number of values"));
     };
     let (from, to) = ends.split_once("..").unwrap_or((ends, ""));
+    let count_of = |count: &str| {
+        let number = count.trim().parse::<usize>().ok();
+        let number = number.filter(|count| (2..=MOST_TASKS).contains(count));
+        number
+            .ok_or_else(|| format!("{count} values, which must be a number from 2 to {MOST_TASKS}"))
+    };
+    if let [Ok(from), Ok(to)] = [from, to].map(|end| end.trim().parse::<Datetime>()) {
+        let times = count_of(count).and_then(|count| times([from, to], count));
+        return match times {
+            Ok(times) => Some(range::cells(times, at)),
+            Err(problem) => refuse(problem),
+        };
+    }
     let number = |text: &str| {
         let number = text.parse::<f64>().ok();
         number.filter(|number| number.is_finite())
@@ -124,14 +137,49 @@ fn range_of(cx: &Context, key: &str, text: &str, at: &Place) -> Option<(Range, u
         logarithmic: false,
         whole: false,
     };
-    match count.trim().parse::<usize>() {
-        Ok(count) if (2..=MOST_TASKS).contains(&count) => {
-            range::check(cx, key, at, &range).then_some((range, count))
+    match count_of(count) {
+        Ok(count) => {
+            let is_range = range::check(cx, key, at, &range);
+            is_range.then(|| range::cells(range.values(count), at))
         }
-        Ok(_) | Err(_) => refuse(format!(
-            "{count} values, which must be a number from 2 to {MOST_TASKS}"
-        )),
+        Err(problem) => refuse(problem),
     }
+}
+
+/// Times of one day, evenly from one to the other, to whole seconds.
+fn times([from, to]: [Datetime; 2], count: usize) -> Result<Vec<String>, String> {
+    let (Some(first), Some(last)) = (from.time, to.time) else {
+        return Err("a range of times needs the time of day at both ends".to_owned());
+    };
+    if (from.date, from.offset) != (to.date, to.offset) {
+        return Err("both ends of a range of times lie on one day, with one offset".to_owned());
+    }
+    let seconds = |time: Time| {
+        let [hour, minute] = [time.hour, time.minute].map(f64::from);
+        hour * 3600.0 + minute * 60.0 + f64::from(time.second.unwrap_or(0))
+    };
+    let (first_s, last_s) = (seconds(first), seconds(last));
+    if first_s == last_s {
+        return Err("the range begins and ends at one time".to_owned());
+    }
+    let at = |step: usize| {
+        let share = step as f64 / (count - 1) as f64;
+        let second = (first_s + (last_s - first_s) * share).round() as u32;
+        let time = Time {
+            hour: (second / 3600) as u8,
+            minute: (second / 60 % 60) as u8,
+            second: Some((second % 60) as u8),
+            nanosecond: None,
+        };
+        format!(
+            "\"{}\"",
+            Datetime {
+                time: Some(time),
+                ..from
+            }
+        )
+    };
+    Ok((0..count).map(at).collect())
 }
 
 /// The pieces between commas that stand outside of brackets and quotes, with their places.

@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::numbers::{MOST_GIB, between, number};
 use crate::export::blade::LengthUnit;
+use crate::image::animation::Timing;
 
 /// Examples of the command.
 pub(super) const EXAMPLES: &str = "\
@@ -120,15 +121,33 @@ pub struct GrowArguments {
     /// Which pictures have a strip below with scale bar, step or day, and key of colours
     #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
     pub caption: CaptionedKinds,
+    /// How fast films are.
+    #[command(flatten)]
+    pub film: FilmArguments,
+    /// Pixels along the longer side of a png, or of a frame without its caption
+    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=16_384))]
+    pub size: u32,
+}
+
+/// How fast films are.
+#[derive(Args, Clone, Copy, Debug, PartialEq)]
+pub struct FilmArguments {
     /// Frames a second of a film
     #[arg(long, value_name = "N", default_value_t = 12.0, value_parser = frames_a_second)]
     pub fps: f64,
     /// Seconds for which a film shows its last frame
     #[arg(long, value_name = "SECONDS", default_value_t = 1.5, value_parser = between::<0, 60>)]
     pub hold: f64,
-    /// Pixels along the longer side of a png, or of a frame without its caption
-    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=16_384))]
-    pub size: u32,
+}
+
+impl FilmArguments {
+    /// The same as the writers of films take it.
+    pub fn timing(self) -> Timing {
+        Timing {
+            frames_per_second: self.fps,
+            last_frame_seconds: self.hold,
+        }
+    }
 }
 
 /// Frames a second that films can hold and programs show.

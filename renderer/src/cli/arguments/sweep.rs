@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::cache::CacheArguments;
+use super::grow::FilmArguments;
 use super::numbers::{between, samples};
 
 pub(super) const EXAMPLES: &str = "\
@@ -13,6 +14,7 @@ Examples:
   lamina sweep sweep.toml --out made
   lamina sweep scenes/flat-leaf/scene.toml --over materials.leaf.leaf.contents.chlorophyll_ug_per_cm2=10..70/7 --out made
   lamina sweep birch --over kill_distance_segments=1,2,4 --seeds 5 --out made
+  lamina sweep scene.toml --over camera.perspective.turn_deg=0..350/36 --out made --film turn.gif
   lamina sweep sweep.toml --out made --tasks 3/20
   lamina sweep sweep.toml --list";
 
@@ -24,7 +26,7 @@ pub struct SweepArguments {
     #[arg(value_name = "SWEEP.toml|SCENE.toml|LEAF")]
     pub what: String,
     /// Vary a key that -D takes, for a leaf one that --set takes: KEY=a,b,c, or KEY=lo..hi/n for n
-    /// values from lo to hi
+    /// values from lo to hi; both ends may be times of one day
     #[arg(long, value_name = "KEY=VALUES")]
     pub over: Vec<String>,
     /// Do each task under the seeds 1 to N
@@ -45,6 +47,13 @@ pub struct SweepArguments {
     /// Print the tasks as JSON lines instead of doing them, the first line for what they share
     #[arg(long, conflicts_with = "out")]
     pub list: bool,
+    /// Join the pictures of a scene's tasks, in their order, to a film (gif, apng or mp4), or number
+    /// them (png: STEM-0001.png and so on); may be given several times
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["list", "tasks"])]
+    pub film: Vec<PathBuf>,
+    /// How fast films are.
+    #[command(flatten)]
+    pub timing: FilmArguments,
     /// Only the tasks number A to B − 1, from 0; or part K of N equal parts, K from 0, for job arrays
     #[arg(long, value_name = "A..B|K/N", value_parser = TaskRange::parse)]
     pub tasks: Option<TaskRange>,

@@ -1,4 +1,4 @@
-//! Films of a leaf that grows or ages.
+//! Films: of a leaf that grows or ages, and of a scene that is rendered with rising values.
 
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
@@ -7,8 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use tempfile::NamedTempFile;
 
-use super::outputs::{Kind, Outputs, finish};
-use crate::cli::arguments::GrowArguments;
+use super::outputs::{Kind, finish};
 use crate::cli::progress::Steps;
 use crate::cli::signals;
 use crate::cli::terminal::Failure;
@@ -20,9 +19,8 @@ use crate::image::atomic::folder_of;
 const ENCODER: &str = "ffmpeg";
 
 /// Fails if a film needs a program that is not there.
-pub(super) fn check(outputs: &Outputs) -> Result<(), Failure> {
-    let mut staged = outputs.staged.iter();
-    let Some((path, _)) = staged.find(|(_, kind)| *kind == Kind::Mp4) else {
+pub(in crate::cli) fn check(files: &[(PathBuf, Kind)]) -> Result<(), Failure> {
+    let Some((path, _)) = files.iter().find(|(_, kind)| *kind == Kind::Mp4) else {
         return Ok(());
     };
     let found = Command::new(ENCODER)
@@ -42,7 +40,7 @@ pub(super) fn check(outputs: &Outputs) -> Result<(), Failure> {
 }
 
 /// All films that are being written.
-pub(super) struct Films {
+pub(in crate::cli) struct Films {
     all: Vec<GrowthFilm>,
     count: u32,
     /// Frames that are drawn.
@@ -64,9 +62,9 @@ enum FilmWriter {
 }
 
 impl Films {
-    /// The films among the outputs, each of `count` frames.
-    pub(super) fn begun(arguments: &GrowArguments, outputs: &Outputs, count: u32) -> Self {
-        let films = outputs.staged.iter().filter(|(_, kind)| kind.is_film());
+    /// The films among some files, each of `count` frames.
+    pub(in crate::cli) fn begun(files: &[(PathBuf, Kind)], timing: Timing, count: u32) -> Self {
+        let films = files.iter().filter(|(_, kind)| kind.is_film());
         let films = films.map(|(path, kind)| GrowthFilm {
             path: path.clone(),
             kind: *kind,
@@ -76,10 +74,7 @@ impl Films {
             all: films.collect(),
             count,
             drawn: Steps::new("frames", count),
-            timing: Timing {
-                frames_per_second: arguments.fps,
-                last_frame_seconds: arguments.hold,
-            },
+            timing,
         }
     }
 
@@ -94,7 +89,7 @@ impl Films {
     }
 
     /// Adds frames to all films.
-    pub(super) fn push(&mut self, frames: &[Drawing]) -> Result<(), Failure> {
+    pub(in crate::cli) fn push(&mut self, frames: &[Drawing]) -> Result<(), Failure> {
         let Some(first) = frames.first() else {
             return Ok(());
         };
@@ -123,7 +118,7 @@ impl Films {
     }
 
     /// Writes the files.
-    pub(super) fn finish(self, stop: &AtomicBool) -> Result<(), Failure> {
+    pub(in crate::cli) fn finish(self, stop: &AtomicBool) -> Result<(), Failure> {
         for film in self.all {
             let Some(writer) = film.writer else { continue };
             let bytes = match writer {

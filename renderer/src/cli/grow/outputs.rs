@@ -12,7 +12,7 @@ use crate::image::animation::Format;
 
 /// The kind of a file, by its ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(in crate::cli) enum Kind {
     /// Margin and veins, which exist at every stage of growth.
     Veins(VeinFormat),
     /// Several stages one after another, written by the program itself.
@@ -26,9 +26,9 @@ pub(super) enum Kind {
 
 impl Kind {
     pub(super) const SVG: Self = Self::Veins(VeinFormat::Svg);
-    pub(super) const PNG: Self = Self::Veins(VeinFormat::Png);
+    pub(in crate::cli) const PNG: Self = Self::Veins(VeinFormat::Png);
 
-    fn of(path: &Path) -> Result<Self, Failure> {
+    pub(in crate::cli) fn of(path: &Path) -> Result<Self, Failure> {
         Ok(match path.extension().and_then(|ending| ending.to_str()) {
             Some("gif") => Self::Film(Format::Gif),
             Some("apng") => Self::Film(Format::Apng),
@@ -47,7 +47,7 @@ impl Kind {
     }
 
     /// Whether it shows several stages one after another.
-    pub(super) fn is_film(self) -> bool {
+    pub(in crate::cli) fn is_film(self) -> bool {
         matches!(self, Self::Film(_) | Self::Mp4)
     }
 
@@ -206,7 +206,7 @@ fn check_folder(folder: &Path) -> Result<(), Failure> {
 }
 
 /// The file of stage `number`, counted from 1: `leaf-0001.png` for `leaf.png`.
-pub(super) fn numbered(path: &Path, number: usize) -> PathBuf {
+pub(in crate::cli) fn numbered(path: &Path, number: usize) -> PathBuf {
     let mut name = path.file_stem().unwrap_or_default().to_owned();
     name.push(format!("-{number:04}"));
     if let Some(ending) = path.extension() {

@@ -2,7 +2,7 @@
 
 mod framing;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use leafmodel::document::declared::{Declared, Defaults};
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
@@ -147,6 +147,10 @@ struct Aim {
     /// Direction that points up in the picture, of any length.
     #[key("up", within(COORDINATES_M), default = DVec3::Z)]
     up: DVec3,
+    /// How far the camera is turned about an axis through `look_at_m` along `up`, anticlockwise as seen from above: a
+    /// turntable.
+    #[key("turn_deg", degrees(-3600.0..=3600.0))]
+    turn: f64,
 }
 
 /// A camera with parallel rays.
@@ -214,6 +218,13 @@ enum Sharp {
 
 impl Aim {
     fn seen_from(self, position: DVec3, projection: Projection) -> View {
+        let position = match self.up.try_normalize() {
+            Some(axis) if self.turn != 0.0 => {
+                let turned = DQuat::from_axis_angle(axis, self.turn);
+                self.look_at + turned * (position - self.look_at)
+            }
+            _ => position,
+        };
         View {
             position,
             look_at: self.look_at,

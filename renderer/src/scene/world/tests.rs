@@ -40,6 +40,18 @@ solid = "second"
 "#;
 
 #[test]
+fn a_turned_camera_looks_at_the_same_point_from_another_side() {
+    for (degrees, expected) in [(90.0, DVec3::X), (360.0, DVec3::NEG_Y)] {
+        let turn = format!("camera.perspective.turn_deg={degrees}");
+        let loaded = parse(SCENE, "scene.toml", Path::new("."), &[turn]);
+        let loaded = loaded.unwrap_or_else(|errors| panic!("{errors}"));
+        let view = loaded.description.camera.view;
+        assert!((view.position - expected).length() < 1e-12, "{view:?}");
+        assert_eq!(view.look_at, DVec3::ZERO);
+    }
+}
+
+#[test]
 fn of_several_bodies_that_cannot_be_grown_the_first_of_the_scene_is_reported() {
     let loaded = parse(SCENE, "scene.toml", Path::new("."), &[]);
     let mut scene = loaded
