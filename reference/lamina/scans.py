@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from lamina.exr import write_channels
 from lamina.extras import require
-from lamina.program import LaminaError, run, toml
+from lamina.program import LaminaError, run, start, toml
 from lamina.scan_fit import fit
 from lamina.scan_outline import Similarity, leaf_of, registered
 from lamina.scan_pictures import White, linear_of, read, reflected
@@ -73,7 +73,7 @@ def from_scans(
     for name, path in scans.items():
         given = transmitted_white if name == "transmitted" else white
         linear[name] = reflected(pictures[name], leaves[name][0], given, str(path))
-    margin, corners, svg = traced(scans["adaxial"], mm_per_pixel, base, apex)
+    margin, corners, svg, notes = traced(scans["adaxial"], mm_per_pixel, base, apex)
     length = float(np.ptp(corners[:, 1]))
     places: dict[str, Similarity] = {}
     for name, (_, contour) in leaves.items():
@@ -95,6 +95,7 @@ def from_scans(
     both = np.concatenate([seen["adaxial"], seen["transmitted"]], axis=2)
     channels, report = inverted(both)
     report["length_mm"] = length
+    report["notes_on_tracing"] = notes
     report["registration"] = {
         name: {"residual_mm": place.residual_mm, "size": place.scale}
         for name, place in places.items()
@@ -130,15 +131,15 @@ def checked(folder: Path, mm_per_pixel: float, map_size: int, face: str) -> None
 
 def traced(
     path: Path, mm_per_pixel: float, base: Sequence[float] | None, apex: Sequence[float] | None
-) -> tuple[Array, Array, str]:
-    """Even points and corners of the traced margin, mm, base to apex along +y; and its SVG."""
+) -> tuple[Array, Array, str, list[str]]:
+    """Even points and corners of the traced margin, mm, base to apex along +y; its SVG; notes."""
     words: list[str | Path] = ["trace", path, "--mm-per-pixel", repr(mm_per_pixel)]
     for flag, place in (("--base", base), ("--apex", apex)):
         if place is not None:
             words += [flag, ",".join(repr(float(number)) for number in place)]
     with TemporaryDirectory() as here:
         lines = Path(here, "leaf.geojson")
-        run([*words, "--out", lines])
+        _, notes = start([*words, "--out", lines]).finished()
         features = json.loads(lines.read_text(encoding="utf-8"))["features"]
     margin = next(one for one in features if one["properties"]["kind"] == "margin")
     corners = np.round(np.array(margin["geometry"]["coordinates"][0], float), 4)
@@ -150,7 +151,8 @@ def traced(
     low, size = corners.min(0), np.ptp(corners, axis=0)
     box = f"{low[0]:.4f} {-low[1] - size[1]:.4f} {size[0]:.4f} {size[1]:.4f}"
     svg = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">'
-    return points, corners, f'{svg}<path id="margin" d="M{way}Z"/></svg>\n'
+    drawn = f'{svg}<path id="margin" d="M{way}Z"/></svg>\n'
+    return points, corners, drawn, notes.splitlines()
 
 
 def agrees(residual_mm: float, size: float, named: str, mm_per_pixel: float, length: float) -> None:

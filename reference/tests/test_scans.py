@@ -84,6 +84,7 @@ def test_scans_of_a_known_leaf_give_its_contents_and_a_scene_that_the_program_ac
     channels = read_channels(tmp_path / "leaf" / "contents.exr")
     truth = contents_of(GREEN)
     assert np.median(channels["chlorophyll"]) == pytest.approx(truth["chlorophyll"][0], rel=0.1)
+    assert any("vein" in note for note in report["notes_on_tracing"])  # type: ignore[attr-defined]
     assert report["abaxial_ratio"] == pytest.approx(1.2, rel=0.02)
     for place in report["registration"].values():  # type: ignore[attr-defined]
         assert place["residual_mm"] < 0.5 * MM_PER_PIXEL
