@@ -60,6 +60,21 @@ impl NotGrown {
         Self { help, ..self }
     }
 
+    /// The same with this key to change, unless it has one.
+    #[must_use]
+    pub(crate) fn or_at(self, path: &str, help: &'static str) -> Self {
+        if self.paths.is_empty() {
+            self.mend(path, help)
+        } else {
+            self
+        }
+    }
+
+    /// The key to change, by its path in the block of the plan, and what to write instead.
+    pub fn remedy(&self) -> Option<(&str, &'static str)> {
+        Some((self.paths.last()?, self.help))
+    }
+
     /// The same as an error of the block around.
     #[must_use]
     pub(crate) fn within(mut self, block: &str) -> Self {

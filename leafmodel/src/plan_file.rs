@@ -26,7 +26,7 @@
 
 mod compound;
 mod leaf;
-mod one_leaf;
+pub mod one_leaf;
 mod plant;
 mod presets;
 #[cfg(test)]
@@ -35,7 +35,6 @@ mod tests;
 use std::path::Path;
 
 pub use self::leaf::leaf;
-pub use self::one_leaf::{LeafFile, LeafNotChosen, load_one_leaf};
 pub use self::plant::{plant, plant_preset, usual_plant};
 pub use self::presets::{colour_preset, leaf_preset};
 use crate::blade::senescence::Senescence;

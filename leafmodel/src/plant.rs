@@ -25,7 +25,6 @@ mod bark;
 mod bearing;
 mod check;
 mod climbing;
-mod error;
 mod flower;
 mod foot;
 mod plan;
@@ -42,12 +41,13 @@ use glam::{DAffine3, DVec3};
 
 pub use self::bark::BarkRelief;
 pub use self::climbing::{Climbing, Wall};
-pub use self::error::{MOST_LEAVES, MOST_VERTICES, PlantError};
 pub use self::flower::FlowerPlan;
-pub use self::foot::{Foot, NotBorne};
+use self::foot::ANOTHER;
+pub use self::foot::Foot;
 pub use self::plan::{AxisPlan, Branching, Buds, Phyllotaxis, PlantPlan, Posture, Stems};
 pub use self::pot::{Crumb, PotPlan};
 use crate::blade::stalk::StalkMesh;
+use crate::not_grown::NotGrown;
 
 /// A leaf in its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,16 +102,17 @@ impl Plant {
     ///
     /// # Errors
     ///
-    /// [`PlantError`].
+    /// [`NotGrown`].
     pub fn grow(
         plan: &PlantPlan,
         feet: &[Vec<Foot>],
         wall: Option<&Wall>,
-    ) -> Result<Self, PlantError> {
+    ) -> Result<Self, NotGrown> {
         plan.validate()?;
         let least = if plan.flower.is_some() { 3 } else { 1 };
         if feet.len() < least || feet.iter().any(Vec::is_empty) {
-            return Err(PlantError::NoLeaf);
+            let problem = "a plant bears one leaf at least, and with a flower a sepal and a petal";
+            return Err(NotGrown::because(problem).mend("leaf", ANOTHER));
         }
         let even = plan.climbing.map(|climbing| Wall::flat(climbing.away));
         let wall = wall.filter(|_| even.is_some()).or(even.as_ref());

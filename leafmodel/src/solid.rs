@@ -41,9 +41,9 @@ use crate::document::{Declared, Keys};
 use crate::grow_options::GrowOptions;
 use crate::mosaic::atlas::Atlas;
 use crate::mosaic::pattern::MosaicPattern;
-use crate::mosaic::shapes::{Shape, ShapeError};
+use crate::mosaic::shapes::Shape;
 use crate::mosaic::{Mosaic, Surface, SurfacePoint};
-use crate::not_grown::{NotGrown, not_grown};
+use crate::not_grown::NotGrown;
 use crate::optics::contents_keys::{changed_contents, refuse_unknown_absorption, warn_of_mixture};
 use crate::optics::{Contents, Pigments};
 
@@ -175,18 +175,6 @@ pub struct Solid {
     pub mosaic: Option<Mosaic>,
 }
 
-/// An error of the shape.
-fn of_shape(error: ShapeError) -> NotGrown {
-    // A plan has no key for edges, so the error names triangles instead.
-    if let ShapeError::TooFine { triangles } = error {
-        return not_grown!(
-            "shape: it would take about {triangles:.0} triangles, too many: make the body less \
-             slender, give its mosaic fewer cells, or raised tissue a wider slope"
-        );
-    }
-    NotGrown::of("shape", error)
-}
-
 /// An error of a part of the plan.
 fn of(part: &str) -> impl Fn(NotGrown) -> NotGrown {
     move |error| NotGrown::of(part, error)
@@ -222,11 +210,11 @@ impl SolidPlan {
     /// [`NotGrown`] if it is too fine, and errors of the numbers of shape and mosaic.
     pub fn memory_bytes(&self) -> Result<f64, NotGrown> {
         self.validate()?;
-        let area = self.shape.area().map_err(of_shape)?;
+        let area = self.shape.area().map_err(of("shape"))?;
         let slopes_mm = self.raised.as_ref().map_or(f64::INFINITY, Raised::edge_mm);
         let edge_mm = self.edge_mm(area).min(slopes_mm);
         let triangles = self.shape.count_of_triangles(edge_mm, area);
-        let triangles = triangles.map_err(of_shape)?;
+        let triangles = triangles.map_err(of("shape"))?;
         let texels = f64::from(self.map_size) * f64::from(self.map_size);
         let painted = self.mosaic.as_ref().map_or(0.0, |pattern| {
             pattern.plan.memory_bytes() + texels * OF_A_TEXEL
@@ -258,9 +246,9 @@ impl Solid {
 
     fn grow_with(plan: &SolidPlan, options: GrowOptions<'_>) -> Result<Self, NotGrown> {
         plan.validate()?;
-        let area = plan.shape.area().map_err(of_shape)?;
+        let area = plan.shape.area().map_err(of("shape"))?;
         let edge_mm = plan.edge_mm(area);
-        let shape = plan.shape.triangles(edge_mm).map_err(of_shape)?;
+        let shape = plan.shape.triangles(edge_mm).map_err(of("shape"))?;
         let Some(pattern) = &plan.mosaic else {
             return Ok(Self::plain(shape, plan.contents));
         };

@@ -40,8 +40,8 @@ pub mod traits;
 
 use std::sync::OnceLock;
 
-use self::file::Heading;
 pub(crate) use self::file::{BLOCKS, read};
+use self::file::{Heading, PresetFile};
 use self::traits::{Counts, Traits};
 use crate::document::Opened;
 use crate::leaf::LeafPlan;
@@ -51,8 +51,7 @@ use crate::leaf::LeafPlan;
 pub struct Preset {
     /// Its name: lower-case words joined by `-`.
     pub name: &'static str,
-    text: &'static str,
-    heading: OnceLock<Heading>,
+    file: PresetFile,
     known: OnceLock<(Option<Traits>, Counts)>,
     /// Its plan, once it was asked for.
     pub(crate) plan: OnceLock<LeafPlan>,
@@ -62,8 +61,7 @@ impl Preset {
     const fn new(name: &'static str, text: &'static str) -> Self {
         Self {
             name,
-            text,
-            heading: OnceLock::new(),
+            file: PresetFile::new(name, text),
             known: OnceLock::new(),
             plan: OnceLock::new(),
         }
@@ -101,11 +99,13 @@ impl Preset {
 
     /// Its file with all that it inherits.
     pub(crate) fn opened(&self) -> Opened {
-        file::opened(self)
+        let bases = || BASES.iter().chain(PRESETS);
+        let named = |name: &str| Some(&bases().find(|base| base.name == name)?.file);
+        self.file.opened(&named)
     }
 
     fn heading(&self) -> &Heading {
-        self.heading.get_or_init(|| Heading::of(self))
+        self.file.heading()
     }
 
     fn known(&self) -> &(Option<Traits>, Counts) {

@@ -74,7 +74,6 @@ mod veins;
 pub(crate) mod width;
 
 use glam::DVec2;
-use thiserror::Error;
 
 use self::auxin::waiting_darts;
 #[cfg(test)]
@@ -85,29 +84,10 @@ use self::grown::Grown;
 use self::lamina::Lamina;
 use self::lamina_clock::LaminaClock;
 use self::network::VenationNetwork;
-use self::plan::{AuxinPlan, Growth, PlanError};
+use self::plan::check::incompatible;
+use self::plan::{AuxinPlan, Growth};
 use crate::not_grown::NotGrown;
 use crate::shape::outline::Outline;
-
-/// Why no veins grow.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum VenationError {
-    /// The plan cannot be carried out.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-    /// The caller stopped the growth.
-    #[error("growing the veins was stopped")]
-    Stopped,
-}
-
-impl From<VenationError> for NotGrown {
-    fn from(error: VenationError) -> Self {
-        match error {
-            VenationError::Plan(error) => error.into(),
-            VenationError::Stopped => Self::stopped(error),
-        }
-    }
-}
 
 /// A leaf at one step of its development.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,16 +109,12 @@ pub struct Stage {
 ///
 /// # Errors
 ///
-/// [`VenationError`] if the plan cannot be carried out on this outline.
+/// [`NotGrown`] if the plan cannot be carried out on this outline.
 ///
 /// # Source
 ///
 /// \[runions2005\], sections 3 and 4.
-pub fn grow(
-    outline: &Outline,
-    plan: &AuxinPlan,
-    seed: u64,
-) -> Result<VenationNetwork, VenationError> {
+pub fn grow(outline: &Outline, plan: &AuxinPlan, seed: u64) -> Result<VenationNetwork, NotGrown> {
     VeinGrowth::new(outline, plan, seed).network()
 }
 
@@ -172,8 +148,8 @@ impl<'a> VeinGrowth<'a> {
     ///
     /// # Errors
     ///
-    /// As [`grow`], and [`VenationError::Stopped`].
-    pub(crate) fn network(&self) -> Result<VenationNetwork, VenationError> {
+    /// As [`grow`], and one that [is a stop](NotGrown::is_stop).
+    pub(crate) fn network(&self) -> Result<VenationNetwork, NotGrown> {
         Ok(self.develop(&[])?.0.network)
     }
 
@@ -183,7 +159,7 @@ impl<'a> VeinGrowth<'a> {
     /// # Errors
     ///
     /// As [`VeinGrowth::network`].
-    pub(crate) fn stages(&self, steps: &[u32]) -> Result<Vec<Stage>, VenationError> {
+    pub(crate) fn stages(&self, steps: &[u32]) -> Result<Vec<Stage>, NotGrown> {
         let (full_grown, mut stages) = self.develop(steps)?;
         stages.sort_by_key(|stage| stage.step);
         let at = |&step: &u32| {
@@ -194,7 +170,7 @@ impl<'a> VeinGrowth<'a> {
     }
 
     /// The full-grown leaf, and the stages after those of `steps` that are reached.
-    fn develop(&self, steps: &[u32]) -> Result<(Stage, Vec<Stage>), VenationError> {
+    fn develop(&self, steps: &[u32]) -> Result<(Stage, Vec<Stage>), NotGrown> {
         let &Self {
             outline,
             plan,
@@ -204,8 +180,8 @@ impl<'a> VeinGrowth<'a> {
         } = self;
         plan.validate()?;
         if main.is_some() && plan.architecture.is_some() {
-            let (key, other) = ("architecture", "an outline that brings its main veins");
-            return Err(PlanError::Incompatible { key, other }.into());
+            let other = "an outline that brings its main veins";
+            return Err(incompatible("architecture", other));
         }
         let blade = in_segments(outline, plan);
         let (lamina, clock) = prepared(&blade, plan)?;
@@ -218,7 +194,7 @@ impl<'a> VeinGrowth<'a> {
         };
         let (grown, young) = carry_out_from(plan, lamina, clock, given.as_ref(), seed, watch);
         if is_stopped() {
-            return Err(VenationError::Stopped);
+            return Err(NotGrown::stopped("growing the veins was stopped"));
         }
         let base = outline.base();
         let place = |&p: &DVec2| base + p * segment_mm;
@@ -247,7 +223,7 @@ impl<'a> VeinGrowth<'a> {
 /// # Errors
 ///
 /// As [`grow`].
-pub fn check(outline: &Outline, plan: &AuxinPlan) -> Result<(), VenationError> {
+pub fn check(outline: &Outline, plan: &AuxinPlan) -> Result<(), NotGrown> {
     plan.validate()?;
     prepared(&in_segments(outline, plan), plan)?;
     Ok(())
@@ -263,9 +239,9 @@ fn in_segments(outline: &Outline, plan: &AuxinPlan) -> Outline {
 fn prepared<'b>(
     blade: &'b Outline,
     plan: &AuxinPlan,
-) -> Result<(Lamina<'b>, LaminaClock), VenationError> {
+) -> Result<(Lamina<'b>, LaminaClock), NotGrown> {
     plan.validate_on(blade)?;
-    let clock = LaminaClock::new(plan).map_err(PlanError::from)?;
+    let clock = LaminaClock::new(plan)?;
     let lamina = Lamina::new(plan, blade, clock.tissue_map(u32::MAX));
     check_young(&lamina, &clock)?;
     check_darts(plan, &lamina, &clock)?;
@@ -273,7 +249,7 @@ fn prepared<'b>(
 }
 
 /// Refuses plans that need too many darts.
-fn check_darts(plan: &AuxinPlan, lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
+fn check_darts(plan: &AuxinPlan, lamina: &Lamina, clock: &LaminaClock) -> Result<(), NotGrown> {
     let (low, high) = lamina.blade.bounds();
     let area = (high - low).x * (high - low).y * lamina.surplus();
     let steps = clock.last_growth_step();
@@ -294,7 +270,7 @@ fn check_darts(plan: &AuxinPlan, lamina: &Lamina, clock: &LaminaClock) -> Result
 
 /// Refuses growth functions whose young leaf is far larger than the full-grown one or has no
 /// extent.
-fn check_young(lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
+fn check_young(lamina: &Lamina, clock: &LaminaClock) -> Result<(), NotGrown> {
     let Some(first) = clock.tissue_map(0) else {
         return Ok(());
     };

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use leafmodel::document::schema::{BlockSchema, Is, filled};
+use leafmodel::document::schema::tables::filled;
+use leafmodel::document::schema::{BlockSchema, Is};
 use renderer::scene::load;
 
 use super::book::pages;

@@ -107,7 +107,7 @@ fn of_key(field: &Field, key: &Key, place: &TokenStream) -> Result<TokenStream> 
         Some(ValueKind::Block) => return Ok(block(key, name, &about, &place, ty)),
         Some(ValueKind::List { most, wanted }) => {
             return Ok(quote! {
-                let list = ::document::keys::BlockList {
+                let list = ::document::keys::lists::BlockList {
                     most: #most,
                     new: &::core::default::Default::default,
                     wanted: #wanted,

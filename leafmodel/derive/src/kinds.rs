@@ -17,7 +17,7 @@ pub(crate) fn of_enum(input: &DeriveInput, data: &DataEnum) -> Result<TokenStrea
     Ok(quote! {
         #[automatically_derived]
         impl ::document::declared::Kinds for #name {
-            const KINDS: &'static [::document::keys::Variant<Self>] = &[#(#kinds),*];
+            const KINDS: &'static [::document::keys::kinds::Variant<Self>] = &[#(#kinds),*];
         }
         #[automatically_derived]
         impl ::document::declared::Declared for #name {
@@ -93,7 +93,7 @@ fn of_variant(variant: &Variant) -> Result<Option<TokenStream>> {
         quote! { |value, keys| }
     };
     Ok(Some(quote! {
-        ::document::keys::Variant {
+        ::document::keys::kinds::Variant {
             name: #name,
             about: #about,
             new: || #new,

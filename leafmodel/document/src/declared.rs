@@ -49,7 +49,8 @@
 
 pub use leafmodel_derive::{Declared, Defaults, Words};
 
-use super::keys::{Keys, Variant};
+use super::keys::Keys;
+use super::keys::kinds::Variant;
 use super::ranges::RangeError;
 
 /// A block whose keys are declared once.

@@ -26,13 +26,11 @@
 //! type's own `Default` does, and nowhere else.
 
 mod checks;
-mod kinds;
-mod lists;
+pub mod kinds;
+pub mod lists;
 
 use std::rc::Rc;
 
-pub use self::kinds::{Choice, Variant};
-pub use self::lists::{BlockList, NamedList};
 use super::ranges::{RangeError, Ranges};
 use super::reader::Block;
 use super::schema::{BlockSchema, Is};

@@ -1,14 +1,11 @@
 //! What blocks may hold, as data: for editors (JSON Schema) and for the book (tables).
 
-mod json;
-mod tables;
+pub mod json;
+pub mod tables;
 
 use super::limits::Limits;
 use super::tree::{Node, Value};
 use super::write::value_to_toml;
-
-pub use self::json::{Alone, json_schema};
-pub use self::tables::{filled, tables};
 
 /// The keys of a block, in the order in which they are declared.
 #[derive(Clone, Debug, Default)]

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
-use thiserror::Error;
 
+use crate::not_grown::{NotGrown, not_grown};
 use crate::plane::polyline;
 
 /// How far the sides of a tube may lie inside the round stalk that they approximate, mm.
@@ -34,28 +34,6 @@ pub struct StalkMesh {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Why there is no tube.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-pub enum StalkError {
-    /// There are fewer than two points, or not one radius for each.
-    #[error(
-        "a stalk needs two points or more and a radius for each: {points} points, {radii} radii"
-    )]
-    Lists {
-        /// How many points.
-        points: usize,
-        /// How many radii.
-        radii: usize,
-    },
-    /// A number is not finite, a radius is not above 0, or a point coincides with the one before
-    /// (which).
-    #[error("point {0} of a stalk has a bad place or radius")]
-    BadPoint(usize),
-    /// The polyline turns back (at which point).
-    #[error("a stalk turns by 90° or more at point {0}")]
-    Kink(usize),
-}
-
 impl StalkMesh {
     /// A tube along `points` with a radius at each of them (both mm) and a hemisphere around each
     /// end point.
@@ -66,8 +44,8 @@ impl StalkMesh {
     ///
     /// # Errors
     ///
-    /// [`StalkError`] for lists, numbers or kinks of which no tube can be made.
-    pub fn tube(points: &[DVec3], radii_mm: &[f64]) -> Result<Self, StalkError> {
+    /// [`NotGrown`] for lists, numbers or kinks of which no tube can be made.
+    pub fn tube(points: &[DVec3], radii_mm: &[f64]) -> Result<Self, NotGrown> {
         Self::of_sides(points, radii_mm, sides(widest(radii_mm)))
     }
 
@@ -84,7 +62,7 @@ impl StalkMesh {
         radii_mm: &[f64],
         edge_mm: f64,
         height: impl Fn(f64, f64, f64) -> f64,
-    ) -> Result<Self, StalkError> {
+    ) -> Result<Self, NotGrown> {
         let (points, radii) = refined(points, radii_mm, edge_mm)?;
         let widest = widest(&radii);
         let around = (2.0 * PI * widest / edge_mm).ceil() as usize;
@@ -121,7 +99,7 @@ impl StalkMesh {
         }
     }
 
-    fn of_sides(points: &[DVec3], radii_mm: &[f64], sides: usize) -> Result<Self, StalkError> {
+    fn of_sides(points: &[DVec3], radii_mm: &[f64], sides: usize) -> Result<Self, NotGrown> {
         let tangents = tangents(points, radii_mm)?;
         let lengths = polyline::lengths(points);
         let last = points.len() - 1;
@@ -249,7 +227,7 @@ fn refined(
     points: &[DVec3],
     radii_mm: &[f64],
     edge_mm: f64,
-) -> Result<(Vec<DVec3>, Vec<f64>), StalkError> {
+) -> Result<(Vec<DVec3>, Vec<f64>), NotGrown> {
     let tangents = tangents(points, radii_mm)?;
     let (mut fine, mut radii) = (vec![points[0]], vec![radii_mm[0]]);
     for (i, pair) in points.windows(2).enumerate() {
@@ -282,19 +260,21 @@ fn sides(radius: f64) -> usize {
 }
 
 /// Directions at the points: half-way between those of the pieces on both sides.
-fn tangents(points: &[DVec3], radii_mm: &[f64]) -> Result<Vec<DVec3>, StalkError> {
+fn tangents(points: &[DVec3], radii_mm: &[f64]) -> Result<Vec<DVec3>, NotGrown> {
     if points.len() < 2 || points.len() != radii_mm.len() {
-        return Err(StalkError::Lists {
-            points: points.len(),
-            radii: radii_mm.len(),
-        });
+        let (points, radii) = (points.len(), radii_mm.len());
+        return Err(not_grown!(
+            "a stalk needs two points or more and a radius for each: {points} points, {radii} radii"
+        ));
     }
     let good = |i: usize| {
         let apart = i == 0 || points[i] != points[i - 1];
         points[i].is_finite() && radii_mm[i].is_finite() && radii_mm[i] > 0.0 && apart
     };
     if let Some(index) = (0..points.len()).find(|&i| !good(i)) {
-        return Err(StalkError::BadPoint(index));
+        return Err(not_grown!(
+            "point {index} of a stalk has a bad place or radius"
+        ));
     }
     let pieces: Vec<DVec3> = points
         .windows(2)
@@ -304,7 +284,8 @@ fn tangents(points: &[DVec3], radii_mm: &[f64]) -> Result<Vec<DVec3>, StalkError
         .windows(2)
         .position(|pair| pair[0].dot(pair[1]) <= 0.0);
     if let Some(before) = kink {
-        return Err(StalkError::Kink(before + 1));
+        let at = before + 1;
+        return Err(not_grown!("a stalk turns by 90° or more at point {at}"));
     }
     let last = pieces.len() - 1;
     let between = |i: usize| (pieces[i.saturating_sub(1)] + pieces[i.min(last)]).normalize();
@@ -376,18 +357,18 @@ mod tests {
     #[test]
     fn what_is_no_way_is_refused() {
         let (o, x) = (DVec3::ZERO, DVec3::X);
-        let tube = |points: &[DVec3], radii: &[f64]| StalkMesh::tube(points, radii).err();
-        let lists = StalkError::Lists {
-            points: 2,
-            radii: 1,
+        let tube = |points: &[DVec3], radii: &[f64]| {
+            let refused = StalkMesh::tube(points, radii).expect_err("no tube");
+            refused.to_string()
         };
-        assert_eq!(tube(&[o, x], &[1.0]), Some(lists));
+        assert!(tube(&[o, x], &[1.0]).ends_with("2 points, 1 radii"));
+        let bad = "point 1 of a stalk has a bad place or radius";
         for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let bad = Some(StalkError::BadPoint(1));
             assert_eq!(tube(&[o, x], &[1.0, radius]), bad);
         }
-        assert_eq!(tube(&[o, o], &[1.0; 2]), Some(StalkError::BadPoint(1)));
-        assert_eq!(tube(&[o, x, o], &[1.0; 3]), Some(StalkError::Kink(1)));
+        assert_eq!(tube(&[o, o], &[1.0; 2]), bad);
+        let kink = "a stalk turns by 90° or more at point 1";
+        assert_eq!(tube(&[o, x, o], &[1.0; 3]), kink);
     }
 
     #[test]

@@ -5,7 +5,6 @@ use glam::DVec2;
 use super::error::LeafError;
 use super::lamina::Lamina;
 use super::plan::LeafPlan;
-use crate::not_grown::NotGrown;
 use crate::transport::DeathField;
 use crate::venation::arcuate::ArcuateVeins;
 
@@ -34,7 +33,7 @@ impl LeafPlan {
             Some(margin) => veins.veins_within(margin, self.length_mm),
             None => veins.veins_on(lamina.intact()),
         };
-        let veins = veins.map_err(|error| LeafError::Venation(NotGrown::because(error)))?;
+        let veins = veins.map_err(LeafError::Venation)?;
         Ok(Some(Fields::Arcuate(veins)))
     }
 

@@ -9,7 +9,7 @@ use crate::shape::growth_form::{GrowthForm, GrowthFormError, GrowthFormProblem, 
 use crate::shape::outline::{Outline, OutlineError};
 use crate::shape::specimen::Specimen;
 use crate::shape::svg_path::SvgContour;
-use crate::shape::teeth::{TeethError, ToothWave, toothed};
+use crate::shape::teeth::{ToothWave, toothed};
 use crate::transport::{TransportLeaf, TransportPlan};
 
 /// What the margin is made from.
@@ -214,18 +214,7 @@ impl OutlinePlan {
         let bent = self.specimen.applied(smooth, seed);
         let bent = bent.map_err(|error| error.within("outline"))?;
         let tips = self.specimen.tips();
-        let outline = toothed(&bent, &self.teeth, tips, seed).map_err(|error| {
-            let help = match error {
-                TeethError::NotNested { .. } => {
-                    "let per_side be a multiple of that of the wave before, or leave `nested` out"
-                }
-                TeethError::Range { .. }
-                | TeethError::TooManyWaves { .. }
-                | TeethError::NoSides
-                | TeethError::NoMargin(_) => "make the teeth lower, or fewer",
-            };
-            NotGrown::because(error).mend("outline.teeth", help)
-        })?;
+        let outline = toothed(&bent, &self.teeth, tips, seed)?;
         Ok(GrownOutline { outline, origin })
     }
 }

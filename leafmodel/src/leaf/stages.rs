@@ -13,7 +13,7 @@ use crate::shape::outline::Outline;
 use crate::transport::{Ladder, TransportLeaf};
 use crate::venation::network::VenationNetwork;
 use crate::venation::plan::{AuxinPlan, Growth};
-use crate::venation::{Stage, VeinGrowth, VenationError};
+use crate::venation::{Stage, VeinGrowth};
 
 /// Margin and veins at one time of growth, true to the size they have then, mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +66,7 @@ impl LeafPlan {
         Ok(match self.growing()? {
             Growing::Auxin(plan) => {
                 let stages = VeinGrowth::new(outline, plan, self.seed).stages(steps);
-                let stages = stages.map_err(not_grown)?.into_iter();
+                let stages = stages.map_err(LeafError::Venation)?.into_iter();
                 let stage = |stage: Stage| {
                     let stage = LeafStage {
                         outline: stage.outline,
@@ -121,7 +121,10 @@ impl LeafPlan {
             main: Some(&main),
             ..VeinGrowth::new(outline, plan, self.seed)
         };
-        let mut finer = finer.stages(&later).map_err(not_grown)?.into_iter();
+        let mut finer = finer
+            .stages(&later)
+            .map_err(LeafError::Venation)?
+            .into_iter();
         // Main veins are as wide at the end of the development as at the start of the net.
         let first = finer
             .next()
@@ -211,10 +214,6 @@ fn allometric(form: &GrowthForm, stage: LeafStage, final_length: f64) -> LeafSta
 /// A part that the lamina of this plan has.
 fn part<T>(part: Option<&T>) -> Result<&T, LeafError> {
     part.ok_or(LeafError::NoStages("the lamina is that of another plan"))
-}
-
-fn not_grown(error: VenationError) -> LeafError {
-    LeafError::Venation(error.into())
 }
 
 impl DevelopedLeaf {

@@ -155,10 +155,8 @@ impl VenationPlan {
         grown: Option<&Outline>,
     ) -> Result<(), NotGrown> {
         match self {
-            Self::Auxin(veins) => {
-                grown.map_or(Ok(()), |outline| Ok(venation::check(outline, veins)?))
-            }
-            Self::Arcuate(veins) => veins.validate().map_err(NotGrown::because),
+            Self::Auxin(veins) => grown.map_or(Ok(()), |outline| venation::check(outline, veins)),
+            Self::Arcuate(veins) => Ok(veins.in_range()?),
             Self::Cells(style) => {
                 style.in_range()?;
                 let is_there = matches!(plan.contour, Contour::Transport(_));
@@ -214,8 +212,7 @@ impl VenationPlan {
             Self::Arcuate(veins) => match plan.plain_cubic() {
                 Some(margin) => veins.network_within(margin, length_mm),
                 None => veins.network(outline),
-            }
-            .map_err(NotGrown::because)?,
+            }?,
             Self::Cells(style) => match origin {
                 Origin::Cells(cells) => cells.network(length_mm, *style)?,
                 Origin::Curve | Origin::Developed(_) => {

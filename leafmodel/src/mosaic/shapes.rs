@@ -10,11 +10,10 @@
 pub mod lathe;
 
 use glam::{DVec2, DVec3};
-use thiserror::Error;
 
-use crate::blade::error::BladeError;
 use crate::blade::sheet::even_sheet;
 use crate::document::RangeError;
+use crate::not_grown::{NotGrown, not_grown};
 use crate::shape::outline::Outline;
 
 /// Most triangles of one shape.
@@ -34,63 +33,12 @@ pub struct Shape {
     pub faces: Vec<[u32; 3]>,
 }
 
-/// Why a shape cannot be made.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum ShapeError {
-    /// A size is out of its range.
-    #[error(transparent)]
-    Range(#[from] RangeError),
-    /// The profile has fewer than two points.
-    #[error("a profile needs at least 2 points, it has {points}")]
-    ShortProfile {
-        /// How many there are.
-        points: usize,
-    },
-    /// A point of the profile is not finite or has a negative radius.
-    #[error(
-        "point {index} of the profile is ({radius}, {height}) mm: both must be finite and the radius at least 0"
-    )]
-    ProfilePoint {
-        /// Which point.
-        index: usize,
-        /// Its distance from the axis, mm.
-        radius: f64,
-        /// Its height, mm.
-        height: f64,
-    },
-    /// Two neighbouring points of the profile coincide.
-    #[error("points {index} and {} of the profile coincide", index + 1)]
-    RepeatedPoint {
-        /// The first of them.
-        index: usize,
-    },
-    /// The profile touches the axis between its ends.
-    #[error("the profile meets the axis at height {height} mm, between points {index} and {}: only its ends may lie on the axis", index + 1)]
-    MeetsAxis {
-        /// The point before.
-        index: usize,
-        /// Where, mm.
-        height: f64,
-    },
-    /// The shape would need too many triangles: `max_edge_mm` is too small.
-    #[error(
-        "the shape would take about {triangles:.0} triangles, at most {MOST_TRIANGLES:.0} are allowed"
-    )]
-    TooFine {
-        /// How many it would take.
-        triangles: f64,
-    },
-    /// The outline could not be cut into triangles.
-    #[error(transparent)]
-    Sheet(#[from] BladeError),
-}
-
 /// A sphere around the origin: the faces of an icosahedron, divided evenly and projected outwards.
 ///
 /// # Errors
 ///
-/// [`ShapeError::Range`] unless both are finite and above 0; [`ShapeError::TooFine`].
-pub fn sphere(radius_mm: f64, max_edge_mm: f64) -> Result<Shape, ShapeError> {
+/// [`NotGrown`] unless both are finite and above 0, and for too many triangles.
+pub fn sphere(radius_mm: f64, max_edge_mm: f64) -> Result<Shape, NotGrown> {
     positive("radius_mm", radius_mm)?;
     ellipsoid(DVec3::splat(radius_mm), max_edge_mm)
 }
@@ -100,8 +48,8 @@ pub fn sphere(radius_mm: f64, max_edge_mm: f64) -> Result<Shape, ShapeError> {
 ///
 /// # Errors
 ///
-/// [`ShapeError::Range`] unless all are finite and above 0; [`ShapeError::TooFine`].
-pub fn ellipsoid(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<Shape, ShapeError> {
+/// [`NotGrown`] unless all are finite and above 0, and for too many triangles.
+pub fn ellipsoid(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<Shape, NotGrown> {
     for axis in semi_axes_mm.to_array() {
         positive("semi_axes_mm", axis)?;
     }
@@ -128,8 +76,8 @@ fn ellipsoid_cuts(semi_axes_mm: DVec3, max_edge_mm: f64) -> f64 {
 ///
 /// # Errors
 ///
-/// [`ShapeError::TooFine`].
-pub fn ellipsoid_triangles(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<f64, ShapeError> {
+/// [`NotGrown`] for too many triangles.
+pub fn ellipsoid_triangles(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<f64, NotGrown> {
     let cuts = ellipsoid_cuts(semi_axes_mm, max_edge_mm);
     let triangles = 20.0 * cuts * cuts;
     affordable(triangles)?;
@@ -143,13 +91,13 @@ pub fn ellipsoid_triangles(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<f64,
 ///
 /// # Errors
 ///
-/// [`ShapeError::Range`] unless all are finite and above 0 and the corner radius at most half
-/// the side; [`ShapeError::TooFine`].
+/// [`NotGrown`] unless all are finite and above 0 and the corner radius at most half
+/// the side, and for too many triangles.
 pub fn rounded_cube(
     side_mm: f64,
     corner_radius_mm: f64,
     max_edge_mm: f64,
-) -> Result<Shape, ShapeError> {
+) -> Result<Shape, NotGrown> {
     positive("side_mm", side_mm)?;
     positive("max_edge_mm", max_edge_mm)?;
     let fits = corner_radius_mm > 0.0 && corner_radius_mm <= 0.5 * side_mm;
@@ -241,9 +189,9 @@ pub fn rounded_cube(
 ///
 /// # Errors
 ///
-/// [`ShapeError::Sheet`] for an edge outside 0.001 to 10000 mm and for too many triangles.
-pub fn sheet(outline: &Outline, max_edge_mm: f64) -> Result<Shape, ShapeError> {
-    let (points, faces) = even_sheet(outline, max_edge_mm)?;
+/// [`NotGrown`] for an edge outside 0.001 to 10000 mm and for too many triangles.
+pub fn sheet(outline: &Outline, max_edge_mm: f64) -> Result<Shape, NotGrown> {
+    let (points, faces) = even_sheet(outline, max_edge_mm).map_err(NotGrown::because)?;
     Ok(Shape {
         normals: vec![DVec3::Z; points.len()],
         positions: points.into_iter().map(|p: DVec2| p.extend(0.0)).collect(),
@@ -251,7 +199,7 @@ pub fn sheet(outline: &Outline, max_edge_mm: f64) -> Result<Shape, ShapeError> {
     })
 }
 
-fn positive(field: &'static str, value: f64) -> Result<(), ShapeError> {
+fn positive(field: &'static str, value: f64) -> Result<(), NotGrown> {
     let valid = value.is_finite() && value > 0.0;
     Ok(RangeError::unless(
         valid,
@@ -261,11 +209,15 @@ fn positive(field: &'static str, value: f64) -> Result<(), ShapeError> {
     )?)
 }
 
-fn affordable(triangles: f64) -> Result<(), ShapeError> {
+fn affordable(triangles: f64) -> Result<(), NotGrown> {
     if triangles <= MOST_TRIANGLES {
         return Ok(());
     }
-    Err(ShapeError::TooFine { triangles })
+    // A plan has no key for edges, so the error names triangles instead.
+    Err(not_grown!(
+        "it would take about {triangles:.0} triangles, too many: make the body less slender, give its \
+         mosaic fewer cells, or raised tissue a wider slope"
+    ))
 }
 
 /// Unit vectors and faces of an icosahedron whose edges are cut into `cuts` pieces.

@@ -2,8 +2,8 @@
 
 use super::presets::Chosen;
 use crate::document::{Declared, Keys};
+use crate::plant::PlantPlan;
 use crate::plant::presets::PRESETS;
-use crate::plant::{PlantError, PlantPlan};
 
 /// The key `preset` of a plant. Where it is there, no other key is required.
 pub fn plant_preset(plan: &mut PlantPlan, keys: &mut Keys<'_>) {
@@ -35,22 +35,6 @@ pub fn plant(plan: &mut PlantPlan, keys: &mut Keys<'_>) {
     if keys.is_sound()
         && let Err(error) = plan.validate()
     {
-        let (path, help): (&[&str], _) = match error {
-            PlantError::NoRoom { .. } => (
-                &["nodes"],
-                "use fewer nodes, a longer or thinner axis, or a \
-                `shortening` nearer to 1",
-            ),
-            PlantError::NoPot => (
-                &["pot"],
-                "make the pot wider or higher, its wall thinner, its rim lower or the soil deeper",
-            ),
-            PlantError::Range(_)
-            | PlantError::TooLarge
-            | PlantError::NoLeaf
-            | PlantError::Bent(_)
-            | PlantError::NotBorne(_) => (&["nodes"], "choose another"),
-        };
-        keys.refuse(path, error.to_string(), help);
+        error.or_at("nodes", "choose another").report(keys);
     }
 }

@@ -5,8 +5,8 @@ use glam::{DQuat, DVec3};
 use crate::plant::turned::level;
 
 use super::climbing::Wall;
-use super::error::PlantError;
 use super::plan::AxisPlan;
+use crate::not_grown::{NotGrown, not_grown};
 use crate::plane::polyline;
 use crate::random::{Use, bell};
 use crate::rotation::about;
@@ -81,17 +81,19 @@ impl AxisPlan {
     }
 
     /// Whether leaves have room between one another.
-    pub(super) fn has_room(&self) -> Result<(), PlantError> {
+    pub(super) fn has_room(&self) -> Result<(), NotGrown> {
         let ways = self.nodes_along();
         for pair in ways.windows(2) {
             let (internode, radius) = (pair[1] - pair[0], self.radius(pair[1] / self.length_mm));
             if internode < radius {
-                return Err(PlantError::NoRoom {
-                    length: self.length_mm,
-                    nodes: self.nodes,
-                    internode,
-                    radius,
-                });
+                let (length, nodes) = (self.length_mm, self.nodes);
+                let error = not_grown!(
+                    "an internode of an axis of {length:.3} mm with {nodes} nodes is {internode:.3} \
+                     mm long, less than the radius there, {radius:.3} mm"
+                );
+                let help =
+                    "use fewer nodes, a longer or thinner axis, or a `shortening` nearer to 1";
+                return Err(error.mend("nodes", help));
             }
         }
         Ok(())

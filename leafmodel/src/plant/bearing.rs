@@ -6,12 +6,12 @@ use super::apart::{Standing, Wood, keep_apart};
 use super::axis::{Axis, Node, Start};
 use super::bark::AxisRelief;
 use super::climbing::Wall;
-use super::error::{MOST_LEAVES, MOST_VERTICES, PlantError};
 use super::plan::{AxisPlan, Branching, Buds, Phyllotaxis, PlantPlan};
 use super::posture::Stand;
 use super::stems::stem_of;
 use super::{BorneLeaf, FlowerPlan, Foot, Organ, Plant};
 use crate::blade::stalk::StalkMesh;
+use crate::not_grown::{NotGrown, not_grown};
 use crate::plane::polyline;
 use crate::random::{Use, uniform};
 use crate::rotation::about;
@@ -58,12 +58,18 @@ struct Builder<'a> {
     next: usize,
 }
 
+/// Most leaves of a plant.
+const MOST_LEAVES: usize = 100_000;
+
+/// Most vertices of its axes and buds.
+const MOST_VERTICES: usize = 1 << 23;
+
 /// Grows a checked plan.
 pub(super) fn grow(
     plan: &PlantPlan,
     feet: &[Vec<Foot>],
     wall: Option<&Wall>,
-) -> Result<Plant, PlantError> {
+) -> Result<Plant, NotGrown> {
     let mut builder = Builder {
         plan,
         feet,
@@ -106,7 +112,7 @@ impl Builder<'_> {
         at: DVec3,
         along: DVec3,
         order: u32,
-    ) -> Result<(), PlantError> {
+    ) -> Result<(), NotGrown> {
         let start = Start {
             at,
             along,
@@ -156,12 +162,13 @@ impl Builder<'_> {
     }
 
     /// The flower at the tip of an axis.
-    fn flower(&mut self, flower: &FlowerPlan, axis: &Axis) -> Result<(), PlantError> {
+    fn flower(&mut self, flower: &FlowerPlan, axis: &Axis) -> Result<(), NotGrown> {
         let [.., before, end] = axis.points.as_slice() else {
             return Ok(());
         };
         let seed = self.plan.seed.wrapping_add(self.axes);
-        let grown = flower.grown(*end, (*end - *before).normalize(), seed)?;
+        let grown = flower.grown(*end, (*end - *before).normalize(), seed);
+        let grown = grown.map_err(|error| bent(&error))?;
         for (whorl, seats) in grown.seats.iter().enumerate() {
             let kind = self.kinds + whorl;
             for (number, seat) in seats.iter().enumerate() {
@@ -193,7 +200,7 @@ impl Builder<'_> {
     }
 
     /// Adventitious roots of an axis that climbs: from its underside to the wall, on both sides.
-    fn rootlets(&mut self, axis: &Axis, number: u64) -> Result<(), PlantError> {
+    fn rootlets(&mut self, axis: &Axis, number: u64) -> Result<(), NotGrown> {
         let (Some(wall), Some(climbing)) = (self.wall, self.plan.climbing) else {
             return Ok(());
         };
@@ -245,7 +252,7 @@ impl Builder<'_> {
         radial: DVec3,
         branches: &Branching,
         order: u32,
-    ) -> Result<(), PlantError> {
+    ) -> Result<(), NotGrown> {
         let [from, to] = branches.between;
         let share = if to > from {
             (node.share - from) / (to - from)
@@ -280,7 +287,7 @@ impl Builder<'_> {
         }
     }
 
-    fn leaf_and_bud(&mut self, node: &Node, radial: DVec3) -> Result<(), PlantError> {
+    fn leaf_and_bud(&mut self, node: &Node, radial: DVec3) -> Result<(), NotGrown> {
         let [foot, tip] = self.plan.posture.angle;
         let radial = match self.plan.climbing {
             Some(climbing) => climbing.lifted(radial, node.along),
@@ -306,7 +313,7 @@ impl Builder<'_> {
     }
 
     /// A short shoot: a spur with a cluster of leaves at its end.
-    fn short_shoot(&mut self, node: &Node, radial: DVec3) -> Result<(), PlantError> {
+    fn short_shoot(&mut self, node: &Node, radial: DVec3) -> Result<(), NotGrown> {
         let posture = &self.plan.posture;
         let [foot, tip] = posture.angle;
         let angle = foot + (tip - foot) * node.share;
@@ -344,10 +351,10 @@ impl Builder<'_> {
         Ok(())
     }
 
-    fn leaf(&mut self, at: DVec3, stand: &Stand, share: f64) -> Result<(), PlantError> {
+    fn leaf(&mut self, at: DVec3, stand: &Stand, share: f64) -> Result<(), NotGrown> {
         let leaves = &mut self.plant.leaves;
         if leaves.len() >= MOST_LEAVES {
-            return Err(PlantError::TooLarge);
+            return Err(too_large(self.plan));
         }
         let kinds = self.kinds;
         let kind = ((share * kinds as f64) as usize).min(kinds - 1);
@@ -374,14 +381,14 @@ impl Builder<'_> {
         Ok(())
     }
 
-    fn terminal_bud(&mut self, axis: &Axis) -> Result<(), PlantError> {
+    fn terminal_bud(&mut self, axis: &Axis) -> Result<(), NotGrown> {
         let (Some(buds), [.., before, end]) = (self.plan.buds, axis.points.as_slice()) else {
             return Ok(());
         };
         self.bud(&buds, *end, (*end - *before).normalize(), 1.3)
     }
 
-    fn bud(&mut self, buds: &Buds, at: DVec3, along: DVec3, size: f64) -> Result<(), PlantError> {
+    fn bud(&mut self, buds: &Buds, at: DVec3, along: DVec3, size: f64) -> Result<(), NotGrown> {
         let points: Vec<DVec3> = BUD
             .iter()
             .map(|[way, _]| at + along * (way * size * buds.length_mm))
@@ -394,7 +401,7 @@ impl Builder<'_> {
     }
 
     /// The body of an axis of this number.
-    fn wooden(&mut self, axis: &Axis, number: u64) -> Result<(), PlantError> {
+    fn wooden(&mut self, axis: &Axis, number: u64) -> Result<(), NotGrown> {
         let Some(relief) = self.plan.relief else {
             return self.tube(&axis.points, &axis.radii);
         };
@@ -404,23 +411,43 @@ impl Builder<'_> {
         // With those of both ends.
         let vertices = around * (length / relief.edge_mm + 0.5 * around);
         if vertices > MOST_VERTICES as f64 {
-            return Err(PlantError::TooLarge);
+            return Err(too_large(self.plan));
         }
         let own = AxisRelief::new(relief, (self.plan.seed, number), (length, widest));
         let height = |way, turn, radius| own.height(way, turn, radius);
-        let tube = StalkMesh::raised(&axis.points, &axis.radii, relief.edge_mm, height)?;
-        self.add(tube)
+        let tube = StalkMesh::raised(&axis.points, &axis.radii, relief.edge_mm, height);
+        self.add(tube.map_err(|error| bent(&error))?)
     }
 
-    fn tube(&mut self, points: &[DVec3], radii: &[f64]) -> Result<(), PlantError> {
-        self.add(StalkMesh::tube(points, radii)?)
+    fn tube(&mut self, points: &[DVec3], radii: &[f64]) -> Result<(), NotGrown> {
+        self.add(StalkMesh::tube(points, radii).map_err(|error| bent(&error))?)
     }
 
-    fn add(&mut self, tube: StalkMesh) -> Result<(), PlantError> {
+    fn add(&mut self, tube: StalkMesh) -> Result<(), NotGrown> {
         self.plant.axes.append(tube);
         if self.plant.axes.positions.len() > MOST_VERTICES {
-            return Err(PlantError::TooLarge);
+            return Err(too_large(self.plan));
         }
         Ok(())
     }
+}
+
+/// The error of an axis that bends so sharply that it is no tube.
+fn bent(error: &NotGrown) -> NotGrown {
+    not_grown!("an axis cannot be built: {error}").mend("length_mm", "let its axes bend less")
+}
+
+fn too_large(plan: &PlantPlan) -> NotGrown {
+    let (key, help) = if plan.relief.is_some() {
+        (
+            "relief",
+            "use a longer `edge_mm`, or fewer nodes or branches",
+        )
+    } else {
+        ("nodes", "use fewer nodes or branches")
+    };
+    let error = not_grown!(
+        "the plant has more than {MOST_LEAVES} leaves, or {MOST_VERTICES} vertices of axes and buds"
+    );
+    error.mend(key, help)
 }

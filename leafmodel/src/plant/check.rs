@@ -2,18 +2,18 @@
 
 use glam::DVec3;
 
-use super::error::PlantError;
 use super::plan::PlantPlan;
 use crate::document::{Declared, RangeError};
+use crate::not_grown::NotGrown;
 
 impl PlantPlan {
     /// Checks every number.
     ///
     /// # Errors
     ///
-    /// [`PlantError::Range`] for the first that is out of range, [`PlantError::NoRoom`],
-    /// [`PlantError::NoPot`].
-    pub fn validate(&self) -> Result<(), PlantError> {
+    /// [`NotGrown`] for the first that is out of range, for nodes without room, and for a pot without an
+    /// inside.
+    pub fn validate(&self) -> Result<(), NotGrown> {
         self.in_range()?;
         let climbing = self.climbing.as_ref().map(|climbing| climbing.away);
         for (path, direction) in [
@@ -30,7 +30,10 @@ impl PlantPlan {
             RangeError::unless(false, "relief.lenticels_per_cm2", many, limits)?;
         }
         if self.pot.as_ref().is_some_and(|pot| !pot.is_hollow()) {
-            return Err(PlantError::NoPot);
+            let problem = "the walls of the pot leave no room for soil";
+            let help =
+                "make the pot wider or higher, its wall thinner, its rim lower or the soil deeper";
+            return Err(NotGrown::because(problem).mend("pot", help));
         }
         self.axis.has_room()
     }

@@ -9,9 +9,9 @@ use glam::DVec3;
 
 use super::turned::level;
 use super::turned::ribbed;
-use crate::blade::stalk::StalkError;
 use crate::blade::stalk::StalkMesh;
 use crate::document::Declared;
+use crate::not_grown::NotGrown;
 use crate::random::{Use, bell};
 use crate::rotation::about;
 
@@ -113,7 +113,7 @@ pub(super) struct Flower {
 
 impl FlowerPlan {
     /// The flower on an axis that ends at a place in a direction.
-    pub(super) fn grown(&self, at: DVec3, along: DVec3, seed: u64) -> Result<Flower, StalkError> {
+    pub(super) fn grown(&self, at: DVec3, along: DVec3, seed: u64) -> Result<Flower, NotGrown> {
         let radius = self.peduncle_radius_mm;
         let chance = |number: u64| bell(seed, Use::Flower, number);
         // It leans between two leaves of a whorl, which stand at multiples of 2π / parts.
@@ -175,7 +175,7 @@ impl FlowerPlan {
         bodies: &mut Bodies,
         [top, forward, radial]: [DVec3; 3],
         angle: f64,
-    ) -> Result<(), StalkError> {
+    ) -> Result<(), NotGrown> {
         let [filament, anther] = self.stamens_mm;
         let way = |share: f64| {
             // It bends back upwards: filaments spread, anthers stand nearly upright.
@@ -217,7 +217,7 @@ impl FlowerPlan {
         top: DVec3,
         forward: DVec3,
         around: &impl Fn(f64) -> DVec3,
-    ) -> Result<(), StalkError> {
+    ) -> Result<(), NotGrown> {
         let [ovary, stigma] = self.pistil_mm;
         let radius = PISTIL_SLENDER[0] * ovary;
         let profile = OVARY.map(|[height, share]| [height * ovary, share * radius]);

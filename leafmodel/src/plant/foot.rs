@@ -1,10 +1,10 @@
 //! How a leaf is held: the foot of its petiole in the leaf's own frame.
 
 use glam::{DMat3, DVec3};
-use thiserror::Error;
 
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::Contour;
+use crate::not_grown::NotGrown;
 use crate::shape::specimen::BaseShape;
 
 /// The foot of a leaf's petiole, in the leaf's frame.
@@ -22,19 +22,8 @@ pub struct Foot {
     pub blade: Vec<[DVec3; 3]>,
 }
 
-/// Why no plant can bear a leaf.
-#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
-pub enum NotBorne {
-    /// It has come to rest on the ground.
-    #[error("a leaf that rests on the ground is borne by no plant")]
-    OnTheGround,
-    /// Its petiole sags under a wilting blade, by how much is known only when it has grown.
-    #[error("where the petiole of a wilting leaf ends is known only when it has grown")]
-    Wilting,
-    /// Its petiole stands on the blade.
-    #[error("the petiole of a peltate leaf stands on its blade: no plant can bear that yet")]
-    Peltate,
-}
+/// What to do about a leaf that no plant bears.
+pub(super) const ANOTHER: &str = "let it bear another leaf";
 
 /// Places of a blade, across it and along it, over its length: base, tip, sides.
 const PLACES: [[f64; 2]; 8] = [
@@ -61,16 +50,26 @@ impl Foot {
     ///
     /// # Errors
     ///
-    /// [`NotBorne`].
-    pub fn of(plan: &LeafPlan) -> Result<Self, NotBorne> {
-        if plan.stance.on_ground {
-            return Err(NotBorne::OnTheGround);
-        }
-        if plan.stance.wilting.is_some() {
-            return Err(NotBorne::Wilting);
-        }
-        if matches!(plan.outline.specimen.base, Some(BaseShape::Peltate { .. })) {
-            return Err(NotBorne::Peltate);
+    /// [`NotGrown`], naming what it is in the leaf that no plant can bear.
+    pub fn of(plan: &LeafPlan) -> Result<Self, NotGrown> {
+        let is_peltate = matches!(plan.outline.specimen.base, Some(BaseShape::Peltate { .. }));
+        let problems = [
+            (
+                plan.stance.on_ground,
+                "a leaf that rests on the ground is borne by no plant",
+            ),
+            // By how much it sags is known only when it has grown.
+            (
+                plan.stance.wilting.is_some(),
+                "where the petiole of a wilting leaf ends is known only when it has grown",
+            ),
+            (
+                is_peltate,
+                "the petiole of a peltate leaf stands on its blade: no plant can bear that yet",
+            ),
+        ];
+        if let Some((_, problem)) = problems.iter().find(|(is_so, _)| *is_so) {
+            return Err(NotGrown::because(problem).mend("leaf", ANOTHER));
         }
         // A compound leaf has the foot of its petiole at the origin.
         let held = plan.petiole.filter(|_| plan.compound.is_none());

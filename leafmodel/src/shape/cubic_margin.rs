@@ -8,11 +8,11 @@
 //! \[oslveins\], `Angle1`, `L1`, `Angle2`, `L2`.
 
 use glam::DVec2;
-use thiserror::Error;
 
 use super::cubic::{Cubic, FLATNESS};
-use super::outline::{Outline, OutlineError};
+use super::outline::Outline;
 use crate::document::{Declared, RangeError};
+use crate::not_grown::{NotGrown, not_grown};
 
 /// One side as a cubic Bézier spline from base to tip; the other is its mirror image. Lengths are
 /// in units of the leaf's length; the letters are the article's.
@@ -48,36 +48,16 @@ impl Default for CubicMargin {
     }
 }
 
-/// Why the splines are not a valid margin.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum CubicMarginError {
-    /// A number is out of its range.
-    #[error(transparent)]
-    Range(#[from] RangeError),
-    /// The splines cross, or enclose no area.
-    #[error("the splines of these angles and lengths are no margin: {0}")]
-    Margin(#[from] OutlineError),
-}
-
 impl CubicMargin {
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`CubicMarginError::Range`] for the first number that is out of range.
-    pub fn validate(&self) -> Result<(), CubicMarginError> {
-        Ok(self.in_range()?)
-    }
-
     /// The margin of a leaf whose midrib goes from the origin to (0, `length_mm`), 0.001 to 100
     /// 000.
     ///
     /// # Errors
     ///
-    /// [`CubicMarginError`], naming the number that is out of range, or why the splines are not a
+    /// [`NotGrown`], naming the number that is out of range, or why the splines are not a
     /// valid margin.
-    pub fn grow(&self, length_mm: f64) -> Result<Outline, CubicMarginError> {
-        self.validate()?;
+    pub fn grow(&self, length_mm: f64) -> Result<Outline, NotGrown> {
+        self.in_range()?;
         let limits = "0.001 to 100000";
         RangeError::unless(
             (1e-3..=1e5).contains(&length_mm),
@@ -91,11 +71,10 @@ impl CubicMargin {
         let right = left.iter().map(|&p| place(p, -1.0));
         let back = left[1..left.len() - 1].iter().rev().map(|&p| place(p, 1.0));
         let points = right.chain(back).collect();
-        Ok(Outline::new(
-            points,
-            DVec2::ZERO,
-            DVec2::new(0.0, length_mm),
-        )?)
+        let outline = Outline::new(points, DVec2::ZERO, DVec2::new(0.0, length_mm));
+        outline.map_err(|error| {
+            not_grown!("the splines of these angles and lengths are no margin: {error}")
+        })
     }
 
     /// The left side in leaf units: x along the midrib from 0 to 1, y away from it.

@@ -18,7 +18,8 @@
 
 use crate::numeric::bisect;
 use glam::DVec2;
-use thiserror::Error;
+
+use crate::not_grown::{NotGrown, not_grown};
 
 /// Number of cells of the table of heights.
 const CELLS: usize = 512;
@@ -36,69 +37,35 @@ pub struct RateCurve {
     slopes: Vec<f64>,
 }
 
-/// Why growth functions are refused.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum GrowthError {
-    /// There are no knots, or too many.
-    #[error("a growth function needs 1 to 1000 knots, it has {knots}")]
-    KnotCount {
-        /// How many it has.
-        knots: usize,
-    },
-    /// The places of the knots do not rise, or lie outside the leaf.
-    #[error(
-        "knot {index} of a growth function lies at {at}; knots go from 0 at the base to 1 at the apex, rising"
-    )]
-    BadPlace {
-        /// Which knot, from 0.
-        index: usize,
-        /// Where it lies.
-        at: f64,
-    },
-    /// A rate would shrink tissue to nothing, is above 1, or is not a number.
-    #[error(
-        "knot {index} of a growth function is {rate}; 1 + g must stay above 0, and g at most 1 per step"
-    )]
-    BadRate {
-        /// Which knot, from 0.
-        index: usize,
-        /// Its rate.
-        rate: f64,
-    },
-    /// The leaf stops short of its final length.
-    #[error(
-        "with these growth functions the leaf does not come from {initial} to {last} segments in 1000000 steps"
-    )]
-    NeverArrives {
-        /// Length at the start, segments.
-        initial: f64,
-        /// Length to be reached, segments.
-        last: f64,
-    },
-}
-
 impl RateCurve {
     /// A curve through `[place, rate]`, places rising from 0 to 1, rates above −1 and at most 1 per
     /// step. Before the first knot and after the last the rate is constant.
     ///
     /// # Errors
     ///
-    /// [`GrowthError`], naming the knot.
+    /// [`NotGrown`], naming the knot.
     ///
     /// # Source
     ///
     /// \[fritsch1984\], Eq. 5 (three-point harmonic slopes), for the interpolation.
-    pub fn new(knots: Vec<[f64; 2]>) -> Result<Self, GrowthError> {
+    pub fn new(knots: Vec<[f64; 2]>) -> Result<Self, NotGrown> {
         if !(1..=1000).contains(&knots.len()) {
-            return Err(GrowthError::KnotCount { knots: knots.len() });
+            let knots = knots.len();
+            return Err(not_grown!(
+                "a growth function needs 1 to 1000 knots, it has {knots}"
+            ));
         }
         for (index, &[at, rate]) in knots.iter().enumerate() {
             let rises = index == 0 || at > knots[index - 1][0];
             if !(rises && (0.0..=1.0).contains(&at)) {
-                return Err(GrowthError::BadPlace { index, at });
+                return Err(not_grown!(
+                    "knot {index} of a growth function lies at {at}; knots go from 0 at the base to 1 at the apex, rising"
+                ));
             }
             if !(rate > -1.0 && rate <= 1.0) {
-                return Err(GrowthError::BadRate { index, rate });
+                return Err(not_grown!(
+                    "knot {index} of a growth function is {rate}; 1 + g must stay above 0, and g at most 1 per step"
+                ));
             }
         }
         let chord = |i: usize| (knots[i + 1][1] - knots[i][1]) / (knots[i + 1][0] - knots[i][0]);
@@ -122,9 +89,9 @@ impl RateCurve {
     ///
     /// # Errors
     ///
-    /// [`GrowthError`] unless it is above −1 and at most 1.
+    /// [`NotGrown`] unless it is above −1 and at most 1.
     #[cfg(test)]
-    pub(crate) fn constant(rate: f64) -> Result<Self, GrowthError> {
+    pub(crate) fn constant(rate: f64) -> Result<Self, NotGrown> {
         Self::new(vec![[0.0, rate]])
     }
 
@@ -232,8 +199,8 @@ impl TissueMap {
 ///
 /// # Errors
 ///
-/// [`GrowthError::NeverArrives`] if that takes more than 1 000 000 steps.
-pub(crate) fn arrival(initial: f64, along: &RateCurve, last: f64) -> Result<f64, GrowthError> {
+/// [`NotGrown`] if that takes more than 1 000 000 steps.
+pub(crate) fn arrival(initial: f64, along: &RateCurve, last: f64) -> Result<f64, NotGrown> {
     // Only the length matters.
     let still = RateCurve {
         knots: vec![[0.0, 0.0]],
@@ -244,7 +211,9 @@ pub(crate) fn arrival(initial: f64, along: &RateCurve, last: f64) -> Result<f64,
     while length(high) < last {
         high *= 2.0;
         if high > LONGEST {
-            return Err(GrowthError::NeverArrives { initial, last });
+            return Err(not_grown!(
+                "with these growth functions the leaf does not come from {initial} to {last} segments in 1000000 steps"
+            ));
         }
     }
     let low = if high <= 1.0 { 0.0 } else { high * 0.5 };
@@ -348,26 +317,23 @@ mod tests {
 
     #[test]
     fn bad_growth_functions_are_refused() {
-        assert!(matches!(
-            RateCurve::new(vec![]),
-            Err(GrowthError::KnotCount { knots: 0 })
-        ));
+        let refused = |knots: &[[f64; 2]]| match RateCurve::new(knots.to_vec()) {
+            Ok(_) => String::new(),
+            Err(error) => error.to_string(),
+        };
+        assert!(refused(&[]).ends_with("it has 0"));
         for bad in [-1.0, -1.5, f64::NAN, 2.0] {
-            assert!(matches!(
-                RateCurve::new(vec![[0.0, 0.1], [1.0, bad]]),
-                Err(GrowthError::BadRate { index: 1, .. })
-            ));
+            let said = refused(&[[0.0, 0.1], [1.0, bad]]);
+            let expected = format!("knot 1 of a growth function is {bad};");
+            assert!(said.starts_with(&expected), "{said}");
         }
         for bad in [0.2, 1.2, f64::NAN] {
-            assert!(matches!(
-                RateCurve::new(vec![[0.2, 0.1], [bad, 0.1]]),
-                Err(GrowthError::BadPlace { index: 1, .. })
-            ));
+            let said = refused(&[[0.2, 0.1], [bad, 0.1]]);
+            let expected = format!("knot 1 of a growth function lies at {bad};");
+            assert!(said.starts_with(&expected), "{said}");
         }
         let still = RateCurve::constant(0.0).expect("allowed");
-        assert!(matches!(
-            arrival(10.0, &still, 20.0),
-            Err(GrowthError::NeverArrives { .. })
-        ));
+        let never = arrival(10.0, &still, 20.0).expect_err("it does not grow");
+        assert!(never.to_string().contains("from 10 to 20 segments"));
     }
 }

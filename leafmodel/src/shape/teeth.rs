@@ -15,58 +15,22 @@ mod layout;
 mod wave;
 
 use glam::DVec2;
-use thiserror::Error;
 
 use self::layout::Layout;
 pub use self::wave::{ToothForm, ToothWave};
-use super::outline::{Outline, OutlineError};
-use super::tips::{Tip, lobe_corners, with_tips};
-use crate::document::{Declared, RangeError};
+use super::outline::Outline;
+use super::tips::{Knob, Tip, lobe_corners, with_tips};
+use crate::document::Declared;
+use crate::not_grown::{NotGrown, not_grown};
 use crate::plane::polygon::{self, Place};
 use crate::plane::polyline;
 
 /// Greatest number of waves of a margin.
 const MOST_WAVES: usize = 20;
 
-/// Why a margin cannot be toothed.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum TeethError {
-    /// A number out of range.
-    #[error("teeth {index}: {error}")]
-    Range {
-        /// Which wave, from 0.
-        index: usize,
-        /// What is out of range.
-        error: RangeError,
-    },
-    /// Too many waves.
-    #[error("a margin has at most 20 waves of teeth, here are {waves}")]
-    TooManyWaves {
-        /// How many.
-        waves: usize,
-    },
-    /// Nested teeth do not fill those of the wave before.
-    #[error(
-        "teeth {index}: {teeth} nested teeth a side do not share out evenly over {}",
-        below.map_or_else(|| "a wave before, for there is none".to_owned(), |below| format!("the {below} of the wave before"))
-    )]
-    NotNested {
-        /// Which wave, from 0.
-        index: usize,
-        /// How many teeth it has.
-        teeth: u32,
-        /// How many the wave before has, if there is one.
-        below: Option<u32>,
-    },
-    /// One side, from base to apex, has no length.
-    #[error(
-        "base and apex are nearest to the same place of the margin, so it has no sides to bear teeth"
-    )]
-    NoSides,
-    /// Teeth run into each other.
-    #[error("the toothed margin is none: {0}")]
-    NoMargin(#[from] OutlineError),
-}
+/// The block that says what teeth there are, and what to do where they do not fit.
+const KEY: &str = "outline.teeth";
+const FEWER: &str = "make the teeth lower, or fewer";
 
 /// Tips that do not stand on teeth.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -89,13 +53,13 @@ pub struct LobeTips {
 ///
 /// # Errors
 ///
-/// [`TeethError`] if a number is out of range, or if the new margin crosses itself.
+/// [`NotGrown`] if a number is out of range, or if the new margin crosses itself.
 pub fn toothed(
     outline: &Outline,
     waves: &[ToothWave],
     tips: LobeTips,
     seed: u64,
-) -> Result<Outline, TeethError> {
+) -> Result<Outline, NotGrown> {
     check(waves)?;
     let corners = match tips.lobes {
         Some(_) => lobe_corners(outline.points()),
@@ -121,11 +85,12 @@ pub fn toothed(
         let found = found.filter_map(|(i, &p)| Some((i, end_tip(p)?)));
         let found: Vec<(usize, Tip)> = found.collect();
         let (margin, knobs) = with_tips(points, &found, outline.length());
-        return Ok(Outline::new(margin, outline.base(), outline.apex())?.with_knobs(knobs));
+        return outline_of(margin, outline, knobs);
     };
     let [right, left] = sides(outline).map(Side::new);
     let (Some(right), Some(left)) = (right, left) else {
-        return Err(TeethError::NoSides);
+        let problem = "base and apex are nearest to the same place of the margin, so it has no sides to bear teeth";
+        return Err(NotGrown::because(problem).mend(KEY, FEWER));
     };
     let quarter = 0.25 / f64::from(shortest);
     let highest: f64 = waves
@@ -157,27 +122,41 @@ pub fn toothed(
         .filter_map(|(i, (_, tip))| Some((i, (*tip)?)))
         .collect();
     let (points, knobs) = with_tips(&points, &found, outline.length());
-    Ok(Outline::new(points, outline.base(), outline.apex())?.with_knobs(knobs))
+    outline_of(points, outline, knobs)
+}
+
+fn outline_of(points: Vec<DVec2>, plain: &Outline, knobs: Vec<Knob>) -> Result<Outline, NotGrown> {
+    let outline = Outline::new(points, plain.base(), plain.apex());
+    let none = |error| not_grown!("the toothed margin is none: {error}").mend(KEY, FEWER);
+    Ok(outline.map_err(none)?.with_knobs(knobs))
 }
 
 /// Checks the numbers of all waves, and that nested ones have something to stand on.
-fn check(waves: &[ToothWave]) -> Result<(), TeethError> {
+fn check(waves: &[ToothWave]) -> Result<(), NotGrown> {
     if waves.len() > MOST_WAVES {
-        return Err(TeethError::TooManyWaves { waves: waves.len() });
+        let waves = waves.len();
+        let error = not_grown!("a margin has at most 20 waves of teeth, here are {waves}");
+        return Err(error.mend(KEY, FEWER));
     }
     for (index, wave) in waves.iter().enumerate() {
         wave.in_range()
-            .map_err(|error| TeethError::Range { index, error })?;
+            .map_err(|error| not_grown!("teeth {index}: {error}").mend(KEY, FEWER))?;
         if !wave.nested {
             continue;
         }
         let below = index.checked_sub(1).map(|below| waves[below].per_side);
         if !below.is_some_and(|below| wave.per_side.is_multiple_of(below)) {
-            return Err(TeethError::NotNested {
-                index,
-                teeth: wave.per_side,
-                below,
-            });
+            let teeth = wave.per_side;
+            let below = below.map_or_else(
+                || "a wave before, for there is none".to_owned(),
+                |below| format!("the {below} of the wave before"),
+            );
+            let error = not_grown!(
+                "teeth {index}: {teeth} nested teeth a side do not share out evenly over {below}"
+            );
+            let help =
+                "let per_side be a multiple of that of the wave before, or leave `nested` out";
+            return Err(error.mend(KEY, help));
         }
     }
     Ok(())

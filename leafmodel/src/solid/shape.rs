@@ -11,7 +11,8 @@ use crate::document::assets::Triangles;
 use crate::document::named_asset::decoded;
 use crate::document::{Declared, Keys, Limits, ListOf, Number, Numbers, Text};
 use crate::mosaic::Surface;
-use crate::mosaic::shapes::{Shape, ShapeError, ellipsoid, ellipsoid_triangles, rounded_cube};
+use crate::mosaic::shapes::{Shape, ellipsoid, ellipsoid_triangles, rounded_cube};
+use crate::not_grown::NotGrown;
 
 /// The shape of a body.
 #[derive(Clone, Debug, Declared, PartialEq)]
@@ -152,8 +153,8 @@ impl SolidShape {
     ///
     /// # Errors
     ///
-    /// [`ShapeError`] if there is no such shape.
-    pub fn area(&self) -> Result<f64, ShapeError> {
+    /// [`NotGrown`] if there is no such shape.
+    pub fn area(&self) -> Result<f64, NotGrown> {
         let size = match self {
             Self::Sphere { radius_mm } => *radius_mm,
             Self::Ellipsoid { semi_axes_mm } => semi_axes_mm.max_element(),
@@ -175,12 +176,8 @@ impl SolidShape {
     ///
     /// # Errors
     ///
-    /// [`ShapeError::TooFine`].
-    pub(super) fn count_of_triangles(
-        &self,
-        max_edge_mm: f64,
-        area: f64,
-    ) -> Result<f64, ShapeError> {
+    /// [`NotGrown`] for too many triangles.
+    pub(super) fn count_of_triangles(&self, max_edge_mm: f64, area: f64) -> Result<f64, NotGrown> {
         match self {
             Self::Sphere { radius_mm } => {
                 ellipsoid_triangles(DVec3::splat(*radius_mm), max_edge_mm)
@@ -198,8 +195,8 @@ impl SolidShape {
     ///
     /// # Errors
     ///
-    /// [`ShapeError`] if there is no such shape.
-    pub fn triangles(&self, max_edge_mm: f64) -> Result<Shape, ShapeError> {
+    /// [`NotGrown`] if there is no such shape.
+    pub fn triangles(&self, max_edge_mm: f64) -> Result<Shape, NotGrown> {
         match self {
             Self::Sphere { radius_mm } => ellipsoid(DVec3::splat(*radius_mm), max_edge_mm),
             Self::Ellipsoid { semi_axes_mm } => ellipsoid(*semi_axes_mm, max_edge_mm),

@@ -1,8 +1,8 @@
 //! The file of a preset: its heading, and the blocks that it inherits.
 
 use std::path::Path;
+use std::sync::OnceLock;
 
-use super::{BASES, PRESETS, Preset};
 use crate::document::reader::Block;
 use crate::document::schema::BlockSchema;
 use crate::document::source::Place;
@@ -22,15 +22,6 @@ pub(super) struct Heading {
 }
 
 impl Heading {
-    /// The heading of a file, whose blocks are not parsed.
-    pub(super) fn of(preset: &Preset) -> Self {
-        let end = preset.text.find("\n[").unwrap_or(preset.text.len());
-        let opened = open(preset.name, &preset.text[..end]);
-        let mut heading = Self::default();
-        read(opened, |keys| heading.declare(keys));
-        heading
-    }
-
     fn declare(&mut self, keys: &mut Keys<'_>) {
         let text = Text("a text");
         keys.key("about", &mut self.about, text, "What the preset shows.");
@@ -53,37 +44,73 @@ impl Heading {
     }
 }
 
-/// The file of a preset with the blocks that it inherits in place of what it leaves out.
-pub(super) fn opened(preset: &Preset) -> Opened {
-    let mut opened = open(preset.name, preset.text);
-    let own = std::mem::take(&mut opened.tree);
-    opened.tree = whole(preset, own, &mut opened);
-    opened
+/// A preset's file.
+#[derive(Debug)]
+pub(super) struct PresetFile {
+    name: &'static str,
+    text: &'static str,
+    heading: OnceLock<Heading>,
 }
 
-/// `own`, the tree of the preset's own file, on top of what it inherits.
-fn whole(preset: &Preset, own: Table, opened: &mut Opened) -> Table {
-    let heading = preset.heading();
-    let mut tree = Table::default();
-    if let Some(base) = &heading.base {
-        let mut bases = BASES.iter().chain(PRESETS);
-        let base = bases.find(|file| file.name == base);
-        let base = base.unwrap_or_else(|| panic!("{} has no such base", preset.name));
-        let beneath = opened.also(base.text, &shown(base.name));
-        tree = whole(base, beneath, opened);
-    }
-    for path in &heading.without {
-        let is_there = tree.remove(path);
-        assert!(is_there, "the base of {} has no {path}", preset.name);
-    }
-    for entry in own.0 {
-        if BLOCKS.contains(&entry.key.as_str()) {
-            // The keys of a leaf change one by one; of other blocks, whole entries do.
-            let depth = if entry.key == "leaf" { usize::MAX } else { 2 };
-            tree.put(entry, depth);
+/// The file of a name, if there is one.
+type Bases<'a> = &'a dyn Fn(&str) -> Option<&'static PresetFile>;
+
+impl PresetFile {
+    pub(super) const fn new(name: &'static str, text: &'static str) -> Self {
+        Self {
+            name,
+            text,
+            heading: OnceLock::new(),
         }
     }
-    tree
+
+    /// The heading of the file, whose blocks are not parsed.
+    pub(super) fn heading(&self) -> &Heading {
+        self.heading.get_or_init(|| {
+            let end = self
+                .text
+                .find(
+                    "
+[",
+                )
+                .unwrap_or(self.text.len());
+            let opened = open(self.name, &self.text[..end]);
+            let mut heading = Heading::default();
+            read(opened, |keys| heading.declare(keys));
+            heading
+        })
+    }
+
+    /// The file with the blocks that it inherits in place of what it leaves out.
+    pub(super) fn opened(&self, bases: Bases<'_>) -> Opened {
+        let mut opened = open(self.name, self.text);
+        let own = std::mem::take(&mut opened.tree);
+        opened.tree = self.whole(own, &mut opened, bases);
+        opened
+    }
+
+    /// `own`, the tree of the file itself, on top of what it inherits.
+    fn whole(&self, own: Table, opened: &mut Opened, bases: Bases<'_>) -> Table {
+        let heading = self.heading();
+        let mut tree = Table::default();
+        if let Some(base) = &heading.base {
+            let base = bases(base).unwrap_or_else(|| panic!("{} has no such base", self.name));
+            let beneath = opened.also(base.text, &shown(base.name));
+            tree = base.whole(beneath, opened, bases);
+        }
+        for path in &heading.without {
+            let is_there = tree.remove(path);
+            assert!(is_there, "the base of {} has no {path}", self.name);
+        }
+        for entry in own.0 {
+            if BLOCKS.contains(&entry.key.as_str()) {
+                // The keys of a leaf change one by one; of other blocks, whole entries do.
+                let depth = if entry.key == "leaf" { usize::MAX } else { 2 };
+                tree.put(entry, depth);
+            }
+        }
+        tree
+    }
 }
 
 fn open(name: &str, text: &str) -> Opened {

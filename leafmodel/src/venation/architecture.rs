@@ -20,7 +20,6 @@
 mod check;
 pub(crate) mod course;
 pub(crate) mod ends;
-mod error;
 mod fan;
 pub(crate) mod festoons;
 pub(crate) mod ground;
@@ -32,7 +31,6 @@ pub(crate) mod tertiaries;
 #[cfg(test)]
 mod tests;
 
-pub use self::error::ArchitectureError;
 use crate::document::{Declared, Limits, ListOf, Number, Words};
 use crate::random::{Use, uniform};
 

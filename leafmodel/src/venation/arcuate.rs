@@ -26,58 +26,35 @@ mod spline;
 mod tests;
 
 use glam::DVec2;
-use thiserror::Error;
 
 pub use self::fields::ArcuateFields;
 pub use self::layout::ArcuateVeins;
 use self::layout::{Frame, Sides, lay_out};
 pub use self::plan::{ArcuatePlan, PalmateVeins};
 use super::network::{NetworkError, VenationNetwork};
-use crate::document::{Declared, RangeError};
-use crate::shape::cubic_margin::{CubicMargin, CubicMarginError};
+use crate::document::Declared;
+use crate::not_grown::{NotGrown, not_grown};
+use crate::shape::cubic_margin::CubicMargin;
 use crate::shape::outline::Outline;
 
-/// Why no veins can be laid out.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum ArcuateError {
-    /// A number is out of its range.
-    #[error(transparent)]
-    Range(#[from] RangeError),
-    /// The article's margin is not valid.
-    #[error(transparent)]
-    Margin(#[from] CubicMarginError),
-    /// No veins fit on the blade.
-    #[error("no veins fit on this blade: {0}")]
-    Network(#[from] NetworkError),
-}
-
 impl ArcuatePlan {
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`ArcuateError::Range`] for the first number that is out of range.
-    pub fn validate(&self) -> Result<(), ArcuateError> {
-        Ok(self.in_range()?)
-    }
-
     /// The network on the article's margin, with places on the margin given by the spline's own
     /// parameter.
     ///
     /// # Errors
     ///
-    /// [`ArcuateError`], naming the number that is out of range, or why the splines are not a valid
+    /// [`NotGrown`], naming the number that is out of range, or why the splines are not a valid
     /// margin.
     pub fn network_within(
         &self,
         margin: &CubicMargin,
         length_mm: f64,
-    ) -> Result<VenationNetwork, ArcuateError> {
-        self.validate()?;
+    ) -> Result<VenationNetwork, NotGrown> {
+        self.in_range()?;
         let outline = margin.grow(length_mm)?;
         let sides = Sides::mirrored(margin.flat());
         let veins = self.veins_between(Frame::upright(length_mm), &sides, Some(&outline));
-        Ok(graph::network(&veins, &outline)?)
+        graph::network(&veins, &outline).map_err(|error| no_room(&error))
     }
 
     /// The network on any margin. Its two sides from base to apex, parametrised by arc length,
@@ -85,10 +62,10 @@ impl ArcuatePlan {
     ///
     /// # Errors
     ///
-    /// [`ArcuateError`], naming the number that is out of range.
-    pub fn network(&self, outline: &Outline) -> Result<VenationNetwork, ArcuateError> {
+    /// [`NotGrown`], naming the number that is out of range.
+    pub fn network(&self, outline: &Outline) -> Result<VenationNetwork, NotGrown> {
         let veins = self.veins_on(outline)?;
-        Ok(graph::network(&veins, outline)?)
+        graph::network(&veins, outline).map_err(|error| no_room(&error))
     }
 
     /// The veins as splines on the article's margin, exactly as in its code.
@@ -100,13 +77,10 @@ impl ArcuatePlan {
         &self,
         margin: &CubicMargin,
         length_mm: f64,
-    ) -> Result<ArcuateVeins, ArcuateError> {
-        self.validate()?;
-        let blade = match margin.grow(length_mm) {
-            Err(error @ CubicMarginError::Range(_)) => return Err(error.into()),
-            Err(CubicMarginError::Margin(_)) => None,
-            Ok(outline) => Some(outline),
-        };
+    ) -> Result<ArcuateVeins, NotGrown> {
+        self.in_range()?;
+        margin.in_range()?;
+        let blade = margin.grow(length_mm).ok();
         let sides = Sides::Cubic(margin.spline());
         Ok(self.veins_between(Frame::upright(length_mm), &sides, blade.as_ref()))
     }
@@ -115,9 +89,9 @@ impl ArcuatePlan {
     ///
     /// # Errors
     ///
-    /// [`ArcuateError::Range`].
-    pub fn veins_on(&self, outline: &Outline) -> Result<ArcuateVeins, ArcuateError> {
-        self.validate()?;
+    /// [`NotGrown`].
+    pub fn veins_on(&self, outline: &Outline) -> Result<ArcuateVeins, NotGrown> {
+        self.in_range()?;
         let frame = Frame::of(outline);
         Ok(self.veins_between(frame, &Sides::of(outline, frame), Some(outline)))
     }
@@ -142,8 +116,12 @@ impl ArcuatePlan {
     ///
     /// # Errors
     ///
-    /// [`ArcuateError::Range`].
-    pub fn primaries_laid(&self, outline: &Outline) -> Result<Vec<f64>, ArcuateError> {
+    /// [`NotGrown`].
+    pub fn primaries_laid(&self, outline: &Outline) -> Result<Vec<f64>, NotGrown> {
         Ok(graph::primaries_laid(&self.veins_on(outline)?, outline))
     }
+}
+
+fn no_room(error: &NetworkError) -> NotGrown {
+    not_grown!("no veins fit on this blade: {error}")
 }

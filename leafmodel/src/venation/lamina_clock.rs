@@ -11,7 +11,8 @@
 //! Anisotropic growth has no such frame: positions are those of the current step and move.
 
 use super::plan::{AuxinPlan, Growth};
-use crate::shape::growth::{GrowthError, TissueMap, arrival};
+use crate::not_grown::NotGrown;
+use crate::shape::growth::{TissueMap, arrival};
 
 /// The lamina at one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,15 +37,18 @@ impl LaminaClock {
     ///
     /// # Errors
     ///
-    /// [`GrowthError`] if anisotropic growth never reaches the final length.
-    pub(crate) fn new(plan: &AuxinPlan) -> Result<Self, GrowthError> {
+    /// [`NotGrown`] if anisotropic growth never reaches the final length.
+    pub(crate) fn new(plan: &AuxinPlan) -> Result<Self, NotGrown> {
         let arrival = match &plan.growth {
             Growth::None | Growth::Marginal { .. } | Growth::Isogonic { .. } => 0.0,
             Growth::Anisotropic {
                 initial_length,
                 along,
                 ..
-            } => arrival(*initial_length, along, plan.final_length)?,
+            } => arrival(*initial_length, along, plan.final_length).map_err(|error| {
+                let help = "use higher rates along the leaf";
+                error.mend("venation.*.growth.*.along", help)
+            })?,
         };
         Ok(Self {
             final_length: plan.final_length,

@@ -1,11 +1,9 @@
 //! Parameters of a venation simulation. Lengths are in vein segments, `D = 1`.
 
-mod check;
-mod error;
+pub(super) mod check;
 
 use glam::DVec2;
 
-pub use self::error::PlanError;
 use super::architecture::Architecture;
 use super::width::WidthLaw;
 use crate::document::{

@@ -7,15 +7,14 @@ mod table;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use leafmodel::optics::{Contents, presets};
+use leafmodel::optics::presets;
 use serde_json::json;
 
-use self::leaf::Chosen;
+use self::leaf::{Chosen, warn_of_mixtures};
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::OpticsArguments;
 use crate::cli::model;
-use crate::cli::places::check_writable;
-use crate::cli::places::{require_ending, write_and_say};
+use crate::cli::places::{check_writable, is_stdout, require_ending, write_and_say};
 use crate::cli::progress::Patience;
 use crate::cli::terminal::{Failure, say};
 use crate::provenance::{Provenance, Settings};
@@ -125,25 +124,6 @@ pub(super) fn run(arguments: &OpticsArguments, settings: &Settings) -> Result<()
     Ok(())
 }
 
-/// Warns of leaves that no plant has.
-fn warn_of_mixtures(leaves: &[Contents]) {
-    let count = leaves
-        .iter()
-        .filter(|leaf| leaf.mixes_betalains_and_anthocyanins())
-        .count();
-    if count > 0 {
-        let who = if leaves.len() == 1 {
-            "this leaf holds".to_owned()
-        } else {
-            format!("{count} of {} leaves hold", leaves.len())
-        };
-        eprintln!(
-            "warning: {who} betalains and anthocyanins, which never occur in the same plant: {}",
-            Contents::NEVER_TOGETHER
-        );
-    }
-}
-
 /// Writes a table to a file or to the standard output.
 fn hand_over(file: &Path, provenance: &Provenance, table: &str) -> Result<(), Failure> {
     let table = provenance.comment() + table;
@@ -152,11 +132,6 @@ fn hand_over(file: &Path, provenance: &Provenance, table: &str) -> Result<(), Fa
         return Ok(());
     }
     write_and_say(file, table)
-}
-
-/// Whether a file's name stands for the standard output.
-fn is_stdout(file: &Path) -> bool {
-    file.as_os_str() == "-"
 }
 
 /// R and T at every nanometre of PROSPECT's tables; a comment says what wrote it, of which leaf.

@@ -236,6 +236,11 @@ pub(super) fn write_json(path: &Path, report: &Value) -> Result<(), Failure> {
     write_whole(path, format!("{report:#}\n"))
 }
 
+/// Whether a file's name stands for the standard output.
+pub(super) fn is_stdout(file: &Path) -> bool {
+    file.as_os_str() == "-"
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use leafmodel::document::schema::filled;
+use leafmodel::document::schema::tables::filled;
 
 use crate::cli::arguments::SchemaArguments;
 use crate::cli::places::{check_writable, write_and_say};

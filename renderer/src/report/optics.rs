@@ -4,3 +4,4 @@ pub(crate) mod angles;
 pub(crate) mod colour;
 pub(crate) mod figures;
 pub(crate) mod layers;
+pub(crate) mod spectra;

@@ -5,8 +5,8 @@
 use glam::DVec3;
 use leafmodel::document::coverage::require_coverage;
 use leafmodel::document::declared::{Declared, Defaults, Kinds, Words};
-use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::names::NameIn;
+use leafmodel::document::{Keys, Variant};
 use leafmodel::plan_file;
 use leafmodel::plant::PlantPlan;
 

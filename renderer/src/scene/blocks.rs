@@ -19,7 +19,6 @@ use std::rc::Rc;
 
 use leafmodel::document::context::Context;
 use leafmodel::document::declared::Declared;
-use leafmodel::document::keys::{Keys, NamedList};
 use leafmodel::document::names::{Named, require_title};
 use leafmodel::document::reader::Block;
 use leafmodel::document::schema::BlockSchema;
@@ -27,6 +26,7 @@ use leafmodel::document::sections::Names;
 use leafmodel::document::source::Place;
 use leafmodel::document::tree::Table;
 use leafmodel::document::value_kind::{Flag, Text};
+use leafmodel::document::{Keys, NamedList};
 use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 
 pub(crate) use self::references::Purpose;

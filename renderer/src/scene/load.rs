@@ -11,7 +11,8 @@ use leafmodel::document::context::QUOTED;
 use leafmodel::document::names::{LONGEST_FILE, is_title, may_be_in_a_title};
 use leafmodel::document::opened::Opened;
 use leafmodel::document::report::{DocumentErrors, Warning};
-use leafmodel::document::schema::{self, Alone, BlockSchema};
+use leafmodel::document::schema::BlockSchema;
+use leafmodel::document::schema::json::{self, Alone};
 use leafmodel::document::source::escaped;
 use leafmodel::plan_file;
 
@@ -158,7 +159,7 @@ const LEAVES_ALONE: Alone = Alone {
 
 /// The JSON Schema of scenes and of files of leaves only.
 pub fn json_schema() -> serde_json::Value {
-    schema::json_schema(&schema(), LEAVES_ALONE, "A scene of Lamina, format 1")
+    json::json_schema(&schema(), LEAVES_ALONE, "A scene of Lamina, format 1")
 }
 
 /// Leaves with warnings, or all errors.

@@ -23,7 +23,7 @@ pub struct Variant<T> {
 #[macro_export]
 macro_rules! variant {
     ($name:literal, $kind:path, $declare:expr, $about:literal) => {
-        $crate::keys::Variant {
+        $crate::keys::kinds::Variant {
             name: $name,
             about: $about,
             new: || $kind(Default::default()),

@@ -4,7 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 
-use super::{Shape, ShapeError, affordable, positive};
+use super::{Shape, affordable, positive};
+use crate::not_grown::{NotGrown, not_grown};
 
 /// Distance between points of a ring over the longest edge allowed. With rings √3/2 of that
 /// distance apart, no diagonal is too long.
@@ -31,9 +32,9 @@ struct CurvePoint {
 ///
 /// # Errors
 ///
-/// [`ShapeError`] for fewer than two points, points that are not finite or have a negative radius,
+/// [`NotGrown`] for fewer than two points, points that are not finite or have a negative radius,
 /// repeated points, curves that meet the axis between their ends, and for too many triangles.
-pub fn lathe(profile: &[DVec2], max_edge_mm: f64) -> Result<Shape, ShapeError> {
+pub fn lathe(profile: &[DVec2], max_edge_mm: f64) -> Result<Shape, NotGrown> {
     positive("max_edge_mm", max_edge_mm)?;
     let curve = curve(profile)?;
     let step = RING_STEP * max_edge_mm;
@@ -141,23 +142,29 @@ fn stitch(faces: &mut Vec<[u32; 3]>, below: &Ring, above: &Ring) {
 }
 
 /// The checked profile as a dense polyline, upwards: the body lies to the left.
-fn curve(profile: &[DVec2]) -> Result<Vec<CurvePoint>, ShapeError> {
+fn curve(profile: &[DVec2]) -> Result<Vec<CurvePoint>, NotGrown> {
     if profile.len() < 2 {
-        return Err(ShapeError::ShortProfile {
-            points: profile.len(),
-        });
+        let points = profile.len();
+        return Err(not_grown!(
+            "a profile needs at least 2 points, it has {points}"
+        ));
     }
     let widest = profile.iter().map(|p| p.x).fold(0.0, f64::max);
     for (index, p) in profile.iter().enumerate() {
         if !(p.is_finite() && p.x >= 0.0) {
-            return Err(ShapeError::ProfilePoint {
-                index,
-                radius: p.x,
-                height: p.y,
-            });
+            let DVec2 {
+                x: radius,
+                y: height,
+            } = p;
+            return Err(not_grown!(
+                "point {index} of the profile is ({radius}, {height}) mm: both must be finite and the radius at least 0"
+            ));
         }
         if index > 0 && profile[index - 1].distance(*p) <= ON_AXIS * widest {
-            return Err(ShapeError::RepeatedPoint { index: index - 1 });
+            let before = index - 1;
+            return Err(not_grown!(
+                "points {before} and {index} of the profile coincide"
+            ));
         }
     }
     let beyond = |end: DVec2, next: DVec2| {
@@ -178,10 +185,10 @@ fn curve(profile: &[DVec2]) -> Result<Vec<CurvePoint>, ShapeError> {
             let point = spline(span, f64::from(piece) / f64::from(PIECES));
             let end = (index == 0 && piece == 0) || (index + 2 == n && piece == PIECES);
             if point.at.x <= ON_AXIS * widest && !end {
-                return Err(ShapeError::MeetsAxis {
-                    index,
-                    height: point.at.y,
-                });
+                let (height, after) = (point.at.y, index + 1);
+                return Err(not_grown!(
+                    "the profile meets the axis at height {height} mm, between points {index} and {after}: only its ends may lie on the axis"
+                ));
             }
             curve.push(point);
         }

@@ -1,7 +1,8 @@
 //! The keys of `outline.growth_algorithm`.
 
 use super::form::{Axis, GrowthForm, HalfForm, LateralGrowth, SecondaryAxis, VeinRow};
-use crate::document::keys::{BlockList, Keys};
+use crate::document::keys::Keys;
+use crate::document::keys::lists::BlockList;
 use crate::document::schema::Type;
 use crate::document::values::{list, number, number_at, wrong_type};
 use crate::document::{

@@ -1,6 +1,5 @@
 //! Architectures that contradict themselves or their outline.
 
-use super::error::ArchitectureError;
 use super::ground::Ground;
 use super::margin::Margin;
 use super::primaries;
@@ -9,6 +8,7 @@ use super::{
     Agrophic, Architecture, Lots, PrimaryPattern, QuaternaryCourse, SecondaryEnding, TertiaryCourse,
 };
 use crate::document::{Declared, Words};
+use crate::not_grown::{NotGrown, not_grown};
 use crate::shape::outline::Outline;
 
 /// Secondaries of one side are at least so many segments of the young leaf apart.
@@ -21,10 +21,12 @@ const LADDER: f64 = 5.0;
 /// Veins nearer to each other than so many segments of the young leaf run into one.
 const APART: f64 = 2.5;
 
-const ANGLES: &[&str] = &["lateral_primary_angles_deg"];
-const AGROPHIC: &[&str] = &["secondaries", "agrophic"];
-const ENDING: &[&str] = &["secondaries", "ending"];
-const PAIRS: &[&str] = &["secondaries", "pairs"];
+/// The block of an architecture.
+const KEY: &str = "venation.*.architecture";
+const ANGLES: &str = "lateral_primary_angles_deg";
+const AGROPHIC: &str = "secondaries.agrophic";
+const ENDING: &str = "secondaries.ending";
+const PAIRS: &str = "secondaries.pairs";
 const WIDER: &str = "use a wider spacing, or a longer young leaf: initial_length_segments";
 
 impl Architecture {
@@ -32,9 +34,11 @@ impl Architecture {
     ///
     /// # Errors
     ///
-    /// [`ArchitectureError`].
-    pub fn validate(&self) -> Result<(), ArchitectureError> {
-        self.in_range()?;
+    /// [`NotGrown`].
+    pub fn validate(&self) -> Result<(), NotGrown> {
+        let help = "use a number in range";
+        let checked = self.in_range();
+        checked.map_err(|error| not_grown!("architecture: {error}").mend(KEY, help))?;
         let angles = &self.primaries.lateral_angles_deg;
         let named = angles.len();
         let pattern = self.primaries.pattern.word();
@@ -56,7 +60,7 @@ impl Architecture {
             )
         };
         let help = "name an angle for each lateral primary of one side, or choose another pattern";
-        ArchitectureError::unless(fits, ANGLES, problem, help)?;
+        unless(fits, ANGLES, problem, help)?;
         let many = matches!(
             self.primaries.pattern,
             PrimaryPattern::Parallelodromous | PrimaryPattern::Campylodromous
@@ -68,7 +72,7 @@ impl Architecture {
         };
         let help = "only parallelodromous and campylodromous leaves have a number of them";
         let fits = many == (laterals > 0);
-        ArchitectureError::unless(fits, &["lateral_primaries"], problem, help)?;
+        unless(fits, "lateral_primaries", problem, help)?;
         let has_secondaries = !many && self.primaries.pattern != PrimaryPattern::Flabellate;
         let pairs = self.secondaries.pairs;
         let problem = || {
@@ -77,7 +81,7 @@ impl Architecture {
             )
         };
         let help = "use 0, or choose another pattern";
-        ArchitectureError::unless(has_secondaries || pairs == 0, PAIRS, problem, help)?;
+        unless(has_secondaries || pairs == 0, PAIRS, problem, help)?;
         self.check_bearers(pattern)?;
         let fits = self.quaternaries.course == QuaternaryCourse::Reticulate
             || self.tertiaries.course != TertiaryCourse::Reticulate;
@@ -87,27 +91,28 @@ impl Architecture {
                 .to_owned()
         };
         let help = "use \"reticulate\", or percurrent tertiaries";
-        ArchitectureError::unless(fits, &["quaternaries", "course"], problem, help)?;
-        let lists: [(&'static [&'static str], &[f64], _); 2] = [
+        unless(fits, "quaternaries.course", problem, help)?;
+        let lists: [(&str, &[f64], _); 2] = [
             (ANGLES, angles, "begin with the angle nearest to the midrib"),
             (
-                &["secondaries", "span"],
+                "secondaries.span",
                 &self.secondaries.span,
                 "write the lower place first",
             ),
         ];
         for (path, list, help) in lists {
             if let Some(pair) = list.windows(2).find(|pair| pair[0] >= pair[1]) {
-                let (key, first, second) = (path[path.len() - 1], pair[0], pair[1]);
+                let (key, first, second) =
+                    (path.rsplit('.').next().unwrap_or(path), pair[0], pair[1]);
                 let problem = || format!("{key} does not ascend: {first} is followed by {second}");
-                ArchitectureError::unless(false, path, problem, help)?;
+                unless(false, path, problem, help)?;
             }
         }
         Ok(())
     }
 
     /// Refuses agrophic veins where no secondary can bear them.
-    fn check_bearers(&self, pattern: &str) -> Result<(), ArchitectureError> {
+    fn check_bearers(&self, pattern: &str) -> Result<(), NotGrown> {
         let plan = &self.secondaries;
         let bearers = match plan.agrophic {
             Agrophic::Absent => return Ok(()),
@@ -126,12 +131,12 @@ impl Architecture {
             format!("{kind} agrophic veins leave the {bearers} of pinnate venation; {there}")
         };
         let help = "use \"absent\", or pinnate primaries with as many pairs";
-        ArchitectureError::unless(false, AGROPHIC, problem, help)
+        unless(false, AGROPHIC, problem, help)
     }
 
     /// Checks what only the outline can tell; `blade` is full-grown in segments, base at the
     /// origin, `young` the length of the leaf when veins are laid out, over its full length.
-    pub(crate) fn validate_on(&self, blade: &Outline, young: f64) -> Result<(), ArchitectureError> {
+    pub(crate) fn validate_on(&self, blade: &Outline, young: f64) -> Result<(), NotGrown> {
         let plan = &self.secondaries;
         let pairs = plan.pairs;
         let apex = blade.apex();
@@ -141,7 +146,7 @@ impl Architecture {
                 .to_owned()
         };
         let help = "leave the architecture out, or draw an outline that holds its midrib";
-        ArchitectureError::unless(fits, &[], problem, help)?;
+        unless(fits, "", problem, help)?;
         let length = young * blade.length();
         let reach = (plan.span[1] - plan.span[0]) * length;
         let apart = reach / f64::from(pairs.max(1));
@@ -154,7 +159,7 @@ impl Architecture {
         };
         let help = "use fewer pairs, a wider span, or a longer young leaf: initial_length_segments";
         let is_crowded = pairs > 0 && apart < CLOSEST;
-        ArchitectureError::unless(!is_crowded, PAIRS, problem, help)?;
+        unless(!is_crowded, PAIRS, problem, help)?;
         self.check_spacing(blade, young)?;
         let margin = Margin::new(blade);
         self.check_ends(&margin)?;
@@ -174,7 +179,7 @@ impl Architecture {
             )
         };
         let help = "use smaller angles, or a greater part_at: higher up the blade is wider";
-        ArchitectureError::unless(axes.len() > asked, ANGLES, problem, help)?;
+        unless(axes.len() > asked, ANGLES, problem, help)?;
         let site = secondaries::Site {
             ground,
             axes: &axes,
@@ -192,7 +197,7 @@ impl Architecture {
             )
         };
         let help = "use fewer pairs, or a span that starts above the lateral primaries";
-        ArchitectureError::unless(fit >= pairs, PAIRS, problem, help)?;
+        unless(fit >= pairs, PAIRS, problem, help)?;
         let bearers = agrophic::bearers(plan, &laid.veins);
         let fit = laid.agrophic.poorest(&bearers);
         let problem = || {
@@ -213,11 +218,11 @@ impl Architecture {
         let help = "use \"absent\", a span that starts higher, or an outline that is wider or has \
                     more teeth near its base";
         let fits = plan.agrophic == Agrophic::Absent || fit >= agrophic::LEAST;
-        ArchitectureError::unless(fits, AGROPHIC, problem, help)
+        unless(fits, AGROPHIC, problem, help)
     }
 
     /// Refuses tertiaries, quaternaries and primaries too near to each other.
-    fn check_spacing(&self, blade: &Outline, young: f64) -> Result<(), ArchitectureError> {
+    fn check_spacing(&self, blade: &Outline, young: f64) -> Result<(), NotGrown> {
         let length = young * blade.length();
         let close = |veins: &str, apart: f64, least: f64| {
             format!(
@@ -229,10 +234,10 @@ impl Architecture {
             let (close, least) = (close(veins, apart, APART), APART / length);
             format!("{close}; a spacing of {least:.4} or more can")
         };
-        let key = &["tertiaries", "spacing"];
+        let key = "tertiaries.spacing";
         let apart = self.tertiaries.spacing * length;
         let fits = self.tertiaries.course == TertiaryCourse::Reticulate || apart >= APART;
-        ArchitectureError::unless(fits, key, || enough("tertiaries", apart), WIDER)?;
+        unless(fits, key, || enough("tertiaries", apart), WIDER)?;
         if self.quaternaries.course != QuaternaryCourse::Reticulate {
             let problem = || {
                 let least = LADDER / length;
@@ -241,15 +246,10 @@ impl Architecture {
                      room, which takes 5; a spacing of {least:.4} or more does"
                 )
             };
-            ArchitectureError::unless(apart >= LADDER, key, problem, WIDER)?;
-            let key = &["quaternaries", "spacing"];
+            unless(apart >= LADDER, key, problem, WIDER)?;
+            let key = "quaternaries.spacing";
             let apart = self.quaternaries.spacing * length;
-            ArchitectureError::unless(
-                apart >= APART,
-                key,
-                || enough("quaternaries", apart),
-                WIDER,
-            )?;
+            unless(apart >= APART, key, || enough("quaternaries", apart), WIDER)?;
         }
         let (low, high) = blade.bounds();
         let apart = if self.primaries.pattern == PrimaryPattern::Flabellate {
@@ -262,11 +262,11 @@ impl Architecture {
         };
         let help = "use fewer primaries or a wider fork_spacing, or a longer young leaf: \
                     initial_length_segments";
-        ArchitectureError::unless(apart >= 3.0, &[], || close("primaries", apart, 3.0), help)
+        unless(apart >= 3.0, "", || close("primaries", apart, 3.0), help)
     }
 
     /// Refuses secondaries that run to teeth or sinuses which are not there.
-    fn check_ends(&self, margin: &Margin) -> Result<(), ArchitectureError> {
+    fn check_ends(&self, margin: &Margin) -> Result<(), NotGrown> {
         let pairs = self.secondaries.pairs;
         let ending = self.secondaries.ending.word();
         let ([right, left], ends, wanted, help) = match self.secondaries.ending {
@@ -295,6 +295,18 @@ impl Architecture {
             )
         };
         let fits = right.min(left) >= pairs as usize;
-        ArchitectureError::unless(fits, ENDING, problem, help)
+        unless(fits, ENDING, problem, help)
     }
+}
+
+/// Refuses what a key of the architecture says unless it is `valid`; the empty key is the whole block.
+fn unless(
+    valid: bool,
+    key: &str,
+    problem: impl FnOnce() -> String,
+    help: &'static str,
+) -> Result<(), NotGrown> {
+    let path = [KEY, key].join(if key.is_empty() { "" } else { "." });
+    let refused = || NotGrown::because(problem()).mend(&path, help);
+    valid.then_some(()).ok_or_else(refused)
 }

@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use super::error::PlanError;
 use super::young_size;
 use super::{AuxinPlan, Growth, Pattern};
 use crate::document::Declared;
+use crate::not_grown::{NotGrown, not_grown};
 use crate::shape::outline::Outline;
 use crate::venation::veins::COINCIDENT;
 
@@ -13,14 +13,23 @@ use crate::venation::veins::COINCIDENT;
 /// would take minutes and add nothing.
 const MOST_DARTS: f64 = 1e8;
 
+/// The block of the veins, whatever their kind, and keys in it.
+const KEY: &str = "venation.*";
+const ORIGINS: &str = "venation.*.origins";
+const CURVATURE: &str = "venation.*.gaussian_curvature";
+
+const CHANGE: &str = "change or leave out what the message names";
+const FLATTER: &str = "use a value nearer to 0, or leave it out";
+
 impl AuxinPlan {
     /// Checks every number by itself, and that growth ends.
     ///
     /// # Errors
     ///
-    /// [`PlanError`], naming the parameter and its range.
-    pub fn validate(&self) -> Result<(), PlanError> {
-        self.in_range()?;
+    /// [`NotGrown`], naming the parameter and its range.
+    pub fn validate(&self) -> Result<(), NotGrown> {
+        let checked = self.in_range();
+        checked.map_err(|error| NotGrown::because(error).mend(KEY, CHANGE))?;
         let is_anisotropic = matches!(self.growth, Growth::Anisotropic { .. });
         let has_arches = self.margin_clearance.is_some_and(|rule| rule.arches > 0);
         let has_architecture = self.architecture.is_some();
@@ -62,7 +71,7 @@ impl AuxinPlan {
             ),
         ];
         if let Some(&(_, key, other)) = pairs.iter().find(|(both, ..)| *both) {
-            return Err(PlanError::Incompatible { key, other });
+            return Err(incompatible(key, other));
         }
         if let Some(architecture) = &self.architecture {
             architecture.validate()?;
@@ -84,35 +93,49 @@ impl AuxinPlan {
         }
     }
 
-    fn validate_growth(&self, initial_length: f64, length_step: f64) -> Result<(), PlanError> {
+    fn validate_growth(&self, initial_length: f64, length_step: f64) -> Result<(), NotGrown> {
         if initial_length > self.final_length {
-            return Err(PlanError::StartsLonger { initial_length });
+            let error = not_grown!(
+                "initial_length is {initial_length}, outside 0.001 to final_length (segments)"
+            );
+            return Err(error.mend(KEY, CHANGE));
         }
         let steps = ((self.final_length - initial_length) / length_step).ceil();
         if steps > 1e6 {
-            return Err(PlanError::TooManySteps { length_step, steps });
+            let error = not_grown!(
+                "growing in steps of {length_step} segments takes {steps} steps, more than 1000000"
+            );
+            let path = "venation.*.growth.*.length_step_segments";
+            return Err(error.mend(path, "use larger steps"));
         }
         Ok(())
     }
 
     /// Checks what depends on the margin; `blade` is in segments, base at the origin.
-    pub(crate) fn validate_on(&self, blade: &Outline) -> Result<(), PlanError> {
+    pub(crate) fn validate_on(&self, blade: &Outline) -> Result<(), NotGrown> {
         let origins = self.origins_in_segments();
         if let Some(index) = origins
             .iter()
             .position(|&p| !(p.is_finite() && blade.covers(p)))
         {
             let [x, y] = self.origins[index];
-            return Err(PlanError::OriginOffBlade { index, x, y });
+            let error = not_grown!(
+                "origin {index} of the veins, ({x}, {y}) of the leaf's length, is not on the blade"
+            );
+            let help = "places are shares of the midrib's length across and along it: [0, 0] is the base, [0, 1] the apex";
+            return Err(error.mend(&format!("{ORIGINS}.{index}"), help));
         }
         for (second, p) in origins.iter().enumerate() {
             let near = |q: &DVec2| (*q - *p).length() < COINCIDENT;
             if let Some(first) = origins[..second].iter().position(near) {
-                return Err(PlanError::OriginsMeet { first, second });
+                let error =
+                    not_grown!("origins {first} and {second} of the veins lie in one place");
+                return Err(error.mend(ORIGINS, "veins start from different places"));
             }
         }
         if self.joined_origins && origins.iter().any(|p| p.length() < COINCIDENT) {
-            return Err(PlanError::OriginAtBase);
+            let error = not_grown!("one of the joined origins of the veins lies at the base");
+            return Err(error.mend(ORIGINS, "leave out joined_origins, or the place [0, 0]"));
         }
         if let Some(architecture) = &self.architecture {
             let young = young_size(&self.growth, self.final_length);
@@ -124,27 +147,50 @@ impl AuxinPlan {
         let farthest = (low - middle).abs().max((high - middle).abs()).length() / self.final_length;
         if 1.0 + 0.25 * self.gaussian_curvature * farthest * farthest < 0.1 {
             let curvature = self.gaussian_curvature;
-            return Err(PlanError::TooCurved { curvature });
+            let error = not_grown!(
+                "gaussian_curvature is {curvature}, outside what a blade so wide can have: above -3.6 over its half diagonal (in leaf lengths) squared"
+            );
+            return Err(error.mend(CURVATURE, FLATTER));
         }
         Ok(())
     }
 
     /// Checks the ratios of the young leaf's size to the full-grown one's, across and along.
-    pub(crate) fn validate_young(ratios: DVec2) -> Result<(), PlanError> {
+    pub(crate) fn validate_young(ratios: DVec2) -> Result<(), NotGrown> {
         let (low, high) = (ratios.min_element(), ratios.max_element());
         if low >= 1e-6 && high <= 2.0 {
             return Ok(());
         }
         let times = if high <= 2.0 { low } else { high };
-        Err(PlanError::YoungLeaf { times })
+        let error = not_grown!(
+            "with these growth functions the young leaf is {times} times as wide or as long as the full-grown one; 0.000001 to 2 is possible"
+        );
+        let help = "let tissue expand: rates above 0 across and along the leaf, of the same kind";
+        Err(error.mend("venation.*.growth.*.across", help))
     }
 
     /// Refuses a total number of darts that would take too long.
-    pub(crate) fn validate_darts(darts: f64) -> Result<(), PlanError> {
+    pub(crate) fn validate_darts(darts: f64) -> Result<(), NotGrown> {
         if darts <= MOST_DARTS {
-            Ok(())
-        } else {
-            Err(PlanError::TooManyDarts { darts })
+            return Ok(());
         }
+        let error = not_grown!(
+            "the darts per area ask for {darts:.0} darts on this blade, more than 100000000"
+        );
+        let help = "use fewer darts, or larger segments or steps";
+        Err(error.mend("venation.*.darts_per_segment2", help))
     }
+}
+
+/// The error of two rules that cannot be combined.
+pub(crate) fn incompatible(key: &str, other: &str) -> NotGrown {
+    let (path, help) = match key {
+        "architecture" => (
+            "venation.*.architecture",
+            "leave out one of the two; growth may be none, isogonic or anisotropic",
+        ),
+        "gaussian_curvature" => (CURVATURE, FLATTER),
+        _ => (KEY, CHANGE),
+    };
+    not_grown!("{key} does not go together with {other}").mend(path, help)
 }

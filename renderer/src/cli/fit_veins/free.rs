@@ -7,7 +7,8 @@ use leafmodel::grow_options::GrowOptions;
 use leafmodel::inference::{Draw, Observation, Outcome, Parameter};
 use leafmodel::leaf::LeafPlan;
 use leafmodel::measure::measure;
-use leafmodel::plan_file::{LeafFile, leaf_to_toml, load_one_leaf};
+use leafmodel::plan_file::leaf_to_toml;
+use leafmodel::plan_file::one_leaf::{LeafFile, load_one_leaf};
 
 use super::observed::Observed;
 use crate::cli::arguments::FitVeinsArguments;

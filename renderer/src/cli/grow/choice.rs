@@ -2,7 +2,7 @@
 
 use leafmodel::document::report::DocumentErrors;
 use leafmodel::leaf::LeafPlan;
-use leafmodel::plan_file::{LeafFile, LeafNotChosen, load_one_leaf};
+use leafmodel::plan_file::one_leaf::{LeafFile, LeafNotChosen, load_one_leaf};
 use leafmodel::species;
 
 use crate::cli::arguments::{GrowArguments, file_and_leaf};

@@ -143,3 +143,22 @@ impl Chosen {
         text + &in_columns(["content", "value", "unit", "rests on"], rows)
     }
 }
+
+/// Warns of leaves that no plant has.
+pub(super) fn warn_of_mixtures(leaves: &[Contents]) {
+    let count = leaves
+        .iter()
+        .filter(|leaf| leaf.mixes_betalains_and_anthocyanins())
+        .count();
+    if count > 0 {
+        let who = if leaves.len() == 1 {
+            "this leaf holds".to_owned()
+        } else {
+            format!("{count} of {} leaves hold", leaves.len())
+        };
+        eprintln!(
+            "warning: {who} betalains and anthocyanins, which never occur in the same plant: {}",
+            Contents::NEVER_TOGETHER
+        );
+    }
+}

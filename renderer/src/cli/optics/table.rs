@@ -1,7 +1,5 @@
 //! `lamina optics --table`: a leaf in each row of a table, and the spectra of all of them.
 
-mod output;
-
 use std::collections::HashSet;
 use std::io::Write;
 use std::path::Path;
@@ -13,18 +11,17 @@ use leafmodel::document::nearest::nearest;
 use leafmodel::document::report::DocumentErrors;
 use leafmodel::document::rows::{Field, Form, Rows};
 use leafmodel::document::source::{Sources, escaped};
-use leafmodel::optics::{Constituent, Contents};
+use leafmodel::optics::Constituent;
 
-use super::leaf::{self, Chosen};
-use super::warn_of_mixtures;
+use super::leaf::{self, Chosen, warn_of_mixtures};
 use crate::cli::arguments::OpticsArguments;
 use crate::cli::model;
-use crate::cli::places::check_outputs;
-use crate::cli::places::require_ending;
+use crate::cli::places::{check_outputs, is_stdout, require_ending};
 use crate::cli::terminal::{Failure, note, note_output, say};
 use crate::cli::texts::text_of;
 use crate::image::atomic;
 use crate::provenance::{Provenance, Settings, hash_of};
+use crate::report::optics::spectra::{self, Leaves};
 
 /// Names of the column that names leaves.
 const IDENTITIES: [&str; 5] = ["leaf", "id", "name", "sample", "case"];
@@ -33,21 +30,13 @@ const OF_FITS: [&str; 4] = ["face_contrast", "rms", "values", "reasons"];
 
 const EMPTY: &str = "has an empty value";
 
-/// The leaves of a table.
-struct Leaves {
-    /// The name of the column that names them.
-    column: String,
-    names: Vec<String>,
-    contents: Vec<Contents>,
-}
-
 pub(super) fn run(
     arguments: &OpticsArguments,
     settings: &Settings,
     table: &Path,
     out: &Path,
 ) -> Result<(), Failure> {
-    let is_stdout = super::is_stdout(out);
+    let is_stdout = is_stdout(out);
     let is_array = out.extension().is_some_and(|ending| ending == "npy");
     if !is_stdout {
         if !is_array {
@@ -72,7 +61,7 @@ pub(super) fn run(
     };
     let table_of = |out: &mut dyn Write| {
         out.write_all(provenance.comment().as_bytes())?;
-        output::csv(&leaves, &wavelengths, &at, &mut { out })
+        spectra::csv(&leaves, &wavelengths, &at, &mut { out })
     };
     if is_stdout {
         let mut stdout = std::io::stdout().lock();
@@ -80,7 +69,7 @@ pub(super) fn run(
     } else {
         let written = atomic::replace(out, |file| {
             if is_array {
-                output::npy(&leaves, &at, file)
+                spectra::npy(&leaves, &at, file)
             } else {
                 table_of(file)
             }

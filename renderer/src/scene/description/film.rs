@@ -9,13 +9,13 @@ use std::sync::Arc;
 use leafmodel::document::context::Context;
 use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
-use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
 use leafmodel::document::number_lists::Rising;
 use leafmodel::document::schema::Type;
 use leafmodel::document::tree::{Node, Value};
 use leafmodel::document::value_kind::{Kind, Number};
 use leafmodel::document::values::{integers_at, list, number, numbers_at};
+use leafmodel::document::{Keys, Variant};
 
 use self::named::NameOrFile;
 use self::sensitivities::{LEAST_SHARE, Sensitivities};

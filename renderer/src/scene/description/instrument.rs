@@ -11,8 +11,8 @@ mod sample;
 mod wavelengths;
 
 use leafmodel::document::declared::Declared;
-use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::value_kind::Flag;
+use leafmodel::document::{Keys, Variant};
 use leafmodel::optics::fluorescence::EXCITED_NM;
 
 pub use self::bands::{Index, Response};

@@ -9,8 +9,9 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::document::names::Named;
+use leafmodel::not_grown::NotGrown;
 use leafmodel::optics::Contents;
-use leafmodel::plant::{Crumb, Foot, Organ, Plant as Grown, PlantError, Wall};
+use leafmodel::plant::{Crumb, Foot, Organ, Plant as Grown, Wall};
 
 use super::individuals::{age, ageless, individuals, scattered_ranks, users};
 use super::planted::{Fault, Planted, add};
@@ -69,7 +70,8 @@ pub(super) fn place(scene: &mut Description, planted: &Planted) -> Result<(), Fa
                 } else {
                     name.clone()
                 };
-                let fault = |key, problem, help| Fault::new(&["plants", name, key], problem, help);
+                let fault =
+                    |key: &str, problem, help| Fault::new(&["plants", name, key], problem, help);
                 let wall = walls::of(scene, planted, value, number)
                     .map_err(|(key, problem, help)| fault(key, problem, help))?;
                 if value.days.is_some()
@@ -79,7 +81,8 @@ pub(super) fn place(scene: &mut Description, planted: &Planted) -> Result<(), Fa
                 }
                 let (parts, crossing) = parts(scene, planted, (&own, value), wall.as_ref())
                     .map_err(|error| {
-                        let (key, help) = remedy(&error, value);
+                        let usual = ("nodes", "use fewer nodes or branches");
+                        let (key, help) = error.remedy().unwrap_or(usual);
                         fault(key, error.to_string(), help)
                     })?;
                 scene.crossing.extend(crossing.map(|value| Named {
@@ -114,22 +117,6 @@ pub(super) fn place(scene: &mut Description, planted: &Planted) -> Result<(), Fa
     Ok(())
 }
 
-/// The key that is wrong where a plant cannot be grown, and what to do.
-fn remedy(error: &PlantError, plant: &Plant) -> (&'static str, &'static str) {
-    match error {
-        PlantError::NotBorne(_) | PlantError::NoLeaf => ("leaf", "let it bear another leaf"),
-        PlantError::Bent(_) => ("length_mm", "let its axes bend less"),
-        PlantError::NoPot => ("pot", "make the pot wider"),
-        PlantError::TooLarge if plant.plan.relief.is_some() => (
-            "relief",
-            "use a longer `edge_mm`, or fewer nodes or branches",
-        ),
-        PlantError::Range(_) | PlantError::NoRoom { .. } | PlantError::TooLarge => {
-            ("nodes", "use fewer nodes or branches")
-        }
-    }
-}
-
 /// Grows a plant and adds its leaves, its axes and their bark to the scene; also how many leaves cut
 /// something, of how many, if any do.
 fn parts(
@@ -137,7 +124,7 @@ fn parts(
     planted: &Planted,
     (name, plant): (&str, &Plant),
     wall: Option<&Wall>,
-) -> Result<(BoughParts, Option<[usize; 2]>), PlantError> {
+) -> Result<(BoughParts, Option<[usize; 2]>), NotGrown> {
     let mut kinds = plant.leaves.clone();
     if plant.plan.flower.is_some() {
         kinds.extend(plant.perianth.iter().flatten());

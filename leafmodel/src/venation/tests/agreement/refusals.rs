@@ -34,10 +34,11 @@ fn every_bad_number_is_named() {
         let mut plan = poplar();
         change(&mut plan);
         match grow(&outline(0.0, 0.0), &plan, 1) {
-            Err(VenationError::Plan(PlanError::Range(error))) => {
-                assert_eq!(error.path, expected);
+            Err(error) => {
+                let said = error.to_string();
+                assert!(said.starts_with(&format!("{expected} is ")), "{said}");
             }
-            other => panic!("{expected}: {other:?}"),
+            Ok(_) => panic!("{expected} is accepted"),
         }
     }
 }
@@ -58,21 +59,17 @@ fn endless_plans_are_refused() {
         },
         ..poplar()
     };
-    assert!(matches!(
-        grow(&outline(0.0, 0.0), &longer, 1),
-        Err(VenationError::Plan(PlanError::StartsLonger { .. }))
-    ));
     let crowded = AuxinPlan {
         final_length: 1e5,
         darts_per_area: 1e3,
         ..poplar()
     };
-    assert!(matches!(
-        grow(&outline(0.0, 0.0), &slow, 1),
-        Err(VenationError::Plan(PlanError::TooManySteps { .. }))
-    ));
-    assert!(matches!(
-        grow(&outline(0.0, 0.0), &crowded, 1),
-        Err(VenationError::Plan(PlanError::TooManyDarts { .. }))
-    ));
+    for (plan, expected) in [
+        (longer, "initial_length is 400, outside"),
+        (slow, "growing in steps of 0.00001 segments takes"),
+        (crowded, "the darts per area ask for"),
+    ] {
+        let error = grow(&outline(0.0, 0.0), &plan, 1).expect_err(expected);
+        assert!(error.to_string().starts_with(expected), "{error}");
+    }
 }

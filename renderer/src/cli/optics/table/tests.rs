@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use clap::Parser;
-use leafmodel::optics::ProspectD;
+use leafmodel::optics::{Contents, ProspectD};
 use proptest::prelude::*;
 
 use super::*;
@@ -92,8 +92,8 @@ proptest! {
         let leaves = read_with(&[], &format!("cab\n{rows}")).expect("a good table");
         let at = [ProspectD::coefficients_extrapolated(nm)];
         let (mut array, mut table) = (Vec::new(), Vec::new());
-        output::npy(&leaves, &at, &mut array).expect("memory takes all");
-        output::csv(&leaves, &[nm], &at, &mut table).expect("memory takes all");
+        spectra::npy(&leaves, &at, &mut array).expect("memory takes all");
+        spectra::csv(&leaves, &[nm], &at, &mut table).expect("memory takes all");
         let shape = format!("'shape': ({count}, 2, 1), }}");
         prop_assert!(String::from_utf8_lossy(&array[10..128]).contains(&shape));
         let numbers = array[128..].as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes));

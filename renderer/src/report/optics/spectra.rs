@@ -6,14 +6,21 @@ use leafmodel::optics::Contents;
 use leafmodel::optics::prospect_d::Coefficients;
 use rayon::prelude::*;
 
-use super::Leaves;
 use crate::report::table::quoted;
 
 /// Leaves that are computed at a time, 115 kB of text for each at all wavelengths.
 const AT_A_TIME: usize = 64;
 
+/// The leaves of a table.
+pub(crate) struct Leaves {
+    /// The name of the column that names them.
+    pub(crate) column: String,
+    pub(crate) names: Vec<String>,
+    pub(crate) contents: Vec<Contents>,
+}
+
 /// A line for each wavelength of each leaf.
-pub(super) fn csv(
+pub(crate) fn csv(
     leaves: &Leaves,
     wavelengths: &[f64],
     at: &[Coefficients],
@@ -39,7 +46,7 @@ pub(super) fn csv(
 /// # Source
 ///
 /// Version 1.0 of the format, in `numpy.lib.format`.
-pub(super) fn npy(leaves: &Leaves, at: &[Coefficients], out: &mut impl Write) -> io::Result<()> {
+pub(crate) fn npy(leaves: &Leaves, at: &[Coefficients], out: &mut impl Write) -> io::Result<()> {
     let shape = format!("({}, 2, {})", leaves.contents.len(), at.len());
     let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
     // Magic, version, and the length of the header, with which it ends at a multiple of 64 bytes.
