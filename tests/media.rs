@@ -207,6 +207,54 @@ fn a_filter_dims_the_light_behind_it_and_a_clear_body_inside_makes_it_thinner() 
 }
 
 #[test]
+fn inclined_leaves_scatter_once_what_the_integral_over_their_normals_says() {
+    // Leaves of the area u that turn the fractions G to the sun and to the camera send there, of the irradiance E across the
+    // beam, after a single event: L = E Γ / π (1 − exp(−u h (G₀ / μ₀ + G))) / (G₀ / μ₀ + G), where Γ is the mean of
+    // ρ or τ times both cosines, ρ where they see one face.
+    let (mu, lai) = (f64::to_radians(40.0).sin(), 1.5);
+    let leaves = [[0.4, 0.1], [0.05, 0.6]];
+    let sun =
+        "[lights.sun.distant]\nirradiance_w_m2_nm = 2\nelevation_deg = 40\nazimuth_deg = 30\n";
+    let densities: [(&str, fn(f64) -> f64); 3] = [
+        ("planophile", |angle| 1.0 + (2.0 * angle).cos()),
+        ("erectophile", |angle| 1.0 - (2.0 * angle).cos()),
+        ("extremophile", |angle| 1.0 + (4.0 * angle).cos()),
+    ];
+    for (inclination, density) in densities {
+        let (mut all, mut towards, mut gamma) = (0.0, [0.0; 2], [0.0; 2]);
+        let (steps, around) = (800, 800);
+        for step in 0..steps {
+            let angle = 0.5 * PI * (f64::from(step) + 0.5) / f64::from(steps);
+            for turn in 0..around {
+                let azimuth = 2.0 * PI * (f64::from(turn) + 0.5) / f64::from(around);
+                let weight = density(angle);
+                let to_sun =
+                    angle.cos() * mu + angle.sin() * (1.0 - mu * mu).sqrt() * azimuth.cos();
+                let to_camera = angle.cos();
+                all += weight;
+                towards[0] += weight * to_sun.abs();
+                towards[1] += weight * to_camera;
+                gamma[usize::from(to_sun < 0.0)] += weight * to_sun.abs() * to_camera;
+            }
+        }
+        let medium = format!(
+            "[media.fill.leaves]\narea_m2_per_m3 = {}\ninclination = \"{inclination}\"\n\
+             reflectance = {{ table = [[550, 0.4], [800, 0.05]] }}\n\
+             transmittance = {{ table = [[550, 0.1], [800, 0.6]] }}",
+            lai / 0.5
+        );
+        let blocks = format!("{}{sun}", slab(1.0, &medium).replace("[media.fill]\n", ""));
+        let found: [_; 2] = means_and_errors(&scene("max_depth = 1", &blocks), 16);
+        for (found, [reflected, passed]) in found.into_iter().zip(leaves) {
+            let depth = (towards[0] / mu + towards[1]) / all;
+            let sent = (reflected * gamma[0] + passed * gamma[1]) / all;
+            let expected = 2.0 * sent / PI * (1.0 - f64::exp(-lai * depth)) / depth;
+            assert_agrees(inclination, found, expected, 1e-2);
+        }
+    }
+}
+
+#[test]
 fn phase_functions_are_sampled_as_their_densities_say() {
     const CHI_SQUARE: ChiSquare = ChiSquare {
         rings: 40,
@@ -221,10 +269,10 @@ fn phase_functions_are_sampled_as_their_densities_say() {
     for phase in cases {
         let draw = |number: usize| {
             // Of different pixels, so independent.
-            let [x, y, ..] = Stream::new(4, number as u32, 1, 0).next4();
-            Some(phase.sample(way, Vec2::new(x, y)).direction)
+            let [x, y, lobe, _] = Stream::new(4, number as u32, 1, 0).next4();
+            Some(phase.sample(way, lobe, Vec2::new(x, y)).direction)
         };
-        let outcome = CHI_SQUARE.run(draw, |direction| phase.value(direction.dot(way)));
+        let outcome = CHI_SQUARE.run(draw, |direction| phase.value(way, direction));
         assert!(outcome.p_value > level, "{phase:?}: {outcome}");
         assert!(
             (outcome.total_density - 1.0).abs() < 1e-2,
@@ -234,11 +282,11 @@ fn phase_functions_are_sampled_as_their_densities_say() {
     // A density that is 4 % off in its asymmetry is found.
     let phase = Phase::HenyeyGreenstein { g: 0.75 };
     let draw = |number: usize| {
-        let [x, y, ..] = Stream::new(4, number as u32, 1, 0).next4();
-        Some(phase.sample(way, Vec2::new(x, y)).direction)
+        let [x, y, lobe, _] = Stream::new(4, number as u32, 1, 0).next4();
+        Some(phase.sample(way, lobe, Vec2::new(x, y)).direction)
     };
     let other = Phase::HenyeyGreenstein { g: 0.72 };
-    let outcome = CHI_SQUARE.run(draw, |direction| other.value(direction.dot(way)));
+    let outcome = CHI_SQUARE.run(draw, |direction| other.value(way, direction));
     assert!(outcome.p_value < 1e-6, "{outcome}");
 }
 

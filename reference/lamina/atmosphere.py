@@ -260,6 +260,11 @@ def above_canopy(figures: xr.Dataset, atmosphere: xr.Dataset) -> xr.Dataset:
         if len(by_nm) < 2:
             raise ValueError("fluorescence needs two wavelengths of `excitation_nm`, or more")
         exciting = np.array(sorted(by_nm))
+        if nm[0] > exciting[0] or nm[-1] < exciting[-1]:
+            raise ValueError(
+                f"light from {exciting[0]:g} to {exciting[-1]:g} nm excites fluorescence, but the "
+                f"table of the atmosphere has {nm[0]:g} to {nm[-1]:g} nm: compute a wider table"
+            )
         inside = (nm >= exciting[0]) & (nm <= exciting[-1])
         # Photons for each photon, at the table's own wavelengths of excitation.
         matrix = np.stack([by_nm[at] for at in exciting])
@@ -297,7 +302,12 @@ def main() -> None:
         rows = zip(found["wavelength"].values, *(found[key].values for key in found), strict=True)
         lines = [*head, ",".join(["wavelength_nm", *columns])]
         lines += [",".join(f"{value:.6g}" for value in row) for row in rows]
-        given.out.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        part = given.out.with_name(f".{given.out.name}.part")
+        try:
+            part.write_text("\n".join(lines) + "\n", encoding="utf-8")
+            part.replace(given.out)
+        finally:
+            part.unlink(missing_ok=True)
     except (OSError, ValueError) as failure:
         sys.exit(f"lamina-above-canopy: {failure}")
     for nm in given.show:

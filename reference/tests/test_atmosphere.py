@@ -174,6 +174,8 @@ def test_figures_that_do_not_fit_the_table_are_refused(tmp_path: Path) -> None:
         above_canopy(figures().drop_vars("reflected_diffuse"), air)
     with pytest.raises(ValueError, match="brf is not known at 400 nm"):
         above_canopy(figures().isel(wavelength=slice(1, None)), air)
+    with pytest.raises(ValueError, match="light from 400 to 700 nm excites"):
+        above_canopy(figures(), air.isel(wavelength=slice(2, None)))
 
 
 @pytest.mark.parametrize(

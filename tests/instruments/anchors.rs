@@ -132,9 +132,9 @@ fn canopies_of_small_discs_have_the_fluxes_of_a_turbid_layer() {
 }
 
 /// The same leaves without extent as a medium, and over it what a disc stands for there.
-fn foliage(lai: f64) -> String {
+fn foliage(lai: f64, inclination: &str) -> String {
     format!(
-        "[media.foliage.leaves]\narea_m2_per_m3 = {lai}\n\
+        "[media.foliage.leaves]\narea_m2_per_m3 = {lai}\n{inclination}\n\
          reflectance = {{ table = [[560, 0.1], [650, 0.0546], [700, 0.5], [860, 0.4957]] }}\n\
          transmittance = {{ table = [[560, 0.05], [650, 0.0149], [700, 0.5], [860, 0.4409]] }}\n\
          [materials.foliage.dielectric]\neta = 1\ninterior = \"foliage\"\n\
@@ -153,7 +153,7 @@ fn foliage(lai: f64) -> String {
 fn foliage_as_a_medium_has_the_fluxes_of_a_turbid_layer() {
     let (mut report, mut worst, mut greatest_error) = (String::new(), 0.0_f64, 0.0_f64);
     for lai in [1.0, 3.0] {
-        let rows = figures(&foliage(lai), &super::rays(1 << 15)).expect("it can be measured");
+        let rows = figures(&foliage(lai, ""), &super::rays(1 << 15)).expect("it can be measured");
         for anchor in anchors().iter().filter(|anchor| anchor.lai == lai) {
             let sun = Direction::Beam(anchor.sun_deg.to_radians());
             let quantities = ["reflected", "arriving_at_soil", "uncollided"];
@@ -181,5 +181,66 @@ fn foliage_as_a_medium_has_the_fluxes_of_a_turbid_layer() {
     }
     eprintln!("{report}");
     assert!(greatest_error <= 4e-3, "{report}");
+    assert!(worst < 4.5, "{report}");
+}
+
+/// The same for leaves of other inclinations, of which the file says how they were computed.
+const INCLINED: &str = include_str!("../data/inclined_foliage.csv");
+
+#[test]
+fn inclined_foliage_as_a_medium_has_the_fluxes_of_a_turbid_layer() {
+    let (mut report, mut worst, mut greatest_error, mut count) =
+        (String::new(), 0.0_f64, 0.0_f64, 0);
+    for inclination in [
+        "planophile",
+        "erectophile",
+        "plagiophile",
+        "extremophile",
+        "uniform",
+        "ellipsoidal 3",
+    ] {
+        let written = match inclination.split_once(' ') {
+            Some((word, chi)) => format!("inclination = \"{word}\"\nchi = {chi}"),
+            None => format!("inclination = \"{inclination}\""),
+        };
+        let rows =
+            figures(&foliage(3.0, &written), &super::rays(1 << 13)).expect("it can be measured");
+        let expected = INCLINED
+            .lines()
+            .filter(|line| line.starts_with(inclination));
+        for line in expected {
+            let fields: Vec<f64> = line
+                .split(',')
+                .skip(1)
+                .map(|field| field.parse().expect("a number"))
+                .collect();
+            let [lai, rho, _, _, sun_deg, fluxes @ ..] = &fields[..] else {
+                panic!("{line}");
+            };
+            if *lai != 3.0 {
+                continue;
+            }
+            let sun = Direction::Beam(sun_deg.to_radians());
+            for (quantity, expected) in ["reflected", "arriving_at_soil", "uncollided"]
+                .into_iter()
+                .zip(fluxes)
+            {
+                let row = of(&rows, quantity, sun, wavelength_of(*rho))
+                    .next()
+                    .expect("it is measured");
+                let z = (row.value - expected) / row.error.max(1e-5);
+                report += &format!(
+                    "{line} {quantity}: {:.5}, error {:.1e}, z {z:+.2}\n",
+                    row.value, row.error
+                );
+                worst = worst.max(z.abs());
+                greatest_error = greatest_error.max(row.error);
+                count += 1;
+            }
+        }
+    }
+    eprintln!("{report}");
+    assert_eq!(count, 72);
+    assert!(greatest_error <= 8e-3, "{report}");
     assert!(worst < 4.5, "{report}");
 }

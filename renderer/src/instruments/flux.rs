@@ -6,7 +6,7 @@ use super::stage::Stage;
 use crate::bsdf::View;
 use crate::geometry::{Geometry, Hit, Ray};
 use crate::material::Material;
-use crate::medium::BodyPlace;
+use crate::medium::{BodyPlace, Phase};
 use crate::sampling::dimensions::{Sets, instrument as sets};
 use crate::sampling::stream::Stream;
 use crate::spectrum::{Lanes, Wavelengths};
@@ -404,8 +404,14 @@ impl<'m, C: Course, W: Witness<'m>> Walk<'m, LANES, W> for Flux<'m, C> {
         witness: &mut W,
     ) -> bool {
         passage.is_straight = false;
-        let (scattering, weight) = at.medium.turn(leg.ray.direction(), at.u);
-        let after = self.play(leg.throughput * weight, || stream.next4()[0]);
+        let [coin, lobe, x, y] = stream.next4();
+        // Of leaves, the numbers of the flight have chosen the leaf.
+        let u = match at.medium.phase {
+            Phase::HenyeyGreenstein { .. } | Phase::Rayleigh => at.u,
+            Phase::Leaf { .. } => Vec2::new(x, y),
+        };
+        let (scattering, weight) = at.medium.turn(leg.ray.direction(), lobe, u);
+        let after = self.play(leg.throughput * weight, || coin);
         witness.event(&Event {
             is_scattered: true,
             ..passing(
@@ -455,7 +461,8 @@ impl<'m, C: Course, W: Witness<'m>> Walk<'m, LANES, W> for Flux<'m, C> {
         let around = passage.around.inside.innermost();
         if let Some((body, number)) = around.and_then(|(at, body)| Some((at, body.medium?))) {
             // No closed body is left without passing its boundary, but by rounding.
-            let medium = self.stage.world.media.media[number as usize].at(self.wavelengths);
+            let medium = &self.stage.world.media.media[number as usize];
+            let medium = medium.at(leg.ray.direction(), self.wavelengths);
             let before = leg.throughput;
             leg.throughput *= medium.passed(&before, f32::INFINITY);
             let place = (leg.ray.origin(), Vec2::ZERO);

@@ -8,12 +8,14 @@
 
 mod fluorescence;
 mod instances;
+mod number_rows;
 mod object;
 mod placement;
 mod references;
 pub(in crate::scene) mod spectrum;
 pub(in crate::scene) mod table_file;
-mod volume;
+pub(in crate::scene) mod volume;
+pub(in crate::scene) mod yields;
 
 use std::rc::Rc;
 

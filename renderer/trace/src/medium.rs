@@ -24,12 +24,14 @@
 //! assert!(blue == 1.0 && (red - (-1.0_f32).exp()).abs() < 1e-6);
 //! ```
 
+mod foliage;
 mod inside;
 mod phase;
 
 use glam::{Vec2, Vec3};
 
-use crate::bsdf::Scattered;
+use self::foliage::Foliage;
+use crate::geometry::scatter::Inclination;
 use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthGrid, Wavelengths};
 
 pub use self::inside::{Body, BodyPlace, Inside};
@@ -50,10 +52,11 @@ enum Fill {
         scattering: Spectrum,
         phase: Phase,
     },
-    /// Leaves without extent, in all directions alike.
+    /// Leaves without extent.
     Leaves {
-        /// Area that they turn to light from any direction, m⁻¹: half of the area of one side.
-        turned: f32,
+        /// Area of one side in each volume, m⁻¹.
+        area: f32,
+        foliage: Foliage,
         reflectance: Spectrum,
         transmittance: Spectrum,
     },
@@ -96,16 +99,21 @@ impl Medium {
         }
     }
 
-    /// Foliage: `area` of leaves in each volume, m⁻¹, in all directions alike, whose faces are Lambertian. The leaves have no
-    /// extent, so light that is scattered back finds no way that it came by.
+    /// Foliage: `area` of leaves in each volume, m⁻¹, inclined from the scene's +z, whose faces are Lambertian. The leaves have
+    /// no extent, so light that is scattered back finds no way that it came by.
     ///
     /// # Source
     ///
-    /// \[ross1981\]: light from any direction meets half of their area, and what they scatter depends on the angle alone.
-    pub fn of_leaves(area: f32, reflectance: Curve, transmittance: Curve) -> Self {
+    /// \[ross1981\] for what they turn to light.
+    pub fn of_leaves(
+        area: f32,
+        inclination: &Inclination,
+        [reflectance, transmittance]: [Curve; 2],
+    ) -> Self {
         Self {
             fill: Fill::Leaves {
-                turned: 0.5 * area,
+                area,
+                foliage: Foliage::new(inclination),
                 reflectance: reflectance.into(),
                 transmittance: transmittance.into(),
             },
@@ -131,8 +139,8 @@ impl Medium {
         }
     }
 
-    /// Its coefficients at a path's wavelengths.
-    pub fn at<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> Coefficients<N> {
+    /// Its coefficients at a path's wavelengths, for light that goes `way`, of any length.
+    pub fn at<const N: usize>(&self, way: Vec3, wavelengths: &Wavelengths<N>) -> Coefficients<N> {
         match &self.fill {
             Fill::Particles {
                 absorption,
@@ -145,10 +153,12 @@ impl Medium {
                 through: Lanes::ZERO,
             },
             Fill::Leaves {
-                turned,
+                area,
+                foliage,
                 reflectance,
                 transmittance,
             } => {
+                let turned = area * foliage.turned(way);
                 let [back, forth] = [reflectance, transmittance].map(|s| s.lanes(wavelengths));
                 let scattered = back + forth;
                 let through = Lanes::from_fn(|lane| {
@@ -160,8 +170,9 @@ impl Medium {
                 });
                 Coefficients {
                     absorption: Lanes::from_fn(|lane| turned * (1.0 - scattered.0[lane]).max(0.0)),
-                    scattering: scattered * *turned,
-                    phase: Phase::Leaves {
+                    scattering: scattered * turned,
+                    phase: Phase::Leaf {
+                        normal: way,
                         through: through.sum() / N as f32,
                     },
                     through,
@@ -169,35 +180,21 @@ impl Medium {
             }
         }
     }
-}
 
-/// Directions of scattering. They are drawn by the mean over wavelengths, and each wavelength has its own value.
-impl<const N: usize> Coefficients<N> {
-    /// The value at each wavelength for a cosine of the angle between the ways before and after, sr⁻¹, and the density with
-    /// which the direction is drawn.
-    pub fn turned_by(&self, cos: f32) -> Scattered<N> {
-        let pdf = self.phase.value(cos);
-        let f = match self.phase {
-            Phase::HenyeyGreenstein { .. } | Phase::Rayleigh => Lanes::splat(pdf),
-            Phase::Leaves { .. } => Lanes::from_fn(|lane| {
-                let through = self.through.0[lane];
-                Phase::Leaves { through }.value(cos)
-            }),
-        };
-        Scattered { f, pdf }
-    }
-
-    /// Draws a direction for light that went along `way`, as [`Phase::sample`], and the factor on each wavelength.
-    pub fn turn(&self, way: Vec3, u: Vec2) -> (Scattering, Lanes<N>) {
-        let drawn = self.phase.sample(way, u);
-        let weight = match self.phase {
-            Phase::HenyeyGreenstein { .. } | Phase::Rayleigh => Lanes::ONE,
-            Phase::Leaves { .. } if drawn.pdf > 0.0 => {
-                self.turned_by(drawn.direction.dot(way)).f * (1.0 / drawn.pdf)
-            }
-            Phase::Leaves { .. } => Lanes::ZERO,
-        };
-        (drawn, weight)
+    /// The coefficients where light that goes `way` is scattered: of foliage the leaf that it meets is drawn by numbers in
+    /// [0, 1).
+    pub fn met<const N: usize>(
+        &self,
+        way: Vec3,
+        u: Vec2,
+        mut at: Coefficients<N>,
+    ) -> Coefficients<N> {
+        if let (Fill::Leaves { foliage, .. }, Phase::Leaf { normal, .. }) =
+            (&self.fill, &mut at.phase)
+        {
+            *normal = foliage.normal(way, u);
+        }
+        at
     }
 }
 

@@ -1,6 +1,6 @@
 //! `[objects.NAME.volume]`: leaves afloat in a box, even, in rows or in crowns.
 
-mod inclination;
+pub(in crate::scene) mod inclination;
 
 use glam::DVec3;
 use leafmodel::document::keys::Keys;

@@ -3,7 +3,9 @@
 use leafmodel::document::declared::{Declared, Defaults, Words};
 use leafmodel::document::keys::Keys;
 
+use crate::geometry::scatter::Inclination;
 use crate::scene::blocks::spectrum::SpectrumOf;
+use crate::scene::blocks::volume::inclination;
 use crate::spectrum::Curve;
 use crate::spectrum::written::Spectrum;
 
@@ -31,13 +33,16 @@ pub struct Medium {
     pub leaves: Option<Foliage>,
 }
 
-/// Leaves without extent that fill a body, in all directions alike. Both faces are Lambertian.
+/// Leaves without extent that fill a body. Both faces are Lambertian.
 #[derive(Clone, Debug, Declared, Defaults)]
 #[key(last = Self::check)]
 pub struct Foliage {
     /// Area of leaves, one side, in each volume: leaf area index over the height of the layer.
     #[key("area_m2_per_m3", required, above(0.0, 1e4), default = 1.0)]
     pub area: f64,
+    /// How they are inclined from the scene's +z.
+    #[key(with = inclined, default = Inclination::Spherical)]
+    pub inclination: Inclination,
     /// Reflectance of both faces.
     #[key("reflectance", required, SpectrumOf::Share, default = Spectrum::Constant(0.0))]
     pub reflectance: Spectrum,
@@ -62,6 +67,10 @@ impl Foliage {
             keys.refuse(&["transmittance"], problem, help);
         }
     }
+}
+
+fn inclined(foliage: &mut Foliage, keys: &mut Keys<'_>) {
+    inclination::declare(&mut foliage.inclination, keys);
 }
 
 /// The phase functions of media, a closed set.

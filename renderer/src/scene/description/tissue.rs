@@ -16,6 +16,7 @@ use crate::plugin::element::Element;
 use crate::plugin::spectra::Spectra;
 use crate::plugin::surface::{Exported, FACES};
 use crate::scene::blocks::spectrum::SpectrumOf;
+use crate::scene::blocks::yields;
 use crate::spectrum::written::Spectrum;
 
 /// Least and greatest GGX roughness of a coat.
@@ -143,14 +144,17 @@ pub(in crate::scene) fn impossible(keys: &Keys<'_>, problem: &str, help: &str) {
 /// Chlorophyll fluorescence of a leaf.
 #[derive(Clone, Copy, Debug, Declared, Defaults, PartialEq)]
 pub struct Fluorescence {
-    /// Photons emitted for each photon that chlorophyll absorbs: 0.005 to 0.02 in daylight, more where
-    /// photosynthesis is blocked.
-    #[key("quantum_efficiency", 1e-6..=1.0, default = 0.01)]
+    /// Photons emitted for each photon that chlorophyll absorbs.
+    #[key(with = quantum_efficiency, default = 0.01)]
     pub quantum_efficiency: f64,
     /// Emission within the leaf at 685 nm over that at 737 nm, in photons: about 2 in leaves, more if photosystem
     /// II emits more of it, as in the dark, and less if photosystem I does.
     #[key("red_over_far_red", 0.2..=50.0, default = RED_OVER_FAR_RED)]
     pub red_over_far_red: f64,
+}
+
+fn quantum_efficiency(own: &mut Fluorescence, keys: &mut Keys<'_>) {
+    yields::declare(&mut own.quantum_efficiency, keys);
 }
 
 impl Fluorescence {

@@ -34,9 +34,14 @@ pub(super) fn build_media(scene: &Description, grid: &WavelengthGrid) -> Media {
         let mut medium = match leaves {
             Some(Foliage {
                 area,
+                inclination,
                 reflectance,
                 transmittance,
-            }) => Medium::of_leaves(*area as f32, curve(reflectance), curve(transmittance)),
+            }) => Medium::of_leaves(
+                *area as f32,
+                inclination,
+                [reflectance, transmittance].map(curve),
+            ),
             None => Medium::new(curve(absorption), curve(scattering), phase),
         };
         medium.tabulate(grid);

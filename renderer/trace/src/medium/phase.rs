@@ -4,6 +4,12 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
+use super::Coefficients;
+use crate::bsdf::Scattered;
+use crate::geometry::frame::Frame;
+use crate::sampling::warp::cosine_hemisphere;
+use crate::spectrum::Lanes;
+
 /// Where light goes that a medium scatters, by the angle from its way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Phase {
@@ -15,10 +21,11 @@ pub enum Phase {
     },
     /// That of particles far smaller than the wavelength, unpolarised.
     Rayleigh,
-    /// That of small level plates in all directions alike, both faces Lambertian, which let the fraction
-    /// `through` of the light that they scatter pass.
-    Leaves {
-        /// The fraction.
+    /// That of a leaf with Lambertian faces.
+    Leaf {
+        /// Its normal, unit, on the side to which light goes that passes.
+        normal: Vec3,
+        /// The fraction of what it scatters that passes.
         through: f32,
     },
 }
@@ -33,28 +40,29 @@ pub struct Scattering {
 }
 
 impl Phase {
-    /// Value for a cosine of the angle between the ways before and after, sr⁻¹. Its integral over
-    /// all directions is 1.
-    pub fn value(self, cos: f32) -> f32 {
+    /// Value for light that goes from one way to another, both unit, sr⁻¹. Its integral over all directions is 1.
+    pub fn value(self, way: Vec3, next: Vec3) -> f32 {
+        let cos = way.dot(next);
         match self {
             Self::HenyeyGreenstein { g } => {
                 let base = (1.0 + g * g - 2.0 * g * cos).max(f32::MIN_POSITIVE);
                 (1.0 - g * g) / (4.0 * PI * base * base.sqrt())
             }
             Self::Rayleigh => 3.0 / (16.0 * PI) * (1.0 + cos * cos),
-            Self::Leaves { through } => {
-                let [back, forth] = lobes_of_leaves(cos);
-                (1.0 - through) * back + through * forth
+            Self::Leaf { normal, through } => {
+                let is_through = passes(normal, way, next);
+                let fraction = if is_through { through } else { 1.0 - through };
+                fraction * normal.dot(next).abs() / PI
             }
         }
     }
 
-    /// Draws a direction for light that went along `way`, unit, by numbers in [0, 1).
+    /// Draws a direction for light that went along `way`, unit, by numbers in [0, 1). `lobe` is for leaves alone.
     ///
     /// # Source
     ///
     /// Inversion for Henyey–Greenstein \[henyey1941\]; \[frisvad2011\] for Rayleigh.
-    pub fn sample(self, way: Vec3, u: Vec2) -> Scattering {
+    pub fn sample(self, way: Vec3, lobe: f32, u: Vec2) -> Scattering {
         let x = f64::from(u.x);
         let cos = match self {
             Self::HenyeyGreenstein { g } => {
@@ -68,13 +76,15 @@ impl Phase {
                     (1.0 + g * g - root * root) / (2.0 * g)
                 }
             }
-            Self::Leaves { through } => {
-                let through = f64::from(through);
-                if x < through {
-                    -cosine_of_leaves(x / through)
-                } else {
-                    cosine_of_leaves((x - through) / (1.0 - through))
-                }
+            Self::Leaf { normal, through } => {
+                let side = if lobe < through { normal } else { -normal };
+                let direction = Frame::from_normal(side)
+                    .to_world(cosine_hemisphere(u))
+                    .normalize();
+                return Scattering {
+                    direction,
+                    pdf: self.value(way, direction),
+                };
             }
             Self::Rayleigh => {
                 let even = 4.0 * x - 2.0;
@@ -90,54 +100,59 @@ impl Phase {
         let direction = across * (sin * cos_phi) + along * (sin * sin_phi) + way * cos;
         Scattering {
             direction: direction.normalize(),
-            pdf: self.value(cos),
+            pdf: self.value(way, direction),
         }
     }
 }
 
-/// Where plates in all directions alike send light, by the cosine of the angle of scattering: what their lit faces reflect, as
-/// a Lambertian sphere does, and what passes them, which is the same mirrored.
-fn lobes_of_leaves(cos: f32) -> [f32; 2] {
-    let cos = cos.clamp(-1.0, 1.0);
-    let angle = libm::acosf(cos);
-    let sin = (1.0 - cos * cos).max(0.0).sqrt();
-    let factor = 2.0 / (3.0 * PI * PI);
-    [angle, angle - PI].map(|angle| factor * (sin - angle * cos))
+/// Directions of scattering. They are drawn by the mean over wavelengths, and each wavelength has its own value.
+impl<const N: usize> Coefficients<N> {
+    /// The value at each wavelength for light that goes from one way to another, sr⁻¹, and the density with which that is
+    /// drawn.
+    pub fn turned_to(&self, way: Vec3, next: Vec3) -> Scattered<N> {
+        let pdf = self.phase.value(way, next);
+        let f = self.fraction(way, next) * pdf;
+        Scattered { f, pdf }
+    }
+
+    /// Draws a direction for light that went along `way`, as [`Phase::sample`], and the factor on each wavelength.
+    pub fn turn(&self, way: Vec3, lobe: f32, u: Vec2) -> (Scattering, Lanes<N>) {
+        let drawn = self.phase.sample(way, lobe, u);
+        (drawn, self.fraction(way, drawn.direction))
+    }
+
+    /// The value at each wavelength over that in the mean.
+    fn fraction(&self, way: Vec3, next: Vec3) -> Lanes<N> {
+        match self.phase {
+            Phase::HenyeyGreenstein { .. } | Phase::Rayleigh => Lanes::ONE,
+            Phase::Leaf { normal, through } => {
+                let is_through = passes(normal, way, next);
+                let of = |through: f32| if is_through { through } else { 1.0 - through };
+                let mean = of(through);
+                Lanes::from_fn(|lane| {
+                    if mean > 0.0 {
+                        of(self.through.0[lane]) / mean
+                    } else {
+                        0.0
+                    }
+                })
+            }
+        }
+    }
 }
 
-/// The cosine of the angle b of scattering below which a fraction of what lit faces reflect goes: the inverse of
-/// (4b + 2b cos 2b − 3 sin 2b) / 6π.
-fn cosine_of_leaves(fraction: f64) -> f64 {
-    let target = 6.0 * std::f64::consts::PI * fraction.clamp(0.0, 1.0);
-    let (mut low, mut high) = (0.0, std::f64::consts::PI);
-    let mut angle = 0.5 * high;
-    // Newton's steps where they stay between the bounds, else halves.
-    for _ in 0..60 {
-        let (sin, cos) = libm::sincos(2.0 * angle);
-        let off = 4.0 * angle + 2.0 * angle * cos - 3.0 * sin - target;
-        if off < 0.0 {
-            low = angle;
-        } else {
-            high = angle;
-        }
-        let slope = 4.0 - 4.0 * cos - 4.0 * angle * sin;
-        let next = angle - off / slope;
-        let next = if next > low && next < high {
-            next
-        } else {
-            0.5 * (low + high)
-        };
-        if (next - angle).abs() < 1e-9 {
-            break;
-        }
-        angle = next;
-    }
-    libm::cos(angle)
+/// Whether light from one way to another passes a plate.
+fn passes(normal: Vec3, way: Vec3, next: Vec3) -> bool {
+    (normal.dot(way) < 0.0) == (normal.dot(next) < 0.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn slanted(cos: f64) -> Vec3 {
+        Vec3::new((1.0 - cos * cos).sqrt() as f32, 0.0, cos as f32)
+    }
 
     /// Integrals of the function and of cosine times it, by the midpoint rule in the cosine.
     fn moments(phase: Phase) -> [f64; 2] {
@@ -145,7 +160,7 @@ mod tests {
         let mut moments = [0.0; 2];
         for i in 0..steps {
             let cos = -1.0 + (2.0 * f64::from(i) + 1.0) / f64::from(steps);
-            let value = f64::from(phase.value(cos as f32)) * 4.0 * std::f64::consts::PI;
+            let value = f64::from(phase.value(Vec3::Z, slanted(cos))) * 4.0 * std::f64::consts::PI;
             moments[0] += value / f64::from(steps);
             moments[1] += value * cos / f64::from(steps);
         }
@@ -161,44 +176,6 @@ mod tests {
         }
         let [all, mean] = moments(Phase::Rayleigh);
         assert!((all - 1.0).abs() < 1e-6 && mean.abs() < 1e-6);
-        // A Lambertian sphere has the mean cosine −4/9.
-        for through in [0.0, 0.3, 1.0] {
-            let [all, mean] = moments(Phase::Leaves { through });
-            let expected = (2.0 * f64::from(through) - 1.0) * 4.0 / 9.0;
-            assert!((all - 1.0).abs() < 1e-5, "{through}: {all}");
-            assert!((mean - expected).abs() < 1e-5, "{through}: {mean}");
-        }
-    }
-
-    #[test]
-    fn angles_of_leaves_are_drawn_as_often_as_they_should_be() {
-        let (way, bins, count) = (Vec3::Z, 16_usize, 40_000_u32);
-        for through in [0.0, 0.4, 1.0] {
-            let phase = Phase::Leaves { through };
-            let mut found = vec![0.0; bins];
-            for i in 0..count {
-                let u = Vec2::new((f64::from(i) + 0.5) as f32 / count as f32, 0.3);
-                let cos = f64::from(phase.sample(way, u).direction.dot(way));
-                let bin = (0.5 * (cos + 1.0) * bins as f64) as usize;
-                found[bin.min(bins - 1)] += 1.0 / f64::from(count);
-            }
-            for (bin, found) in found.into_iter().enumerate() {
-                let steps = 1000;
-                let cosines = (0..steps).map(|i| {
-                    let place =
-                        (bin as f64 + (f64::from(i) + 0.5) / f64::from(steps)) / bins as f64;
-                    2.0 * place - 1.0
-                });
-                let mean = cosines
-                    .map(|cos| f64::from(phase.value(cos as f32)))
-                    .sum::<f64>();
-                let expected = mean / f64::from(steps) * 4.0 * std::f64::consts::PI / bins as f64;
-                assert!(
-                    (found - expected).abs() < 2e-4,
-                    "{through} {bin}: {found} {expected}"
-                );
-            }
-        }
     }
 
     #[test]
@@ -208,14 +185,18 @@ mod tests {
             Phase::HenyeyGreenstein { g: 0.8 },
             Phase::HenyeyGreenstein { g: 1e-5 },
             Phase::Rayleigh,
+            Phase::Leaf {
+                normal: Vec3::new(0.6, 0.0, 0.8),
+                through: 0.3,
+            },
         ] {
             for i in 0..1000_u16 {
                 let u = Vec2::new(f32::from(i) / 1000.0, f32::from(i * 37 % 1000) / 1000.0);
-                let drawn = phase.sample(way, u);
+                let drawn = phase.sample(way, 0.5, u);
                 assert!((drawn.direction.length() - 1.0).abs() < 1e-6);
-                let expected = phase.value(drawn.direction.dot(way));
+                let expected = phase.value(way, drawn.direction);
                 assert!(
-                    (drawn.pdf - expected).abs() < 1e-3 * expected,
+                    (drawn.pdf - expected).abs() <= 1e-3 * expected,
                     "{phase:?} {u}"
                 );
             }

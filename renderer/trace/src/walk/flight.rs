@@ -44,7 +44,7 @@ pub struct Collision<const N: usize> {
     pub is_lit: bool,
     /// What light carried before the flight.
     pub before: Lanes<N>,
-    /// Two random numbers of the flight.
+    /// Two random numbers of the flight, by which the leaf was drawn if a leaf scatters.
     pub u: Vec2,
     /// By how much the ray was moved on its way, m.
     pub moved: f32,

@@ -180,7 +180,10 @@ pub trait Walk<'w, const N: usize, F> {
                 let medium = &world.media.media[body.medium? as usize];
                 // Nothing happens to light that there is none of.
                 let is_any = !leg.throughput.is_zero();
-                is_any.then(|| (place, body, medium.at(self.wavelengths())))
+                is_any.then(|| {
+                    let at = medium.at(leg.ray.direction(), self.wavelengths());
+                    (place, body, medium, at)
+                })
             });
             let (mut reach, mut u) = (f32::INFINITY, Vec2::ZERO);
             if let Some((.., medium)) = &around {
@@ -198,12 +201,12 @@ pub trait Walk<'w, const N: usize, F> {
                 Ahead::Nothing => return Met::Nothing,
                 Ahead::Unknown => return Met::Unknown,
                 Ahead::End(length) => {
-                    let (place, body, medium) = around.expect("only a medium ends a flight");
-                    leg.throughput *= medium.scattered(&before, length);
+                    let (place, body, medium, at) = around.expect("only a medium ends a flight");
+                    leg.throughput *= at.scattered(&before, length);
                     return Met::Medium(Collision {
                         position: leg.ray.origin() + leg.ray.direction() * leg.ray.t_max(),
                         place,
-                        medium,
+                        medium: medium.met(leg.ray.direction(), u, at),
                         is_lit: body.is_matched,
                         before,
                         u,

@@ -58,7 +58,7 @@ impl<const N: usize, S: Surroundings> Scatterer<'_, N, S> {
                     pdf,
                 }
             }
-            Self::Medium { way, medium, .. } => medium.turned_by(way.dot(wi_world)),
+            Self::Medium { way, medium, .. } => medium.turned_to(*way, wi_world),
         }
     }
 
@@ -79,7 +79,7 @@ impl<const N: usize, S: Surroundings> Scatterer<'_, N, S> {
                 })
             }
             Self::Medium { way, medium, .. } => {
-                let (scattering, weight) = medium.turn(*way, u);
+                let (scattering, weight) = medium.turn(*way, lobe, u);
                 Some(Drawn {
                     wi_world: scattering.direction,
                     weight,

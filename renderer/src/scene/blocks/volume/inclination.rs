@@ -1,13 +1,11 @@
-//! How leaves afloat in a box are inclined: `inclination`, with the numbers that some distributions have.
+//! How leaves afloat in a box, or those of a medium, are inclined: `inclination`, with the numbers that some distributions have.
 
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
-use leafmodel::document::rows::Rows;
-use leafmodel::document::value_kind::{FilePath, ListOf, NamedFile, Number, Numbers, Word};
+use leafmodel::document::value_kind::{Number, Numbers, Word};
 
 use crate::geometry::scatter::{Inclination, InclinationTable};
-use crate::measured::{Fault, What};
-use crate::scene::blocks::table_file::TableFile;
+use crate::scene::blocks::number_rows::NumberRows;
 
 /// Words for distributions; numbers that the last three need are read beside.
 static WORDS: [(&str, Inclination); 9] = [
@@ -41,10 +39,20 @@ const NEEDS: [[&str; 3]; 3] = [
     ],
 ];
 
-/// The columns of a file.
-const COLUMNS: [&str; 2] = ["inclination_deg", "density"];
+/// The rows of a table.
+const ROWS: NumberRows<2> = NumberRows {
+    columns: ["inclination_deg", "density"],
+    least: 2,
+    limits: Limits::closed(0.0, f64::MAX),
+    wanted: "a list of [inclination in degrees, density]",
+    about: [
+        "The rows, whose inclinations rise from 0 to 90.",
+        "Such rows in a file with the columns `inclination_deg` and `density`.",
+    ],
+    help: "write the names `inclination_deg` and `density`, and two numbers in each line below",
+};
 
-pub(super) fn declare(own: &mut Inclination, keys: &mut Keys<'_>) {
+pub(in crate::scene) fn declare(own: &mut Inclination, keys: &mut Keys<'_>) {
     let (mut beta, mut chi, mut rows) = (None, None, None);
     match own {
         Inclination::Beta { mu, nu } => beta = Some([*mu, *nu]),
@@ -62,7 +70,7 @@ pub(super) fn declare(own: &mut Inclination, keys: &mut Keys<'_>) {
     };
     let word = WORDS.iter().find(is_of_kind);
     let mut kind = word.map_or(Inclination::Spherical, |(_, kind)| kind.clone());
-    let about = "The distribution of the angle between their +z and the vertical: after de Wit, a Beta \
+    let about = "The distribution of the angle between their normals and the vertical: after de Wit, a Beta \
         distribution, an ellipsoidal one, or a table.";
     keys.key("inclination", &mut kind, Word(&WORDS), about);
     let about = "µ and ν of the Beta distribution (Goel and Strebel): density (1 − t)^(µ−1) \
@@ -74,7 +82,9 @@ pub(super) fn declare(own: &mut Inclination, keys: &mut Keys<'_>) {
     keys.optional("chi", &mut chi, Number(Limits::closed(0.01, 100.0)), about);
     let about =
         "Densities of leaf area by inclination, linear between rows and 0 outside, in any unit.";
-    keys.optional_block("inclinations", &mut rows, Vec::new, about, declare_rows);
+    keys.optional_block("inclinations", &mut rows, Vec::new, about, |rows, keys| {
+        ROWS.declare(rows, keys);
+    });
     if !keys.is_sound() {
         return;
     }
@@ -101,67 +111,4 @@ pub(super) fn declare(own: &mut Inclination, keys: &mut Keys<'_>) {
         },
         (None, None, None) => kind,
     };
-}
-
-/// The rows of a table: written out, or in a file.
-fn declare_rows(rows: &mut Vec<[f64; 2]>, keys: &mut Keys<'_>) {
-    for way in keys.one_of(&["table", "file"], Some("table")) {
-        if way == "table" {
-            let kind = ListOf {
-                of: Numbers::<2>(Limits::closed(0.0, f64::MAX)),
-                least: 2,
-                most: 1000,
-                wanted: "a list of [inclination in degrees, density]",
-            };
-            let about = "The rows, whose inclinations rise from 0 to 90.";
-            keys.required("table", rows, kind, about);
-        } else {
-            let mut named = None;
-            let path = FilePath::of("the path of a CSV file", &["csv", "tsv", "txt"], 1 << 20);
-            let about = "Such rows in a file with the columns `inclination_deg` and `density`.";
-            keys.optional("file", &mut named, path, about);
-            rows.extend(in_file(named.as_ref(), keys).into_iter().flatten());
-        }
-    }
-}
-
-fn in_file(named: Option<&NamedFile>, keys: &Keys<'_>) -> Option<Vec<[f64; 2]>> {
-    let (form, named) = (keys.reader()?, named?);
-    let at = &form.node("file")?.at;
-    let file = TableFile::read(form.cx, &named.file, &named.written, at)?;
-    file.sound(in_text(&file.text))
-}
-
-fn in_text(text: &str) -> Result<Vec<[f64; 2]>, Fault> {
-    let rows = Rows::of(text);
-    let mut columns = None;
-    let mut found = Vec::new();
-    for row in rows.records() {
-        let words = |span, problem: String| Fault {
-            span: Some(span),
-            what: What::Words {
-                problem,
-                help: "write the names `inclination_deg` and `density`, and two numbers in each line below",
-            },
-        };
-        let row = row.map_err(|ragged| words(ragged.span.clone(), ragged.to_string()))?;
-        let Some(columns) = columns else {
-            let place = |name| row.fields.iter().position(|field| field.text == name);
-            let [Some(degrees), Some(density)] = COLUMNS.map(place) else {
-                let problem = "it does not name the columns `inclination_deg` and `density`";
-                return Err(words(row.span(), problem.to_owned()));
-            };
-            columns = Some([degrees, density]);
-            continue;
-        };
-        let [Some(degrees), Some(density)] = columns.map(|at: usize| rows.number(&row.fields[at]))
-        else {
-            return Err(words(
-                row.span(),
-                "it has something that is no number".to_owned(),
-            ));
-        };
-        found.push([degrees, density]);
-    }
-    Ok(found)
 }

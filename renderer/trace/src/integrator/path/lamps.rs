@@ -137,7 +137,7 @@ fn transmittance<const N: usize>(
             let whole = if target.is_some() { 1.0 } else { f32::INFINITY };
             let end = hit.map_or(whole, |hit| hit.t);
             let length = (end - from) * ray.direction().length();
-            let medium = world.media.media[number as usize].at(wavelengths);
+            let medium = world.media.media[number as usize].at(ray.direction(), wavelengths);
             left *= medium.transmittance(length);
         }
         let Some(hit) = hit else {
