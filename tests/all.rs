@@ -3,6 +3,7 @@
 
 mod architecture;
 mod closed_bodies;
+mod compositing;
 mod determinism;
 mod drops;
 mod fluorescence;

@@ -113,6 +113,7 @@ fn film_and_camera_are_in_si_units() {
     assert_eq!(scene.integrator.branches, Some(3));
     assert_eq!(scene.integrator.lit_branches, Some(2));
     assert_eq!(scene.integrator.light_samples, Some(5));
+    assert!(scene.integrator.hide_lights);
     assert_eq!(scene.integrator.sample_skies, Some(false));
 }
 

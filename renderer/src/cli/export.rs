@@ -92,6 +92,7 @@ pub(super) fn mitsuba(arguments: &MitsubaArguments) -> Result<(), Failure> {
         ExportError::Asset(_)
         | ExportError::Fluorescence
         | ExportError::Foliage(_)
+        | ExportError::Holdout(_)
         | ExportError::Lens(_)
         | ExportError::Nested { .. }
         | ExportError::CameraInside

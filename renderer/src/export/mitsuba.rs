@@ -97,6 +97,11 @@ pub enum ExportError {
          layers; write \"plates\""
     )]
     Layers(String),
+    /// An object that is a hole to the camera; its name.
+    #[error(
+        "objects.{0}.holdout cannot be exported: Mitsuba has no such objects; leave the key out"
+    )]
+    Holdout(String),
     /// Tangents for a map of normals; the object that has them.
     #[error(
         "the object `{0}` has a map of normals with tangents of its file, which cannot be exported: the \
@@ -156,6 +161,9 @@ pub fn check_ours(dir: &Path) -> Result<(), ExportError> {
 pub fn check(scene: &Description) -> Result<(), ExportError> {
     if let Some(key) = sensor::foreign_key(&scene.camera.view) {
         return Err(ExportError::Lens(key));
+    }
+    if let Some(object) = scene.objects.iter().find(|object| object.value.holdout) {
+        return Err(ExportError::Holdout(object.name.clone()));
     }
     if let Some(place) = bsdf::layered(scene) {
         return Err(ExportError::Layers(place));

@@ -580,6 +580,7 @@ fn what_cannot_be_exported_shows_before_anything_is_grown() {
             "materials.mapped.leaf.optics",
         ),
         (&["materials.mapped.leaf.fluorescence={}"], "fluoresces"),
+        (&["objects.left.holdout=true"], "objects.left.holdout"),
     ] {
         let error = checked(overrides).expect_err(part);
         assert!(error.contains(part), "{error}");

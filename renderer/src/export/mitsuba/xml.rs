@@ -53,7 +53,12 @@ fn integrator(scene: &Description, has_media: bool) -> Element {
     // Mitsuba counts the camera's own hit as depth 1.
     let depth = scene.integrator.max_depth;
     let depth = depth.map_or(-1, |most| i64::from(most) + 1);
-    Element::plugin("integrator", if has_media { "volpath" } else { "path" })
+    let plugin = Element::plugin("integrator", if has_media { "volpath" } else { "path" })
         .integer("max_depth", depth)
-        .integer("rr_depth", 1000)
+        .integer("rr_depth", 1000);
+    if scene.integrator.hide_lights {
+        plugin.boolean("hide_emitters", true)
+    } else {
+        plugin
+    }
 }

@@ -5,7 +5,7 @@ use glam::{DMat3, DMat4, DVec3};
 use leafmodel::document::declared::Declared;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
-use leafmodel::document::value_kind::{Number, Numbers, Vector};
+use leafmodel::document::value_kind::{Flag, Number, Numbers, Vector};
 use leafmodel::document::values::{listed, wrong_length};
 
 use super::instances::instances;
@@ -39,6 +39,9 @@ impl Declared for Object {
         );
         scatter(object, plant.is_some(), keys);
         volume(object, keys);
+        let about = "Whether the camera sees a hole in its place: black, with an alpha of 0. It shades \
+            and lights everything else as before.";
+        keys.key("holdout", &mut object.holdout, Flag, about);
         let in_one_place = object.instances.is_none() && !object.is_spread();
         if in_one_place && names.len() > 1 && keys.is_sound() {
             let problem = format!(

@@ -26,6 +26,8 @@ pub struct Object {
     pub strewn: Option<Box<StrewnOn>>,
     /// The box in which copies of it float; their places follow when the world is built.
     pub volume: Option<Box<Volume>>,
+    /// Whether the camera sees a hole in its place: black, with an alpha of 0.
+    pub holdout: bool,
 }
 
 impl Object {

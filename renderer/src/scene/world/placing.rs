@@ -131,6 +131,10 @@ pub(super) fn place(
             }
         }
     }
+    let objects = &scene.objects;
+    placed
+        .objects
+        .hold_out(|number| objects[number].value.holdout);
     placed
 }
 

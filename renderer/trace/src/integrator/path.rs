@@ -137,7 +137,17 @@ impl<'w, const N: usize> Walk<'w, N, PathResult<N>> for Paths<'w, N> {
         // Within a closed body there is something ahead. Where a ray passes an edge, rounding may
         // turn the order of two boundaries round, so that it takes itself for inside: then it is
         // in the open here, and does not walk on for ever.
-        let ahead = match self.world.geometry.intersect(ray) {
+        let world = self.world;
+        let mut hit = world.geometry.intersect(ray);
+        if event == 0 && world.integrator.hide_lights {
+            while let Some(lamp) = hit
+                && world.objects[lamp.instance as usize].light.is_some()
+            {
+                *ray = ray.starting_at(lamp.t.next_up());
+                hit = world.geometry.intersect(ray);
+            }
+        }
+        let ahead = match hit {
             None => Ahead::Nothing,
             Some(hit) if from + reach < hit.t => {
                 *ray = ray.up_to(from + reach);
@@ -152,6 +162,9 @@ impl<'w, const N: usize> Walk<'w, N, PathResult<N>> for Paths<'w, N> {
     fn arrives(&self, at: &Arrival<'_, N>, event: u32, result: &mut PathResult<N>) -> bool {
         let surface = at.surface;
         if event == 0 && result.first.is_none() {
+            if self.world.objects[surface.instance as usize].holdout {
+                return false;
+            }
             let against = at.ray.direction().dot(surface.shading_normal) < 0.0;
             result.first = Some(FirstHit {
                 position: surface.position,
@@ -229,7 +242,11 @@ impl<'w, const N: usize> Walk<'w, N, PathResult<N>> for Paths<'w, N> {
         };
         let encounter = &*encounter;
         let (surface, wo) = (&encounter.surface, encounter.wo);
-        if let Some(number) = world.objects[surface.instance as usize].light {
+        let object = &world.objects[surface.instance as usize];
+        if event == 0 && object.holdout {
+            return false;
+        }
+        if let Some(number) = object.light {
             let lights = (&world.lights[..], self.selection());
             let (ray, bounce) = (&leg.ray, &leg.origin);
             let found = emission(lights, number, ray, surface, bounce, self.wavelengths);
@@ -281,6 +298,9 @@ impl<'w, const N: usize> Walk<'w, N, PathResult<N>> for Paths<'w, N> {
     }
 
     fn leaves(&self, leg: &mut Leg<N>, _: &mut Passage, result: &mut PathResult<N>) {
+        if self.world.integrator.hide_lights && result.first.is_none() {
+            return;
+        }
         let lights = (&self.world.lights[..], self.selection());
         let way = leg.ray.direction();
         result.radiance +=

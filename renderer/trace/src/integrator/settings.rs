@@ -44,6 +44,11 @@ pub struct Integrator {
     /// light.
     #[key("sample_skies")]
     pub sample_skies: Option<bool>,
+    /// Whether the camera looks through all lights: sky and sun are black with an alpha of 0, and it
+    /// does not see objects that shine. They light everything else, and are seen in mirrors and through
+    /// glass. The colours are then those of the foreground, multiplied by alpha.
+    #[key("hide_lights")]
+    pub hide_lights: bool,
 }
 
 /// The size, samples and seed of a picture.

@@ -17,6 +17,8 @@ pub struct WorldObject {
     pub body: Option<Body>,
     /// Refractive index of its water over that outside, if it is a drop, which has no base.
     pub drop: Option<f32>,
+    /// Whether the camera sees a hole in its place.
+    pub holdout: bool,
 }
 
 /// The object, material and light of each instance. All places of an object share an entry for each
@@ -115,6 +117,13 @@ impl WorldObjects {
         }
     }
 
+    /// Makes holes, to the camera, of the objects with these numbers.
+    pub fn hold_out(&mut self, is_held_out: impl Fn(usize) -> bool) {
+        for part in &mut self.parts {
+            part.holdout = is_held_out(part.object);
+        }
+    }
+
     fn for_each_part<E>(
         &mut self,
         mut set: impl FnMut(usize, &mut WorldObject) -> Result<(), E>,
@@ -147,6 +156,7 @@ impl WorldObjects {
             light: None,
             body: None,
             drop: None,
+            holdout: false,
         });
         self.parts.len() as u32 - 1
     }
