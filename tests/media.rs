@@ -208,6 +208,7 @@ fn a_filter_dims_the_light_behind_it_and_a_clear_body_inside_makes_it_thinner() 
 
 #[test]
 fn inclined_leaves_scatter_once_what_the_integral_over_their_normals_says() {
+    type Density = fn(f64) -> f64;
     // Leaves of the area u that turn the fractions G to the sun and to the camera send there, of the irradiance E across the
     // beam, after a single event: L = E Γ / π (1 − exp(−u h (G₀ / μ₀ + G))) / (G₀ / μ₀ + G), where Γ is the mean of
     // ρ or τ times both cosines, ρ where they see one face.
@@ -215,7 +216,7 @@ fn inclined_leaves_scatter_once_what_the_integral_over_their_normals_says() {
     let leaves = [[0.4, 0.1], [0.05, 0.6]];
     let sun =
         "[lights.sun.distant]\nirradiance_w_m2_nm = 2\nelevation_deg = 40\nazimuth_deg = 30\n";
-    let densities: [(&str, fn(f64) -> f64); 3] = [
+    let densities: [(&str, Density); 3] = [
         ("planophile", |angle| 1.0 + (2.0 * angle).cos()),
         ("erectophile", |angle| 1.0 - (2.0 * angle).cos()),
         ("extremophile", |angle| 1.0 + (4.0 * angle).cos()),

@@ -36,7 +36,7 @@ use self::arranged::direction;
 pub use self::arranged::{CompoundError, CompoundLeaf, PlacedLeaflet, Stalk, StalkKind};
 pub use self::flat::FlatLeaf;
 pub use self::form::{Arrangement, CompoundForm, Feather};
-pub use self::whole::{Placement, WholeLeaf, joined_stalks, leaflet_plans};
+pub use self::whole::{Placement, WholeLeaf, leaflet_plans};
 use crate::document::Keys;
 use crate::leaf::outline_plan::Contour;
 use crate::leaf::{LeafError, LeafPlan};
@@ -78,7 +78,7 @@ impl CompoundForm {
     /// # Panics
     ///
     /// If `outlines` is empty.
-    pub fn arrange_within(
+    pub(crate) fn arrange_within(
         &self,
         leaflet: &LeafPlan,
         outlines: &[Outline],

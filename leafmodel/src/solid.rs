@@ -35,7 +35,7 @@ use rayon::prelude::*;
 
 pub use self::raised::Raised;
 use self::raised::Relief;
-pub use self::shape::{SolidMesh, SolidShape, creased, smooth_normals};
+pub use self::shape::{SolidMesh, SolidShape};
 use crate::blade::contents_map::ContentsMap;
 use crate::document::{Declared, Keys};
 use crate::grow_options::GrowOptions;

@@ -88,7 +88,8 @@ impl Preset {
     }
 
     /// Whether the leaf has another colour than summer's green.
-    pub fn is_coloured(&self) -> bool {
+    #[cfg(test)]
+    pub(crate) fn is_coloured(&self) -> bool {
         self.traits().is_some_and(Traits::is_coloured)
     }
 

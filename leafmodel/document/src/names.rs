@@ -133,7 +133,7 @@ pub fn require_title(cx: &Context, name: &str, at: &Place) {
 }
 
 /// Reports a name that is none.
-pub fn require_name(cx: &Context, name: &str, at: &Place) {
+pub(crate) fn require_name(cx: &Context, name: &str, at: &Place) {
     if !is_name(name) {
         let error = DocumentError::BadName {
             name: escaped(name, QUOTED),

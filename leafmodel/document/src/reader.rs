@@ -52,14 +52,14 @@ impl<'a> Block<'a> {
     }
 
     /// Notes that the block is of another kind than the preset's, of which nothing is taken then.
-    pub fn starts_over(&mut self, preset: &str, kind: &str) {
+    pub(crate) fn starts_over(&mut self, preset: &str, kind: &str) {
         self.anew = Some(format!(
             "; the preset `{preset}` has the kind `{kind}` here, of which nothing is taken"
         ));
     }
 
     /// Whether a key is missing.
-    pub fn lacks_something(&self) -> bool {
+    pub(crate) fn lacks_something(&self) -> bool {
         !self.missing.borrow().is_empty()
     }
 
@@ -96,16 +96,6 @@ impl<'a> Block<'a> {
     pub fn number(&self, key: &'static str, limits: Limits) -> Option<f64> {
         let node = self.needed(key, || format!("`{key} = …`, a number within {limits}"))?;
         number_at(self.cx, node, key, limits)
-    }
-
-    /// A real number that may be left out.
-    pub fn optional_number(&self, key: &'static str, limits: Limits) -> Option<f64> {
-        number_at(self.cx, self.node(key)?, key, limits)
-    }
-
-    /// A real number with a default.
-    pub fn number_or(&self, key: &'static str, limits: Limits, default: f64) -> f64 {
-        self.optional_number(key, limits).unwrap_or(default)
     }
 
     /// Text.
@@ -208,7 +198,7 @@ impl<'a> Block<'a> {
     }
 
     /// As [`Block::exactly_one`], for keys of which there may be none.
-    pub fn at_most_one(&self, keys: &[&'static str]) -> Option<&'static str> {
+    pub(crate) fn at_most_one(&self, keys: &[&'static str]) -> Option<&'static str> {
         self.one_alone(keys, "takes at most")
     }
 
@@ -230,7 +220,7 @@ impl<'a> Block<'a> {
     }
 
     /// The entries among which misspelt keys are looked for.
-    pub fn first_entries(&self) -> impl Iterator<Item = &'a Entry> {
+    pub(crate) fn first_entries(&self) -> impl Iterator<Item = &'a Entry> {
         self.table.0.iter().take(ENOUGH)
     }
 

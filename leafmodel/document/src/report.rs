@@ -44,7 +44,7 @@ impl DocumentErrors {
     }
 
     /// One error of a file whose text could not be had.
-    pub fn of_a_file(name: &str, error: DocumentError) -> Self {
+    pub(crate) fn of_a_file(name: &str, error: DocumentError) -> Self {
         let mut sources = Sources::default();
         sources.add(name, "");
         Self::new(Arc::new(sources), vec![LocatedError { error, at: None }])

@@ -391,7 +391,7 @@ impl Guess {
     }
 
     /// That a file which says nothing of its encoding, and is not UTF-8, is read as Latin-1.
-    pub fn latin_1() -> Self {
+    pub(crate) fn latin_1() -> Self {
         Self {
             what: "it is not in UTF-8, and is read as Latin-1 (Windows-1252)".to_owned(),
             otherwise: None,

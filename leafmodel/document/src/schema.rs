@@ -156,7 +156,7 @@ impl BlockSchema {
 
 impl Type {
     /// What to add where a key of this type is missing.
-    pub fn to_add(&self, key: &str) -> String {
+    pub(crate) fn to_add(&self, key: &str) -> String {
         match self {
             Self::Text(what) => format!("`{key} = \"…\"`, {what}"),
             Self::AnyOf(types, what) if matches!(types.first(), Some(Self::Text(_))) => {
@@ -175,7 +175,7 @@ impl Type {
     }
 
     /// The range as a table shows it.
-    pub fn in_brief(&self) -> String {
+    pub(crate) fn in_brief(&self) -> String {
         match self {
             Self::Number(limits) => limits.to_string(),
             Self::Integer { least, most } if *most == u64::MAX => format!("{least} to 2⁶⁴ − 1"),
@@ -202,7 +202,7 @@ impl Type {
     }
 
     /// The type and range as a sentence names them.
-    pub fn in_words(&self) -> String {
+    pub(crate) fn in_words(&self) -> String {
         match self {
             Self::Number(limits) => format!("a number within {limits}"),
             Self::Integer { least, most } if least == most => least.to_string(),

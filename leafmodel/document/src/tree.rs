@@ -110,7 +110,7 @@ impl Table {
     }
 
     /// The tree of a parsed document.
-    pub fn from_toml(source: usize, table: DeTable<'_>) -> Self {
+    pub(crate) fn from_toml(source: usize, table: DeTable<'_>) -> Self {
         let mut entries: Vec<Entry> = table
             .into_iter()
             .map(|(key, value)| {
@@ -214,7 +214,7 @@ impl Table {
 
 impl Node {
     /// A value that stands nowhere in a file yet.
-    pub fn unplaced(value: Value) -> Self {
+    pub(crate) fn unplaced(value: Value) -> Self {
         let at = Place {
             source: 0,
             span: 0..0,

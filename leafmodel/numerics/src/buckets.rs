@@ -45,7 +45,7 @@ impl<T: Copy> Buckets<T> {
 
     /// The members of a bucket and of all up to another.
     #[inline]
-    pub fn lists_of(&self, first: usize, last: usize) -> &[T] {
+    pub(crate) fn lists_of(&self, first: usize, last: usize) -> &[T] {
         &self.members[self.starts[first] as usize..self.starts[last + 1] as usize]
     }
 

@@ -16,7 +16,7 @@ impl Coefficients {
     /// # Source
     ///
     /// \[feret2017\]; `docs/src/theory/leaf-optics.md`.
-    pub fn absorption_per_plate(&self, contents: &Contents) -> f64 {
+    pub(crate) fn absorption_per_plate(&self, contents: &Contents) -> f64 {
         self.absorption_of_leaf(contents) / contents[Constituent::Structure]
     }
 }

@@ -19,7 +19,7 @@ pub fn abaxial_ratio(absorptance: f64, contrast: f64) -> f64 {
 }
 
 /// How much of the contrast there is where so much is absorbed: `A² (3 − 2 A)`, 0 to 1.
-pub fn weight_of_contrast(absorptance: f64) -> f64 {
+pub(crate) fn weight_of_contrast(absorptance: f64) -> f64 {
     let a = absorptance.clamp(0.0, 1.0);
     a * a * (3.0 - 2.0 * a)
 }

@@ -45,7 +45,7 @@ pub use bidirectional::{Bidirectional, Binned};
 pub use leaf::{Cells, DRY_BELOW, Faces, LayeredLeaf, Scattering, Slice};
 pub use monte_carlo::{Bins, Estimate, Spread, Tallies, follow, spread};
 pub use ordinates::{Fluxes, Leaving, Ordinates, Resolution};
-pub use phase::{Phase, mean_cosine_of_ball, wall};
+pub use phase::{Phase, wall};
 pub use stack::{Face, Incidence, Layer, Stack, StackError};
 
 #[cfg(test)]

@@ -56,6 +56,5 @@ pub use model::Model;
 pub use per_constituent::PerConstituent;
 pub use pigments::Pigments;
 pub use pile::ReflectanceTransmittance;
-pub use plate::layer_transmissivity;
 pub use prospect_d::{Coefficients, OutsideTable, ProspectD};
 pub use vein_factors::VeinFactors;

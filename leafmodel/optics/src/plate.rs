@@ -16,7 +16,7 @@ const SERIES_UP_TO: f64 = 1.0;
 ///
 /// \[jacquemoud1990\] for its use; series and continued fraction of `E₃` as in the NIST Digital
 /// Library of Mathematical Functions, 8.19.8 and 8.19.17.
-pub fn layer_transmissivity(k: f64) -> f64 {
+pub(crate) fn layer_transmissivity(k: f64) -> f64 {
     if k <= SERIES_UP_TO {
         1.0 - absorbed_by_series(k)
     } else {

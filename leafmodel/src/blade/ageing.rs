@@ -151,14 +151,14 @@ impl Course {
         self.half_days * (1.0 + libm::log(odds) / decay.steepness)
     }
 
-    /// Contents of tissue, still alive, `age` days after it began to age. For `age` ≤ 0 that is
-    /// `living`.
-    #[must_use]
-    pub fn senescent(&self, living: Contents, age: f64) -> Contents {
+    /// As [`Course::decayed`], with a decay of its own.
+    #[cfg(test)]
+    pub(crate) fn senescent(&self, living: Contents, age: f64) -> Contents {
         self.decayed(living, age, Decay::new(self.steepness))
     }
 
-    /// As [`Course::senescent`], with the decay of this course.
+    /// Contents of tissue, still alive, `age` days after it began to age, with the decay of this course. For
+    /// `age` ≤ 0 that is `living`.
     fn decayed(&self, living: Contents, age: f64, decay: Decay) -> Contents {
         if age <= 0.0 {
             return living;

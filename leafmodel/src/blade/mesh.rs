@@ -97,7 +97,7 @@ impl BladeMesh {
     /// # Errors
     ///
     /// As [`BladeMesh::build`].
-    pub fn build_holed(
+    pub(crate) fn build_holed(
         (outline, holes, frame): (&Outline, &[Vec<DVec2>], &UvFrame),
         network: &VenationNetwork,
         form: &BladeForm,

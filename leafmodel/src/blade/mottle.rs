@@ -62,7 +62,7 @@ impl Mottle {
     /// The same noise with a lattice that repeats after `cells` (≥ 1) cells of `scale_mm`, as that
     /// of Perlin 1985 does after 256.
     #[must_use]
-    pub fn repeating(self, cells: u32) -> Self {
+    pub(crate) fn repeating(self, cells: u32) -> Self {
         Self {
             repeat: Some(cells),
             ..self

@@ -50,7 +50,7 @@ pub struct BladeForm {
 
 impl BladeForm {
     /// The default form of a leaf of this length: nearly flat.
-    pub fn nearly_flat(length_mm: f64) -> Self {
+    pub(crate) fn nearly_flat(length_mm: f64) -> Self {
         Self {
             fold: 0.0,
             curl: 0.0,

@@ -78,7 +78,7 @@ impl Senescence {
     }
 
     /// Whether it needs the cells of a transport leaf.
-    pub fn needs_cells(&self) -> bool {
+    pub(crate) fn needs_cells(&self) -> bool {
         match self.source {
             AgeSource::Revenue { .. } => true,
             AgeSource::Day { course, .. } => {
@@ -232,7 +232,7 @@ impl Withering {
     }
 
     /// Ageing by the deaths of a transport leaf's cells.
-    pub fn by_revenue(field: DeathField, share: f64, blend: f64, dead: Contents) -> Self {
+    pub(crate) fn by_revenue(field: DeathField, share: f64, blend: f64, dead: Contents) -> Self {
         // At a share of 1 even the first tissue to die is still alive; at 0 even the last is dead.
         let threshold = share * (1.0 + blend) - blend;
         Self(Way::Revenue {
@@ -245,7 +245,7 @@ impl Withering {
 
     /// Dead share of the tissue at a point (mm): 0 alive, 1 dead, with a smooth step over the blend
     /// between.
-    pub fn dead_share(&self, point: DVec2) -> f64 {
+    pub(crate) fn dead_share(&self, point: DVec2) -> f64 {
         match &self.0 {
             Way::Revenue {
                 field,

@@ -153,7 +153,7 @@ impl Tissue {
 
     /// As [`Tissue::contents`] where the tissue between veins holds `lamina`.
     #[must_use]
-    pub fn contents_of(&self, lamina: Contents, cover: VeinCover, mottle: f64) -> Contents {
+    pub(crate) fn contents_of(&self, lamina: Contents, cover: VeinCover, mottle: f64) -> Contents {
         let patch = 1.0 + self.mottle * mottle;
         let mut contents = lamina;
         for (constituent, value) in contents.iter_mut() {

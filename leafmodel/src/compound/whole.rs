@@ -159,7 +159,7 @@ impl WholeLeaf {
 }
 
 /// The axes of a leaf as polylines with radii: petiole and rachis as one, then the pinnae.
-pub fn joined_stalks(leaf: &CompoundLeaf) -> Vec<(Vec<DVec2>, Vec<f64>)> {
+pub(crate) fn joined_stalks(leaf: &CompoundLeaf) -> Vec<(Vec<DVec2>, Vec<f64>)> {
     let mut joined: Vec<(Vec<DVec2>, Vec<f64>)> = Vec::new();
     let axes = leaf.stalks.iter();
     for stalk in axes.filter(|stalk| stalk.kind != StalkKind::Petiolule) {

@@ -51,7 +51,7 @@ impl DevelopmentPlan {
     /// # Errors
     ///
     /// As [`DevelopmentPlan::develop`].
-    pub fn develop_until(&self, seed: u64, steps: u32) -> Result<DevelopedLeaf, NotGrown> {
+    pub(crate) fn develop_until(&self, seed: u64, steps: u32) -> Result<DevelopedLeaf, NotGrown> {
         self.validate()?;
         let mut grown = Developing::new(self, seed);
         for _ in 0..steps.min(self.steps()) {
@@ -76,7 +76,7 @@ impl DevelopedLeaf {
     /// # Errors
     ///
     /// As [`DevelopmentPlan::develop`].
-    pub fn at_step(&self, step: u32) -> Result<Self, NotGrown> {
+    pub(crate) fn at_step(&self, step: u32) -> Result<Self, NotGrown> {
         if step >= self.grown.step {
             return Ok(self.clone());
         }

@@ -197,7 +197,7 @@ impl FaultKind {
     }
 
     /// Whether nothing can be measured with it.
-    pub fn is_error(self) -> bool {
+    pub(crate) fn is_error(self) -> bool {
         self.gravity() == Gravity::Error
     }
 

@@ -202,7 +202,7 @@ fn touches(hole: &[DVec2], from: DVec2, to: DVec2) -> bool {
 
 impl Wounds {
     /// Area of the holes, mm².
-    pub fn holes_area(&self) -> f64 {
+    pub(crate) fn holes_area(&self) -> f64 {
         let holes = self.holes.iter();
         holes.map(|hole| polygon::signed_area(hole)).sum()
     }

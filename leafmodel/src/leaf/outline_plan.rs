@@ -114,7 +114,7 @@ impl OutlinePlan {
     }
 
     /// Whether the contour is the whole margin.
-    pub fn is_contour(&self) -> bool {
+    pub(crate) fn is_contour(&self) -> bool {
         self.teeth.is_empty() && self.specimen.is_none()
     }
 

@@ -63,7 +63,7 @@ struct Peak {
 }
 
 /// Counts lobes and teeth. `network` tells whether primaries spread, and where they end.
-pub fn projections(outline: &Outline, network: &VenationNetwork) -> Projections {
+pub(crate) fn projections(outline: &Outline, network: &VenationNetwork) -> Projections {
     let points = evenly(outline.points());
     let teeth = teeth(outline, &points);
     Projections {

@@ -106,7 +106,11 @@ impl TypeField {
     /// # Panics
     ///
     /// If a cell's type is not below `types`.
-    pub fn of_mosaic(mosaic: &Mosaic, types: usize, blend_mm: f64) -> Result<Self, NotGrown> {
+    pub(crate) fn of_mosaic(
+        mosaic: &Mosaic,
+        types: usize,
+        blend_mm: f64,
+    ) -> Result<Self, NotGrown> {
         let sites: Vec<SurfacePoint> = mosaic.cells.iter().map(|cell| cell.at).collect();
         let kinds: Vec<u16> = mosaic.cells.iter().map(|cell| cell.kind).collect();
         let surface = &*mosaic.surface;
@@ -189,7 +193,7 @@ impl TypeField {
 
     /// The same with controls applied: places that they block are bare.
     #[must_use]
-    pub fn heeding(mut self, surface: Arc<Surface>, controls: &[CylinderControl]) -> Self {
+    pub(crate) fn heeding(mut self, surface: Arc<Surface>, controls: &[CylinderControl]) -> Self {
         self.bare = Controls(controls).block().then(|| Bare {
             surface,
             controls: controls.to_vec(),
@@ -247,7 +251,7 @@ impl TypeField {
     /// # Panics
     ///
     /// If `weights` has another length than there are types.
-    pub fn type_weights(&self, point: &SurfacePoint, weights: &mut [f64]) {
+    pub(crate) fn type_weights(&self, point: &SurfacePoint, weights: &mut [f64]) {
         assert_eq!(weights.len(), self.types, "a weight for each type");
         let flat = self.flat(point);
         let own = usize::from(self.kind_at(point.face, flat));

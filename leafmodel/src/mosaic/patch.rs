@@ -125,7 +125,7 @@ impl<'a> PatchFinder<'a> {
 
     /// The faces that can hold points within `radius_mm` of the disc of `hub_mm` about the middle
     /// of a face.
-    pub fn patch_of_disc(&mut self, face: u32, hub_mm: f64, radius_mm: f64) -> Patch {
+    pub(crate) fn patch_of_disc(&mut self, face: u32, hub_mm: f64, radius_mm: f64) -> Patch {
         let centre = self.surface.flat(&self.surface.centre(face));
         self.search(face, Hub::Disc(centre, hub_mm), radius_mm)
     }

@@ -133,7 +133,7 @@ impl MosaicPattern {
     }
 
     /// Whether a control may block places, where the tissue itself shows.
-    pub fn may_leave_bare(&self) -> bool {
+    pub(crate) fn may_leave_bare(&self) -> bool {
         Controls(&self.plan.controls).block()
     }
 

@@ -77,7 +77,7 @@ fn ellipsoid_cuts(semi_axes_mm: DVec3, max_edge_mm: f64) -> f64 {
 /// # Errors
 ///
 /// [`NotGrown`] for too many triangles.
-pub fn ellipsoid_triangles(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<f64, NotGrown> {
+pub(crate) fn ellipsoid_triangles(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<f64, NotGrown> {
     let cuts = ellipsoid_cuts(semi_axes_mm, max_edge_mm);
     let triangles = 20.0 * cuts * cuts;
     affordable(triangles)?;

@@ -46,12 +46,12 @@ impl Unfold {
     }
 
     /// Maps a point of the target frame back into the unfolded frame.
-    pub fn apply_inverse(&self, point: DVec2) -> DVec2 {
+    pub(crate) fn apply_inverse(&self, point: DVec2) -> DVec2 {
         self.turn_back(point - self.shift)
     }
 
     /// Maps a direction of the target frame back into the unfolded frame.
-    pub fn turn_back(&self, direction: DVec2) -> DVec2 {
+    pub(crate) fn turn_back(&self, direction: DVec2) -> DVec2 {
         DVec2::new(self.turn.x, -self.turn.y).rotate(direction)
     }
 
@@ -135,7 +135,7 @@ impl Surface {
     /// # Errors
     ///
     /// [`NotGrown`] for the first vertex with more than one fan.
-    pub fn check_vertices(&self) -> Result<(), NotGrown> {
+    pub(crate) fn check_vertices(&self) -> Result<(), NotGrown> {
         let mut walked = vec![[false; 3]; self.faces.len()];
         let mut met = vec![false; self.positions.len()];
         for face in 0..self.faces.len() {
@@ -269,7 +269,7 @@ impl Surface {
     }
 
     /// The number that the shared edge has in the neighbour across `edge`; `None` across a margin.
-    pub fn neighbour_edge(&self, face: u32, edge: usize) -> Option<usize> {
+    pub(crate) fn neighbour_edge(&self, face: u32, edge: usize) -> Option<usize> {
         self.neighbour(face, edge)?;
         Some(usize::from(self.neighbour_edges[face as usize][edge]))
     }
@@ -361,7 +361,7 @@ impl Surface {
     }
 
     /// Longest edge of all, mm.
-    pub fn longest_edge(&self) -> f64 {
+    pub(crate) fn longest_edge(&self) -> f64 {
         let sides = self.corners.iter().flat_map(|corners| {
             [0, 1, 2].map(|edge: usize| corners[edge].distance_squared(corners[(edge + 1) % 3]))
         });

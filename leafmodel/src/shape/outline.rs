@@ -152,7 +152,7 @@ impl Outline {
     }
 
     /// The glands on its teeth and lobes.
-    pub fn knobs(&self) -> &[Knob] {
+    pub(crate) fn knobs(&self) -> &[Knob] {
         &self.knobs
     }
 
@@ -198,7 +198,7 @@ impl Outline {
     }
 
     /// Distance from `p`, inside or outside, to the nearest point of the margin, mm, ≥ 0.
-    pub fn distance_to_margin(&self, p: DVec2) -> f64 {
+    pub(crate) fn distance_to_margin(&self, p: DVec2) -> f64 {
         self.slabs.distance_squared(&self.points, p).sqrt()
     }
 

@@ -66,7 +66,7 @@ impl Default for Specimen {
 
 impl Specimen {
     /// Whether the contour stays as it is but for tips.
-    pub fn keeps_contour(&self) -> bool {
+    pub(crate) fn keeps_contour(&self) -> bool {
         let Self {
             breadth,
             base,

@@ -223,7 +223,7 @@ fn area(shape: &Shape) -> f64 {
 /// mean of the adjacent faces that differ from it in direction by less than 45°. So rounded parts
 /// look smooth and edges stay sharp: across an edge a mean would deviate so far from both faces
 /// that light on them could not be reflected. A point has one vertex for each of its normals.
-pub fn creased(positions: &[DVec3], faces: &[[u32; 3]]) -> Shape {
+pub(crate) fn creased(positions: &[DVec3], faces: &[[u32; 3]]) -> Shape {
     let crease = std::f64::consts::FRAC_1_SQRT_2;
     let doubled: Vec<DVec3> = faces
         .iter()
@@ -267,7 +267,7 @@ pub fn creased(positions: &[DVec3], faces: &[[u32; 3]]) -> Shape {
 
 /// Unit normals at the points of a mesh without normals: the area-weighted mean of the adjacent
 /// faces.
-pub fn smooth_normals(positions: &[DVec3], faces: &[[u32; 3]]) -> Vec<DVec3> {
+pub(crate) fn smooth_normals(positions: &[DVec3], faces: &[[u32; 3]]) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; positions.len()];
     for &[a, b, c] in faces {
         let corner = |vertex: u32| positions[vertex as usize];

@@ -1,6 +1,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::shape::creased;
 use super::*;
 use crate::grow_options::GrowOptions;
 use crate::mosaic::plan::{CellType, MosaicPlan};

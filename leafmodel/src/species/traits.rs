@@ -82,7 +82,7 @@ impl Traits {
     }
 
     /// Whether the leaf has another colour than summer's green.
-    pub fn is_coloured(&self) -> bool {
+    pub(crate) fn is_coloured(&self) -> bool {
         !self.differs.is_empty()
     }
 }

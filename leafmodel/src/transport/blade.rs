@@ -72,7 +72,7 @@ impl TransportLeaf {
     /// # Errors
     ///
     /// As [`TransportLeaf::outline`].
-    pub fn at_scale(
+    pub(crate) fn at_scale(
         &self,
         length_mm: f64,
         style: VeinStyle,

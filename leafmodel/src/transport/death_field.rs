@@ -38,7 +38,7 @@ impl TransportLeaf {
     /// # Errors
     ///
     /// As [`TransportLeaf::outline`].
-    pub fn death_field(&self, length_mm: f64) -> Result<DeathField, NotGrown> {
+    pub(crate) fn death_field(&self, length_mm: f64) -> Result<DeathField, NotGrown> {
         let (frame, _) = self.framed(length_mm)?;
         Ok(DeathField::new(self, frame))
     }
@@ -46,7 +46,7 @@ impl TransportLeaf {
 
 impl FilledBlade {
     /// When the tissue of the blade dies, in the frame of the outline that was filled.
-    pub fn death_field(&self) -> DeathField {
+    pub(crate) fn death_field(&self) -> DeathField {
         DeathField::new(self.leaf(), self.frame().clone())
     }
 }

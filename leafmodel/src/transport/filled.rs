@@ -205,11 +205,6 @@ impl FilledBlade {
         &self.leaf
     }
 
-    /// Cells of the blade that no edge supplies, in a fixed order.
-    pub fn unsupplied(&self) -> &[Cell] {
-        &self.unsupplied
-    }
-
     pub(crate) fn frame(&self) -> &Frame {
         &self.frame
     }
@@ -235,7 +230,7 @@ impl FilledBlade {
     /// # Errors
     ///
     /// As [`FilledBlade::network`].
-    pub fn networks_at(
+    pub(crate) fn networks_at(
         &self,
         outline: &Outline,
         style: VeinStyle,

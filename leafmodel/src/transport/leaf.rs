@@ -190,7 +190,7 @@ impl TransportLeaf {
     }
 
     /// The numbers of all cells, each after that of its parent.
-    pub fn root_to_tip(&self) -> Vec<usize> {
+    pub(crate) fn root_to_tip(&self) -> Vec<usize> {
         self.system().root_to_tip()
     }
 
@@ -221,7 +221,7 @@ impl TransportLeaf {
     }
 
     /// The leaf at a stage; a stage beyond the last means the full-grown leaf.
-    pub fn at_stage(&self, stage: usize) -> Self {
+    pub(crate) fn at_stage(&self, stage: usize) -> Self {
         let Some(then) = self.stages.get(stage) else {
             return self.clone();
         };

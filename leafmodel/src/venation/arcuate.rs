@@ -45,7 +45,7 @@ impl ArcuatePlan {
     ///
     /// [`NotGrown`], naming the number that is out of range, or why the splines are not a valid
     /// margin.
-    pub fn network_within(
+    pub(crate) fn network_within(
         &self,
         margin: &CubicMargin,
         length_mm: f64,
@@ -73,7 +73,7 @@ impl ArcuatePlan {
     /// # Errors
     ///
     /// As [`ArcuatePlan::network_within`], except that the margin may cross itself.
-    pub fn veins_within(
+    pub(crate) fn veins_within(
         &self,
         margin: &CubicMargin,
         length_mm: f64,
@@ -90,7 +90,7 @@ impl ArcuatePlan {
     /// # Errors
     ///
     /// [`NotGrown`].
-    pub fn veins_on(&self, outline: &Outline) -> Result<ArcuateVeins, NotGrown> {
+    pub(crate) fn veins_on(&self, outline: &Outline) -> Result<ArcuateVeins, NotGrown> {
         self.in_range()?;
         let frame = Frame::of(outline);
         Ok(self.veins_between(frame, &Sides::of(outline, frame), Some(outline)))

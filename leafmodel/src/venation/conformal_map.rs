@@ -44,7 +44,7 @@ impl ConformalMap {
     /// bends up towards the adaxial side (a cup), and all lengths are exact. No complete surface
     /// with constant `K < 0` has a simple form, so a saddle is used: it has the curvature `K` at
     /// the centre, and its lengths are exact to second order in the distance from there.
-    pub fn in_space(&self, p: DVec2, height: f64) -> DVec3 {
+    pub(crate) fn in_space(&self, p: DVec2, height: f64) -> DVec3 {
         let q = p - self.centre;
         if self.curvature > 0.0 {
             let radius = 1.0 / self.curvature.sqrt();

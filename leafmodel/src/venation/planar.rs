@@ -74,12 +74,12 @@ impl PlaneGraph {
     }
 
     /// Where pairs of edges crossed, mm.
-    pub fn crossing_places(&self) -> &[DVec2] {
+    pub(crate) fn crossing_places(&self) -> &[DVec2] {
         &self.crossings
     }
 
     /// Where nodes lay on edges that did not end there, or on other nodes, mm.
-    pub fn touch_places(&self) -> &[DVec2] {
+    pub(crate) fn touch_places(&self) -> &[DVec2] {
         &self.touches
     }
 

@@ -122,7 +122,7 @@ impl Camera {
 
     /// What a pixel in the middle of the picture spans: its width where rays start, m, and the
     /// angle by which it widens, radians.
-    pub fn pixel_span(&self) -> [f32; 2] {
+    pub(crate) fn pixel_span(&self) -> [f32; 2] {
         let span = 2.0 * self.half_extent.y / self.size.y;
         match self.optics {
             Optics::Pinhole | Optics::Lens(_) => {

@@ -162,7 +162,7 @@ impl Light {
     }
 
     /// Whether a ray that hits nothing may find it.
-    pub fn is_at_infinity(&self) -> bool {
+    pub(crate) fn is_at_infinity(&self) -> bool {
         match self {
             Self::Distant(_)
             | Self::Constant(_)

@@ -219,7 +219,7 @@ impl Material {
 
     /// The BSDF at a site, at the same wavelengths.
     #[inline]
-    pub fn bsdf_at<const N: usize>(
+    pub(crate) fn bsdf_at<const N: usize>(
         &self,
         site: &Site<N>,
         wavelengths: &Wavelengths<N>,

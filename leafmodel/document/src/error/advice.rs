@@ -160,7 +160,7 @@ impl DocumentError {
 
     /// Whether the error stands on its own when the file has syntax errors elsewhere: what is
     /// missing, unknown or unmatched may only be a consequence of them.
-    pub fn is_about_a_value(&self) -> bool {
+    pub(crate) fn is_about_a_value(&self) -> bool {
         matches!(
             self,
             Self::OutOfRange { .. } | Self::NotFinite { .. } | Self::WrongType { .. }

@@ -172,7 +172,8 @@ impl LayeredLeaf {
     }
 
     /// How many times as much it scatters as the surfaces of its cells say.
-    pub fn scattering_over_cells(&self) -> f64 {
+    #[cfg(test)]
+    pub(crate) fn scattering_over_cells(&self) -> f64 {
         self.scattering / self.amount
     }
 

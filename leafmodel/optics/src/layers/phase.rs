@@ -131,7 +131,7 @@ fn sample_henyey_greenstein(g: f64, u: f64) -> f64 {
 ///
 /// The sum over internal reflections is that of \[ashkin1992\] for the part of the momentum that
 /// goes on forwards; quadrature over the place where the ray meets the ball. A test follows rays.
-pub fn mean_cosine_of_ball(relative_index: f64) -> f64 {
+pub(crate) fn mean_cosine_of_ball(relative_index: f64) -> f64 {
     over_incidence(|cosine| {
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
         let inside = sine / relative_index;

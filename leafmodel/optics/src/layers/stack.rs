@@ -20,7 +20,7 @@ pub struct Layer {
 
 impl Layer {
     /// Of optical depths of scattering and of absorption.
-    pub fn of_depths(index: f64, scattering: f64, absorption: f64, phase: Phase) -> Self {
+    pub(crate) fn of_depths(index: f64, scattering: f64, absorption: f64, phase: Phase) -> Self {
         let depth = scattering + absorption;
         let albedo = if depth > 0.0 { scattering / depth } else { 0.0 };
         Self {

@@ -25,7 +25,7 @@ pub enum Aglycone {
 impl Aglycone {
     /// Peak in nm: Belitz, Grosch and Schieberle, Food Chemistry, table 18.22. Cyanidin's is that
     /// of PROSPECT-D's column.
-    pub fn peak_nm(self) -> f64 {
+    pub(crate) fn peak_nm(self) -> f64 {
         match self {
             Self::Pelargonidin => 520.0,
             Self::Cyanidin => PROSPECT_PEAK_NM,

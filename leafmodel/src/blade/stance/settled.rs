@@ -156,7 +156,7 @@ impl Settled {
     }
 
     /// Whether the leaf lies on the ground.
-    pub fn on_ground(&self) -> bool {
+    pub(crate) fn on_ground(&self) -> bool {
         self.on_ground
     }
 }

@@ -82,7 +82,7 @@ impl DustPlan {
     }
 
     /// Optical thickness of a load, g m⁻².
-    pub fn optical_thickness(&self, load_g_per_m2: f64) -> f64 {
+    pub(crate) fn optical_thickness(&self, load_g_per_m2: f64) -> f64 {
         // g m⁻² over g cm⁻³ is µm: the thickness of the grains if they were melted together.
         1.5 * load_g_per_m2 / (DENSITY * self.grain_um)
     }

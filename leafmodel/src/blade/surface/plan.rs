@@ -85,7 +85,7 @@ impl SurfacePlan {
 
     /// The same surface as far as the blade's mesh carries it: the bulge alone.
     #[must_use]
-    pub fn displacement_alone(&self) -> Self {
+    pub(crate) fn displacement_alone(&self) -> Self {
         Self {
             bulge_mm: self.bulge_mm,
             bulge_width_mm: self.bulge_width_mm,

@@ -52,7 +52,7 @@ impl StomataPlan {
     };
 
     /// Whether a face has any.
-    pub fn are_there(&self) -> bool {
+    pub(crate) fn are_there(&self) -> bool {
         self.per_mm2.iter().any(|&density| density > 0.0) && self.depth_um > 0.0
     }
 

@@ -79,17 +79,17 @@ impl Percurrence {
     }
 
     /// Whether most cross.
-    pub fn is_percurrent(&self) -> Option<bool> {
+    pub(crate) fn is_percurrent(&self) -> Option<bool> {
         self.across.map(|share| share > 0.5)
     }
 
     /// Whether most of those that cross have a sharp bend.
-    pub fn are_chevrons(&self) -> bool {
+    pub(crate) fn are_chevrons(&self) -> bool {
         self.chevrons.is_some_and(|share| share > 0.5)
     }
 
     /// As quaternaries.
-    pub fn quaternary_course(&self) -> Option<QuaternaryCourse> {
+    pub(crate) fn quaternary_course(&self) -> Option<QuaternaryCourse> {
         Some(if self.across? > 0.5 {
             if self.offset.is_some_and(|offset| offset < OFFSET) {
                 QuaternaryCourse::OppositePercurrent

@@ -33,7 +33,7 @@ impl Ancestry {
     }
 
     /// A point of the subdivided surface on the old one.
-    pub fn carry_back(&self, point: &SurfacePoint) -> SurfacePoint {
+    pub(crate) fn carry_back(&self, point: &SurfacePoint) -> SurfacePoint {
         let (face, corners) = &self.faces[point.face as usize];
         let weight = |k: usize| {
             (0..3)

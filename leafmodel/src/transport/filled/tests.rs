@@ -56,14 +56,14 @@ fn check_blade(plan: &FilledPlan, outline: &Outline) -> FilledBlade {
     let mut known: Vec<Cell> = leaf
         .cells()
         .iter()
-        .chain(blade.unsupplied())
+        .chain(&blade.unsupplied)
         .copied()
         .collect();
     let mut expected = walls.connected(Cell::ROOT);
     known.sort_unstable();
     expected.sort_unstable();
     assert_eq!(known, expected);
-    for &cell in blade.unsupplied() {
+    for &cell in &blade.unsupplied {
         let system = leaf.system();
         let multiples = system.multiples();
         for (u, &near) in leaf.cells().iter().enumerate() {
@@ -115,7 +115,7 @@ fn check_blade(plan: &FilledPlan, outline: &Outline) -> FilledBlade {
 
 /// Only cells beside and behind the root may be out of reach.
 fn assert_few_are_left(blade: &FilledBlade, name: &str) {
-    let left = blade.unsupplied();
+    let left = &blade.unsupplied;
     let beside = |cell: &Cell| cell.m.abs() <= 2 && cell.n.abs() <= 1;
     assert!(
         left.len() <= 8 && left.iter().all(beside),
@@ -242,7 +242,7 @@ fn the_same_plan_fills_in_the_same_way_and_bad_numbers_are_refused() {
     let fill = || plan(30).fill(&outline).expect("a good plan");
     assert_eq!(fill(), fill());
     let refused = |plan: FilledPlan| {
-        let count = plan.fill(&outline).map(|blade| blade.unsupplied().len());
+        let count = plan.fill(&outline).map(|blade| blade.unsupplied.len());
         count.expect_err("out of range").to_string()
     };
     let usual = FilledPlan::default();

@@ -22,7 +22,7 @@ impl ArcuateVeins {
     /// Where veins overlap, Fac is that of the midrib, else of the first vein found from base to
     /// tip, as in the article's code. Unlike in that code, Net is evaluated over all veins, even
     /// after a vein was found.
-    pub fn fields_at(&self, p: DVec2) -> ArcuateFields {
+    pub(crate) fn fields_at(&self, p: DVec2) -> ArcuateFields {
         let p = self.frame.to_leaf(p);
         let mut fields = ArcuateFields {
             vein: false,

@@ -14,7 +14,7 @@ pub fn dielectric(cos_i: f32, eta: f32) -> f32 {
 }
 
 /// Cosine of the angle of refraction, or `None` under total internal reflection (Snell's law).
-pub fn refracted_cosine(cos_i: f32, eta: f32) -> Option<f32> {
+pub(crate) fn refracted_cosine(cos_i: f32, eta: f32) -> Option<f32> {
     let sin2_i = (1.0 - cos_i * cos_i).max(0.0);
     let cos2_t = 1.0 - sin2_i / (eta * eta);
     (cos2_t > 0.0).then(|| cos2_t.sqrt())

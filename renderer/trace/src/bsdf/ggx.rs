@@ -63,7 +63,7 @@ impl Ggx {
     }
 
     /// Density of [`Ggx::sample_visible`] over solid angle of the normal, sr⁻¹.
-    pub fn visible_density(&self, wo: Vec3, h: Vec3) -> f32 {
+    pub(crate) fn visible_density(self, wo: Vec3, h: Vec3) -> f32 {
         self.g1(wo) * wo.dot(h).max(0.0) * self.d(h) / wo.z
     }
 }

@@ -220,7 +220,7 @@ impl<const N: usize> Tissue<N> {
 
     /// The inverse of [`Tissue::to_lanes`].
     #[inline]
-    pub fn from_lanes([r_a, r_b, t_ab, t_ba, q_a, q_b]: [Lanes<N>; 6]) -> Self {
+    pub(crate) fn from_lanes([r_a, r_b, t_ab, t_ba, q_a, q_b]: [Lanes<N>; 6]) -> Self {
         Self {
             reflectance: [r_a, r_b],
             transmittance: [t_ab, t_ba],

@@ -269,7 +269,7 @@ impl ThinLens {
 
 /// The axes of a tilted lens in the frame of the picture (right, up, into the scene): two in its
 /// plane, then its normal into the scene.
-pub fn lens_axes([about_right, about_up]: [f64; 2]) -> DMat3 {
+pub(crate) fn lens_axes([about_right, about_up]: [f64; 2]) -> DMat3 {
     let (sin_a, cos_a) = libm::sincos(about_right);
     let (sin_b, cos_b) = libm::sincos(about_up);
     // A right-handed frame is right, up, and out of the scene.

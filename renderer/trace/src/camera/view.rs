@@ -71,7 +71,7 @@ impl View {
     }
 
     /// Distance of a point, m: from the middle of the lens, or along parallel rays.
-    pub fn distance_of(&self, point: DVec3) -> f64 {
+    pub(crate) fn distance_of(&self, point: DVec3) -> f64 {
         match self.projection {
             Projection::Perspective(_) => (point - self.position).length(),
             Projection::Orthographic { .. } => self.in_picture(point).z,

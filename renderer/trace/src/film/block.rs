@@ -240,7 +240,7 @@ impl PixelSums<'_> {
 
     /// Counts paths of a sample that were cut, without which it misses at most this much of a channel.
     #[cold]
-    pub fn add_cut(&mut self, paths: u32, missing: f64) {
+    pub(crate) fn add_cut(&mut self, paths: u32, missing: f64) {
         self.cut += u64::from(paths);
         // Rounded up, and the greatest number if it does not fit.
         let units = (missing * MISSING_ONE).ceil() as u64;

@@ -351,7 +351,7 @@ impl Film {
     }
 
     /// Number of pixels of a block; blocks are counted row by row from the top.
-    pub fn pixels_of(&self, block: usize) -> u32 {
+    pub(crate) fn pixels_of(&self, block: usize) -> u32 {
         let corner = [block % self.blocks_across(), block / self.blocks_across()]
             .map(|place| place as u32 * BLOCK_SIDE);
         BLOCK_SIDE.min(self.width - corner[0]) * BLOCK_SIDE.min(self.height - corner[1])

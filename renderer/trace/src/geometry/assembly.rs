@@ -231,7 +231,7 @@ impl Geometry {
     }
 
     /// How texture coordinates lie on the surface at a hit; `None` if they do not span the triangle.
-    pub fn texture_scale(&self, hit: &Hit) -> Option<TextureScale> {
+    pub(crate) fn texture_scale(&self, hit: &Hit) -> Option<TextureScale> {
         let (placement, mesh, corners) = self.at(hit);
         TextureScale::at(hit, corners, mesh, placement)
     }
@@ -257,7 +257,7 @@ impl Geometry {
 
     /// How texture coordinates change along two unit directions in the plane of the surface at a hit,
     /// 1/m; not at all if the triangle is degenerate.
-    pub fn uv_per_metre(&self, hit: &Hit, directions: [Vec3; 2]) -> [Vec2; 2] {
+    pub(crate) fn uv_per_metre(&self, hit: &Hit, directions: [Vec3; 2]) -> [Vec2; 2] {
         let (placement, mesh, corners) = self.at(hit);
         surface::uv_per_metre(hit, corners, (mesh, placement), directions)
     }

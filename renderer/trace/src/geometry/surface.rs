@@ -108,7 +108,7 @@ impl SurfacePoint {
 
     /// The way that must be free for such a ray: from beside the triangle up to where the ray
     /// starts, and a little beyond.
-    pub fn way_up(&self, direction: Vec3) -> Ray {
+    pub(crate) fn way_up(&self, direction: Vec3) -> Ray {
         let side = self.side_of(direction);
         let up = self.geometric_normal * [1.0, -1.0][side];
         Ray::new(self.position + up * self.position_error, up)

@@ -13,7 +13,7 @@ pub fn power(own: f32, other: f32) -> f32 {
 }
 
 /// [`power`] over `own`, with a division less.
-pub fn power_over_own(own: f32, other: f32) -> f32 {
+pub(crate) fn power_over_own(own: f32, other: f32) -> f32 {
     let ratio = other / own;
     1.0 / ((1.0 + ratio * ratio) * own)
 }

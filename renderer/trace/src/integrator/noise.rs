@@ -75,12 +75,12 @@ impl NoiseWatch {
     }
 
     /// Lets blocks go on to `most` samples.
-    pub fn set_most(&mut self, most: u32) {
+    pub(crate) fn set_most(&mut self, most: u32) {
         self.most = most;
     }
 
     /// Lets blocks go on to a lower relative error, by what is known of their noise.
-    pub fn set_aim(&mut self, aim: f64) {
+    pub(crate) fn set_aim(&mut self, aim: f64) {
         self.aim = aim;
         for block in &mut self.blocks {
             if let Some(needed) = block.needed(aim) {
@@ -121,7 +121,7 @@ impl NoiseWatch {
     }
 
     /// Whether a decision is due at this number of samples.
-    pub fn is_border(samples: u32) -> bool {
+    pub(crate) fn is_border(samples: u32) -> bool {
         samples >= FIRST_BORDER && samples.is_power_of_two()
     }
 

@@ -104,7 +104,7 @@ impl AreaLight {
 
     /// Mean of the pattern over the surface, linear sRGB, to be multiplied by the radiance; `None`
     /// without a pattern.
-    pub fn mean_colour(&self) -> Option<[f64; 3]> {
+    pub(crate) fn mean_colour(&self) -> Option<[f64; 3]> {
         /// Points over the whole surface, roughly, and fewest along a side of a patch.
         const POINTS: [usize; 2] = [1 << 18, 4];
         let patterned = self.patterned.as_ref()?;
@@ -150,7 +150,7 @@ impl AreaLight {
     }
 
     /// Number of the patch that a triangle belongs to.
-    pub fn patch_of(&self, triangle: u32) -> Option<usize> {
+    pub(crate) fn patch_of(&self, triangle: u32) -> Option<usize> {
         self.patch_of[triangle as usize].map(|patch| patch as usize)
     }
 

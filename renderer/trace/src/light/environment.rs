@@ -55,7 +55,7 @@ impl EnvironmentLight {
 
     /// Mean of the texels' red, green and blue over the sphere, a rough measure, to be multiplied
     /// by `white`.
-    pub fn mean_brightness(&self) -> f32 {
+    pub(crate) fn mean_brightness(&self) -> f32 {
         let [width, height] = self.picture.size();
         let mut sum = 0.0;
         let mut weight = 0.0;
@@ -74,7 +74,7 @@ impl EnvironmentLight {
     }
 
     /// Mean of the texels over the sphere, linear sRGB, to be multiplied by `white`.
-    pub fn mean_colour(&self) -> [f64; 3] {
+    pub(crate) fn mean_colour(&self) -> [f64; 3] {
         let [width, height] = self.picture.size();
         let mut sum = [0.0; 3];
         let mut weight = 0.0;

@@ -174,7 +174,7 @@ pub fn patches(triangles: &[[Vec3; 3]]) -> (Vec<Patch>, Vec<Option<u32>>) {
 
 /// As [`patches`], but two triangles become one patch only if `may_join` allows it, which gets the
 /// number of the first.
-pub fn patches_if(
+pub(crate) fn patches_if(
     triangles: &[[Vec3; 3]],
     may_join: impl Fn(usize) -> bool,
 ) -> (Vec<Patch>, Vec<Option<u32>>) {

@@ -36,7 +36,7 @@ impl Pattern {
     }
 
     /// What the materials of a model emit, if it is that.
-    pub fn of_model(&self) -> Option<&ColourMap> {
+    pub(crate) fn of_model(&self) -> Option<&ColourMap> {
         match self.colours.as_ref()? {
             Colours::Model(map) => Some(map),
             Colours::Picture(_) => None,

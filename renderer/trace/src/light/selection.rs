@@ -200,7 +200,12 @@ impl LightSelection {
 
     /// Expected number of samples of a light at infinity at `receiver` if `chosen` lights are
     /// chosen there; 0 if it is left to the bounces.
-    pub fn samples_of_infinite(&self, light: usize, receiver: &Receiver, chosen: f32) -> f32 {
+    pub(crate) fn samples_of_infinite(
+        &self,
+        light: usize,
+        receiver: &Receiver,
+        chosen: f32,
+    ) -> f32 {
         if self.always.contains(&light) {
             return 1.0;
         }
@@ -214,7 +219,12 @@ impl LightSelection {
     }
 
     /// Probability of choosing a part of a light at `receiver`.
-    pub fn probability_of_part(&self, light: usize, part: usize, receiver: &Receiver) -> f32 {
+    pub(crate) fn probability_of_part(
+        &self,
+        light: usize,
+        part: usize,
+        receiver: &Receiver,
+    ) -> f32 {
         let Some(patches) = &self.patches else {
             return 0.0;
         };

@@ -236,7 +236,7 @@ impl LeafMaterial {
     /// A wavelength of the range, on a coarse grid, at which the coat of a face (0 adaxial, 1 abaxial)
     /// at normal incidence reflects more than that face should, so that the leaf cannot reproduce
     /// its reflectance. With a map its mean contents are used.
-    pub fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<(f64, usize)> {
+    pub(crate) fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<(f64, usize)> {
         let mean = match &self.tissue {
             LeafTissue::Held(held) => Some(held.mean()),
             LeafTissue::Measured { .. } => None,
@@ -290,7 +290,7 @@ impl LeafMaterial {
 
     /// The BSDF at a site.
     #[inline]
-    pub fn bsdf_at<const N: usize>(
+    pub(crate) fn bsdf_at<const N: usize>(
         &self,
         site: &Site<N>,
         wavelengths: &Wavelengths<N>,

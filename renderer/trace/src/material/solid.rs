@@ -82,7 +82,7 @@ impl SolidMaterial {
 
     /// A wavelength of the range, on a coarse grid, at which the coat at normal incidence reflects
     /// more than the tissue should. With a map its mean contents are used.
-    pub fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<f64> {
+    pub(crate) fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<f64> {
         let coat = f64::from(self.coats[0].albedo().normal());
         let mean = self.held.mean();
         coarse(range_nm).find(|&nm| {

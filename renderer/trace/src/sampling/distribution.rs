@@ -29,7 +29,11 @@ impl Guide {
 
     /// The number of borders ≤ `u`, which is in [0, 1]; `borders` must be those of which the guide
     /// was made.
-    pub fn count_up_to<T: Copy + PartialOrd + Into<f64>>(&self, borders: &[T], u: T) -> usize {
+    pub(crate) fn count_up_to<T: Copy + PartialOrd + Into<f64>>(
+        &self,
+        borders: &[T],
+        u: T,
+    ) -> usize {
         // The part is a monotonic function of the number, so all borders in earlier parts are
         // smaller and all in later ones greater, exactly.
         let part = Self::part(borders.len(), u.into());

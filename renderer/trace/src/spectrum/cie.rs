@@ -62,7 +62,7 @@ pub fn d65(nm: f64) -> f64 {
 
 /// Integral of ȳ over the observer's table, nm: radiance 1 at every wavelength has Y = 1 when
 /// divided by it.
-pub fn luminance_integral() -> f64 {
+pub(crate) fn luminance_integral() -> f64 {
     static INTEGRAL: OnceLock<f64> = OnceLock::new();
     *INTEGRAL.get_or_init(|| {
         let table = observer_table();

@@ -211,7 +211,7 @@ impl Curve {
     }
 
     /// Mean over a range in nm.
-    pub fn mean_over(&self, [first, last]: [f64; 2]) -> f32 {
+    pub(crate) fn mean_over(&self, [first, last]: [f64; 2]) -> f32 {
         self.over(&Share::around(0.5 * (first + last), last - first))
     }
 }

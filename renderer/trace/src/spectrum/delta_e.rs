@@ -26,7 +26,7 @@ pub fn lab(xyz: [f64; 3], white: [f64; 3]) -> [f64; 3] {
 /// # Source
 ///
 /// ISO/CIE 11664-6; \[sharma2005\] has the formula with its cases and the pairs that test it.
-pub fn ciede2000(one: [f64; 3], other: [f64; 3]) -> f64 {
+pub(crate) fn ciede2000(one: [f64; 3], other: [f64; 3]) -> f64 {
     let seventh = |c: f64| {
         let c7 = libm::pow(c, 7.0);
         libm::sqrt(c7 / (c7 + libm::pow(25.0, 7.0)))

@@ -158,7 +158,7 @@ impl Observer {
     }
 
     /// What each channel sees at a wavelength in nm, relative: x̄, ȳ, z̄, or red, green, blue.
-    pub fn channels_at(&self, nm: f64) -> [f64; 3] {
+    pub(crate) fn channels_at(&self, nm: f64) -> [f64; 3] {
         match self {
             Self::Cie1931 => cie::observer(nm),
             Self::Camera(camera) => camera.sensitivities(nm),

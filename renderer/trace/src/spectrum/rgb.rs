@@ -25,7 +25,7 @@ fn basis_table() -> &'static [(f64, [f64; 3])] {
 }
 
 /// The three basis spectra at a wavelength in nm; the end values hold outside the table.
-pub fn basis_at(nm: f32) -> [f32; 3] {
+pub(crate) fn basis_at(nm: f32) -> [f32; 3] {
     let table = basis_table();
     let first = table[0].0 as f32;
     let step = (table[1].0 - table[0].0) as f32;

@@ -7,7 +7,7 @@
 /// # Panics
 ///
 /// If the shipped table is damaged, which means that the build is broken.
-pub fn parse_shipped<const C: usize>(text: &str) -> Vec<(f64, [f64; C])> {
+pub(crate) fn parse_shipped<const C: usize>(text: &str) -> Vec<(f64, [f64; C])> {
     text.lines()
         .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
         .map(|line| {

@@ -165,7 +165,7 @@ impl WavelengthSampler {
     }
 
     /// Whether the film records colour.
-    pub fn is_rgb(&self) -> bool {
+    pub(crate) fn is_rgb(&self) -> bool {
         matches!(self.kind, SamplerKind::Rgb { .. })
     }
 
@@ -212,7 +212,7 @@ impl WavelengthSampler {
     ///
     /// `values` has [`WavelengthSampler::channels`] entries.
     #[inline]
-    pub fn film_values<const N: usize>(
+    pub(crate) fn film_values<const N: usize>(
         &self,
         wavelengths: &Wavelengths<N>,
         radiance: &Lanes<N>,
@@ -242,7 +242,7 @@ impl WavelengthSampler {
     }
 
     /// The sum over the channels that a path of these wavelengths sees.
-    pub fn sum_of_seen<const N: usize>(
+    pub(crate) fn sum_of_seen<const N: usize>(
         &self,
         wavelengths: &Wavelengths<N>,
         values: &Lanes<N>,

@@ -56,7 +56,7 @@ impl Cone {
 
 /// The width on a surface, m, of a ray that meets it at this cosine: the geometric mean of the
 /// ellipse's axes.
-pub fn footprint(width: f32, cosine: f32) -> f32 {
+pub(crate) fn footprint(width: f32, cosine: f32) -> f32 {
     width / cosine.abs().max(LEAST_FACING).sqrt()
 }
 

@@ -92,7 +92,7 @@ impl<S: Surroundings> Facet<'_, S> {
     }
 
     /// Whether light may be mirrored from a direction or into it.
-    pub fn is_near_gap(&self, direction: Vec3) -> bool {
+    pub(crate) fn is_near_gap(&self, direction: Vec3) -> bool {
         match self.lie_of(direction) {
             Direction::Plain => false,
             Direction::BesideGap | Direction::InGap => true,

@@ -126,7 +126,7 @@ impl SkyShape {
 
     /// Integral of the weights times the sine of the elevation over the upper half of directions:
     /// what a horizontal surface gets.
-    pub fn on_horizontal(&self, elevation: f64) -> [f64; 3] {
+    pub(crate) fn on_horizontal(&self, elevation: f64) -> [f64; 3] {
         // Midpoints in the square of the sine and in the azimuth from the sun, by symmetry of half
         // a turn.
         const ROWS: usize = 256;

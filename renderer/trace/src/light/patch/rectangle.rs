@@ -44,7 +44,7 @@ struct SeenRectangle {
 impl Rectangle {
     /// The rectangle formed by two counter-clockwise triangles that share an edge, if they form
     /// one.
-    pub fn from_triangles(first: &[Vec3; 3], second: &[Vec3; 3]) -> Option<Self> {
+    pub(crate) fn from_triangles(first: &[Vec3; 3], second: &[Vec3; 3]) -> Option<Self> {
         let rotations = |[a, b, c]: [Vec3; 3]| [[a, b, c], [b, c, a], [c, a, b]];
         for [corner, p, q] in rotations(*first) {
             for [opposite, r, s] in rotations(*second) {

@@ -51,7 +51,7 @@ impl<const N: usize> Excited<N> {
 
 impl<const N: usize> Emitting<N> {
     /// Whether nothing is emitted at any of the wavelengths.
-    pub fn is_nothing(&self) -> bool {
+    pub(crate) fn is_nothing(&self) -> bool {
         self.escaping
             .iter()
             .all(|escaping| *escaping == Profile([0.0; DEPTHS]))
