@@ -4,11 +4,8 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
-use super::Coefficients;
-use crate::bsdf::Scattered;
 use crate::geometry::frame::Frame;
 use crate::sampling::warp::cosine_hemisphere;
-use crate::spectrum::Lanes;
 
 /// Where light goes that a medium scatters, by the angle from its way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,44 +102,8 @@ impl Phase {
     }
 }
 
-/// Directions of scattering. They are drawn by the mean over wavelengths, and each wavelength has its own value.
-impl<const N: usize> Coefficients<N> {
-    /// The value at each wavelength for light that goes from one way to another, sr⁻¹, and the density with which that is
-    /// drawn.
-    pub fn turned_to(&self, way: Vec3, next: Vec3) -> Scattered<N> {
-        let pdf = self.phase.value(way, next);
-        let f = self.fraction(way, next) * pdf;
-        Scattered { f, pdf }
-    }
-
-    /// Draws a direction for light that went along `way`, as [`Phase::sample`], and the factor on each wavelength.
-    pub fn turn(&self, way: Vec3, lobe: f32, u: Vec2) -> (Scattering, Lanes<N>) {
-        let drawn = self.phase.sample(way, lobe, u);
-        (drawn, self.fraction(way, drawn.direction))
-    }
-
-    /// The value at each wavelength over that in the mean.
-    fn fraction(&self, way: Vec3, next: Vec3) -> Lanes<N> {
-        match self.phase {
-            Phase::HenyeyGreenstein { .. } | Phase::Rayleigh => Lanes::ONE,
-            Phase::Leaf { normal, through } => {
-                let is_through = passes(normal, way, next);
-                let of = |through: f32| if is_through { through } else { 1.0 - through };
-                let mean = of(through);
-                Lanes::from_fn(|lane| {
-                    if mean > 0.0 {
-                        of(self.through.0[lane]) / mean
-                    } else {
-                        0.0
-                    }
-                })
-            }
-        }
-    }
-}
-
 /// Whether light from one way to another passes a plate.
-fn passes(normal: Vec3, way: Vec3, next: Vec3) -> bool {
+pub(super) fn passes(normal: Vec3, way: Vec3, next: Vec3) -> bool {
     (normal.dot(way) < 0.0) == (normal.dot(next) < 0.0)
 }
 
