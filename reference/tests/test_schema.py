@@ -28,7 +28,7 @@ BEYOND_A_SCHEMA = """
     surface_cells surface_stomata table_file unknown_name unsorted venation_agrophic
     venation_cells venation_craspedodromous venation_origin venation_origins_meet venation_pairs
     venation_quaternaries venation_sinus venation_transport_fine venation_young white_light
-    wilting_on_ground wrong_file
+    wilting_on_ground wrong_file yields
 """.split()
 
 
