@@ -182,8 +182,8 @@ fn reflectance(nm: f64) -> impl Fn(&Contents) -> f64 {
 }
 
 #[test]
-fn thirteen_presets_have_another_colour_than_summers_green() {
-    assert_eq!(all_coloured().count(), 13);
+fn fourteen_presets_have_another_colour_than_summers_green() {
+    assert_eq!(all_coloured().count(), 14);
 }
 
 #[test]
