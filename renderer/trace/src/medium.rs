@@ -12,13 +12,14 @@
 //! however it was sampled, so that a clear medium needs no random numbers at all.
 //!
 //! ```
+//! use glam::Vec3;
 //! use trace::medium::{Medium, Phase};
 //! use trace::spectrum::{Curve, Lanes, Wavelengths};
 //!
 //! // A filter that absorbs 2 per metre of red light, and nothing of blue.
 //! let absorption = Curve::from_points(&[(590.0, 0.0), (610.0, 2.0)]);
 //! let filter = Medium::new(absorption, Curve::Constant(0.0), Phase::HenyeyGreenstein { g: 0.0 });
-//! let at = filter.at(&Wavelengths::new([450.0, 550.0, 650.0, 750.0]));
+//! let at = filter.at(Vec3::X, &Wavelengths::new([450.0, 550.0, 650.0, 750.0]));
 //! assert_eq!(at.reach(&Lanes::ONE, [0.5, 0.5]), f32::INFINITY);
 //! let [blue, .., red] = at.passed(&Lanes::ONE, 0.5).0;
 //! assert!(blue == 1.0 && (red - (-1.0_f32).exp()).abs() < 1e-6);
