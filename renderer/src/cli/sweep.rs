@@ -91,7 +91,8 @@ pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     write_json(&folder.join("sweep.json"), &work.about())?;
     say(table.display());
     result.report(&work)?;
-    film::write(&films, &work)
+    let timing = arguments.timing.timing();
+    film::write(&films, &work.identities, &work.made, timing, &signals.stop)
 }
 
 /// The sweep that the command line asks for.

@@ -1,8 +1,8 @@
 //! Films of the pictures of a sweep.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
-use super::Work;
 use super::record::Record;
 use crate::cli::arguments::SweepArguments;
 use crate::cli::grow::films::{self, Films};
@@ -11,6 +11,7 @@ use crate::cli::places::{check_writable, write_and_say};
 use crate::cli::signals;
 use crate::cli::terminal::Failure;
 use crate::export::drawing::Drawing;
+use crate::image::animation::Timing;
 use crate::scene::load::load;
 use crate::sweep::{Sweep, Target};
 
@@ -64,21 +65,25 @@ pub(super) fn planned(
     Ok(films)
 }
 
-/// Writes the films of a sweep whose tasks are all done.
-pub(super) fn write(planned: &[(PathBuf, Kind)], work: &Work<'_>) -> Result<(), Failure> {
+/// Writes the films of tasks that are all done, whose files are in the folder `made`.
+pub(super) fn write(
+    planned: &[(PathBuf, Kind)],
+    identities: &[u64],
+    made: &Path,
+    timing: Timing,
+    stop: &AtomicBool,
+) -> Result<(), Failure> {
     if planned.is_empty() {
         return Ok(());
     }
-    let stop = &work.signals.stop;
-    let timing = work.arguments.timing.timing();
-    let mut films = Films::begun(planned, timing, work.identities.len() as u32);
-    for (number, identity) in work.identities.iter().enumerate() {
+    let mut films = Films::begun(planned, timing, identities.len() as u32);
+    for (number, identity) in identities.iter().enumerate() {
         signals::check(stop)?;
-        let record = Record::read(&work.made, *identity).map_err(Failure::system)?;
+        let record = Record::read(made, *identity).map_err(Failure::system)?;
         let file = record.and_then(|record| record.files.last().cloned());
         let file =
             file.ok_or_else(|| Failure::system(format!("the picture of task {number} is gone")))?;
-        let picture = work.made.join(file);
+        let picture = made.join(file);
         for (path, _) in planned.iter().filter(|(_, kind)| *kind == Kind::PNG) {
             let bytes = std::fs::read(&picture).map_err(Failure::system_at(&picture))?;
             write_and_say(&numbered(path, number + 1), &bytes)?;
